@@ -46,19 +46,24 @@ BoundaryConditions read_boundary(DeckReader& reader) {
     boundary.steps = reader.integer("nstep", 1, largest_step);
     boundary.output_interval = reader.integer("nprn1", 1, largest_step);
     boundary.row_interval = reader.integer("nprn2", 1, largest_step);
+    reader.begin_read();
     const std::int64_t watched = reader.integer("npfd", 0, largest_id);
     std::unordered_set<int> ids;
     for (std::int64_t k = 0; k < watched; ++k) {
         const std::string key = fmt::format("id {} of npfd", k + 1);
+        // The guide does not show whether they are of one READ.
+        if (k == 0 || !reader.numbers_follow(1)) reader.begin_read();
         const int id = static_cast<int>(reader.integer(key, 1, largest_id));
         if (!ids.insert(id).second) reader.refuse(key, fmt::format("{} a second time", id), "each body once");
         boundary.watched.push_back(id);
     }
     ids.clear();
+    reader.begin_read();
     const std::int64_t controlled = reader.integer("npbd", 0, largest_id);
     for (std::int64_t k = 0; k < controlled; ++k) {
         BodyControl control;
         const std::string key = fmt::format("id {} of npbd", k + 1);
+        reader.begin_read();
         control.id = static_cast<int>(reader.integer(key, 1, largest_id));
         if (!ids.insert(control.id).second)
             reader.refuse(key, fmt::format("{} a second time", control.id), "each body once");
@@ -67,7 +72,7 @@ BoundaryConditions read_boundary(DeckReader& reader) {
         control.rotation = read_dof(reader, control.id, "fw", "vw");
         boundary.controls.push_back(control);
     }
-    reader.expect_end("the last controlled body");
+    reader.end_reads();
     return boundary;
 }
 

@@ -4,12 +4,12 @@
 #include "solver/demseg/deck_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -19,25 +19,85 @@
 namespace crackle {
 namespace {
 
+constexpr std::size_t most_ignored_shown = 3;
+constexpr std::int64_t most_repeats = std::numeric_limits<int>::max();
+
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
 
-/// Long words (a binary file, say) are cut in messages.
+/// Bytes of the blank at `at`, 0 if none is there. Editors for Japanese easily leave full-width ones behind values.
+std::size_t blank_at(std::string_view text, std::size_t at) {
+    if (is_blank(text[at])) return 1;
+    if (text[at] == '\xe3') return text.substr(at, 3) == "\xe3\x80\x80" ? 3 : 0;  // UTF-8
+    if (text[at] == '\x81') return text.substr(at, 2) == "\x81\x40" ? 2 : 0;      // CP932
+    return 0;
+}
+
+/// The word at `at`, which ends at a separator; empty if one is there.
+std::string_view word_at(std::string_view text, std::size_t at) {
+    std::size_t end = at;
+    while (end < text.size() && text[end] != ',' && text[end] != '/' && blank_at(text, end) == 0) ++end;
+    return text.substr(at, end - at);
+}
+
+/// Bytes of the letter that a text begins with; 0 if it cannot be shown as it is: it controls, or is no UTF-8.
+std::size_t letter_length(std::string_view text) {
+    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+    if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;
+    const std::size_t length = byte(0) < 0xc2 ? 0 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : byte(0) < 0xf5 ? 4 : 0;
+    if (length > text.size()) return 0;
+    for (std::size_t k = 1; k < length; ++k)
+        if ((byte(k) & 0xc0) != 0x80) return 0;
+    return length;
+}
+
+/// Long words (a binary file, say) are cut in messages; bytes that cannot be shown are written as \x93.
 std::string quoted(std::string_view word) {
     constexpr std::size_t shown = 40;
-    return word.size() <= shown ? fmt::format("'{}'", word) : fmt::format("'{}...'", word.substr(0, shown));
+    std::string text;
+    std::size_t at = 0;
+    while (at < std::min(word.size(), shown)) {
+        const std::size_t length = letter_length(word.substr(at));
+        if (length == 0) text += fmt::format("\\x{:02x}", static_cast<unsigned char>(word[at]));
+        text += word.substr(at, length);
+        at += std::max<std::size_t>(length, 1);
+    }
+    return fmt::format("'{}{}'", text, at < word.size() ? "..." : "");
 }
 
 /// Fortran real to double; false if the word is no number or out of range.
 bool parse_number(std::string_view word, double& value) {
-    std::string plain(word);
-    if (!plain.empty() && plain[0] == '+') plain.erase(0, 1);
+    if (word.starts_with('+')) {
+        word.remove_prefix(1);
+        if (word.starts_with('-')) return false;
+    }
     // from_chars would take "inf" and "nan", and their letters are the only others in a number beside the exponent's.
-    for (char& c : plain) {
-        if (c == 'd' || c == 'D' || c == 'E') c = 'e';
-        if (c != 'e' && c != '.' && c != '+' && c != '-' && (c < '0' || c > '9')) return false;
+    std::string plain;
+    for (char c : word) {
+        if (c == 'd' || c == 'D' || c == 'E' || c == 'q' || c == 'Q') c = 'e';
+        const bool sign = c == '+' || c == '-';
+        if (c != 'e' && c != '.' && !sign && (c < '0' || c > '9')) return false;
+        if (sign && !plain.empty() && plain.back() != 'e') plain += 'e';  // .25+8
+        plain += c;
     }
     const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
     return error == std::errc() && end == plain.data() + plain.size();
+}
+
+/// A word's `3*`: the count, and what it repeats. 1 and the word itself where it has none, 0 where the count is none.
+std::pair<std::int64_t, std::string_view> repeated(std::string_view word) {
+    const std::size_t star = word.find('*');
+    if (star == std::string_view::npos) return {1, word};
+    std::int64_t count = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + star, count);
+    const bool counted = error == std::errc() && end == word.data() + star && count > 0 && count <= most_repeats;
+    return {counted ? count : 0, word.substr(star + 1)};
+}
+
+/// How many numbers a word is: one, more with a repeat count, or none.
+std::int64_t numbers_in(std::string_view word) {
+    const auto [count, number] = repeated(word);
+    double value = 0.0;
+    return parse_number(number, value) ? count : 0;
 }
 
 }  // namespace
@@ -45,30 +105,122 @@ bool parse_number(std::string_view word, double& value) {
 DeckReader::DeckReader(std::string name, std::string text, int first_line)
     : name_(std::move(name)), text_(std::move(text)), line_(first_line), token_line_(first_line) {
     position_ = text_.size() - without_byte_order_mark(text_).size();
+    constexpr char ctrl_z = '\x1a';  // where DOS ends a text
+    text_.resize(std::min(text_.find(ctrl_z), text_.size()));
 }
 
 DeckReader DeckReader::open(const std::filesystem::path& path) { return {path.string(), read_file(path)}; }
 
 void DeckReader::skip_blanks() {
-    while (position_ < text_.size() && is_blank(text_[position_])) {
+    while (position_ < text_.size()) {
+        const std::size_t blank = blank_at(text_, position_);
+        if (blank == 0) return;
         if (text_[position_] == '\n') ++line_;
-        ++position_;
+        position_ += blank;
     }
 }
 
 std::string_view DeckReader::next(std::string_view key, std::string_view expected) {
+    if (repeats_left_ > 0) {
+        --repeats_left_;
+        return token_;
+    }
     skip_blanks();
+    if (comma_may_follow_ && position_ < text_.size() && text_[position_] == ',') {
+        ++position_;
+        skip_blanks();
+    }
     if (position_ == text_.size()) {
         throw InputError(
             fmt::format("{}:{}: {}: found the end of the file, expected {}; the file is cut off or a count "
-                        "in it is too large",
-                        name_, line_, key, expected));
+                        "in it is too large{}",
+                        name_, line_, key, expected, last_ignored_text()));
     }
-    const std::size_t start = position_;
-    while (position_ < text_.size() && !is_blank(text_[position_])) ++position_;
     token_line_ = line_;
-    token_ = std::string_view(text_).substr(start, position_ - start);
+    token_ = word_at(text_, position_);
+    if (token_.empty()) {
+        refuse(key, text_[position_] == '/' ? "'/', which ends the values of a READ" : "',' without a value before it",
+               expected);
+    }
+    position_ += token_.size();
+    begun_ = comma_may_follow_ = true;
+    take_repeats(key, expected);
     return token_;
+}
+
+void DeckReader::take_repeats(std::string_view key, std::string_view expected) {
+    const auto [count, word] = repeated(token_);
+    if (count == 0 || word.empty()) refuse(key, expected);
+    repeats_left_ = count - 1;
+    token_ = word;
+}
+
+void DeckReader::ignore_number(std::string_view word) {
+    last_ignored_ = fmt::format("{} in line {}", quoted(word), line_);
+    if (first_ignored_.size() < most_ignored_shown) first_ignored_.push_back(last_ignored_);
+}
+
+void DeckReader::ignore_rest_of_line() {
+    if (repeats_left_ > 0) ignore_number(token_);
+    ignored_count_ += std::exchange(repeats_left_, 0);
+    const std::string_view line =
+        std::string_view(text_).substr(0, std::min(text_.find('\n', position_), text_.size()));
+    bool first = true;
+    while (position_ < line.size()) {
+        // Whoever ends the values by a slash says that a note follows.
+        if (first && line[position_] == '/') break;
+        const std::string_view word = word_at(line, position_);
+        if (word.empty()) {
+            position_ += std::max<std::size_t>(blank_at(line, position_), 1);
+            continue;
+        }
+        first = false;
+        if (const std::int64_t count = numbers_in(word); count > 0) {
+            ignore_number(word);
+            ignored_count_ += count;
+        }
+        position_ += word.size();
+    }
+    position_ = line.size();
+    if (position_ == text_.size()) return;
+    ++position_;
+    ++line_;
+}
+
+void DeckReader::begin_read() {
+    if (begun_) ignore_rest_of_line();
+    begun_ = comma_may_follow_ = false;
+}
+
+bool DeckReader::numbers_follow(int count) const {
+    std::int64_t left = count - repeats_left_;
+    for (std::size_t at = position_; left > 0 && at < text_.size() && text_[at] != '\n' && text_[at] != '/';) {
+        const std::string_view word = word_at(text_, at);
+        const std::int64_t numbers = word.empty() ? 0 : numbers_in(word);
+        if (!word.empty() && numbers == 0) return false;
+        left -= numbers;
+        at += word.empty() ? std::max<std::size_t>(blank_at(text_, at), 1) : word.size();
+    }
+    return left <= 0;
+}
+
+void DeckReader::end_reads() {
+    do ignore_rest_of_line();
+    while (position_ < text_.size());
+}
+
+std::optional<std::string> DeckReader::ignored_numbers() const {
+    if (ignored_count_ == 0) return std::nullopt;
+    const auto more = ignored_count_ - static_cast<std::int64_t>(first_ignored_.size());
+    return fmt::format(
+        "{}: numbers behind the last value of a READ are ignored, as DEMseg does: {}{}; if they are no notes, a line "
+        "has a value too many or a count is too small",
+        name_, fmt::join(first_ignored_, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+std::string DeckReader::last_ignored_text() const {
+    if (last_ignored_.empty()) return "";
+    return fmt::format("; before it {} was ignored, because each READ of DEMseg starts on a new line", last_ignored_);
 }
 
 void DeckReader::refuse(std::string_view key, std::string_view expected) const {
@@ -76,13 +228,14 @@ void DeckReader::refuse(std::string_view key, std::string_view expected) const {
 }
 
 void DeckReader::refuse(std::string_view key, std::string_view found, std::string_view expected) const {
-    throw InputError(fmt::format("{}:{}: {}: found {}, expected {}", name_, token_line_, key, found, expected));
+    throw InputError(fmt::format("{}:{}: {}: found {}, expected {}{}", name_, token_line_, key, found, expected,
+                                 last_ignored_text()));
 }
 
 double DeckReader::number(std::string_view key) {
+    constexpr std::string_view expected = "a finite number such as 2.5, 1e8 or 1.0d8";
     double value = 0.0;
-    if (!parse_number(next(key, "a number"), value) || !std::isfinite(value))
-        refuse(key, "a finite number such as 2.5, 1e8 or 1.0d8");
+    if (!parse_number(next(key, "a number"), value) || !std::isfinite(value)) refuse(key, expected);
     return value;
 }
 
@@ -111,13 +264,18 @@ std::int64_t DeckReader::integer(std::string_view key, std::int64_t lowest, std:
 }
 
 bool DeckReader::at_end() {
+    if (repeats_left_ > 0) return false;
     skip_blanks();
     return position_ == text_.size();
 }
 
 void DeckReader::expect_end(std::string_view after) {
     if (at_end()) return;
-    next("", "");
+    if (repeats_left_ == 0) {
+        token_line_ = line_;
+        const std::string_view word = word_at(text_, position_);
+        token_ = word.empty() ? std::string_view(text_).substr(position_, 1) : word;
+    }
     refuse("end of file", fmt::format("{} after {}", quoted(token_), after),
            "nothing more; a count further up is too small or a line has a value too many");
 }

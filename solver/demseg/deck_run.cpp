@@ -98,6 +98,7 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
     }
     DeckReader reader = texts.reader(1);
     asked_ = read_boundary(reader);
+    add_notices(reader);
     if (asked_.start != DeckStart::continued) {
         start_new(texts);
     } else if (!start_from_state(texts)) {
@@ -131,6 +132,7 @@ void DeckRun::start_new(const Texts& texts) {
         if (options_.seed)
             notices_.push_back(fmt::format("{}: bodies are given (mode 1), the seed has no effect", texts.names[0]));
     }
+    add_notices(reader);
     for (const std::string& notice : scene_notices(base_.scene))
         notices_.push_back(fmt::format("{}: {}", texts.names[0], notice));
     boundary_ = asked_;
@@ -144,7 +146,8 @@ void DeckRun::start_new(const Texts& texts) {
     if (asked_.start == DeckStart::bonded) {
         if (texts.present[3]) {
             DeckReader tensions = texts.reader(3);
-            read_back_tensions(tensions, base_.scene, world_);
+            const std::int64_t left_out = read_back_tensions(tensions, base_.scene, world_);
+            add_notices(tensions, left_out);
         } else {
             bond_all(world_, world_.settings.thick);
             notices_.push_back(fmt::format("{}: not there, so {} bonds were made from the present overlaps",
@@ -163,6 +166,7 @@ void DeckRun::start_from_contacts(const Texts& texts) {
     }
     DeckReader geometry = texts.reader(0), contacts = texts.reader(2);
     base_ = read_deck_geometry(geometry);
+    add_notices(geometry);
     boundary_ = asked_;
     Scene scene = base_.scene;
     apply_controls(boundary_, scene);
@@ -171,7 +175,8 @@ void DeckRun::start_from_contacts(const Texts& texts) {
     scene.allow_unstable = options_.allow_unstable;
     scene.threads = options_.threads;
     world_ = build_world(std::move(scene));
-    read_contacts(contacts, base_.scene, world_);
+    const std::int64_t left_out = read_contacts(contacts, base_.scene, world_);
+    add_notices(contacts, left_out);
     enter_steps_before();
     world_.stepping.drift =
         world_.stepping.time_step;  // the bodies have just moved: the first force pass takes up the slip of that step
@@ -215,6 +220,16 @@ bool DeckRun::start_from_state(const Texts& texts) {
         return true;
     }
     return false;
+}
+
+/// Of a file that was read: numbers in its notes, and contacts of which the world takes no account.
+void DeckRun::add_notices(const DeckReader& reader, std::int64_t contacts_left_out) {
+    if (const auto ignored = reader.ignored_numbers()) notices_.push_back(*ignored);
+    if (contacts_left_out == 0) return;
+    notices_.push_back(
+        fmt::format("{}: {} contacts were left out, because both their bodies are controlled in x, y and rotation; the "
+                    "files of the next part do not have them",
+                    reader.name(), contacts_left_out));
 }
 
 void DeckRun::enter_steps_before() {

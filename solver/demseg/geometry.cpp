@@ -43,12 +43,15 @@ void read_sub_modes(DeckReader& reader) {
 
 Head read_head(DeckReader& reader) {
     Head head;
+    reader.begin_read();
     head.time_step = reader.number_not_negative("dt");
     head.gravity.x = reader.number("gx");
     head.gravity.y = reader.number("gy");
+    reader.begin_read();
     const std::int64_t materials = reader.integer("nmat", 1, largest_count);
     for (std::int64_t m = 0; m < materials; ++m) {
         Material material;
+        reader.begin_read();
         material.density = reader.positive_number(fmt::format("rho({})", m + 1));
         material.normal_stiffness = reader.positive_number(fmt::format("kn({})", m + 1));
         material.shear_stiffness = reader.number_not_negative(fmt::format("ks({})", m + 1));
@@ -59,6 +62,7 @@ Head read_head(DeckReader& reader) {
             reader.refuse(fmt::format("mu({})", m + 1), "an angle in degrees, 0 <= mu < 90");
         head.materials.push_back(material);
     }
+    reader.begin_read();
     head.domain.x1 = reader.number("x1");
     head.domain.x2 = reader.number("x2");
     if (!(head.domain.x2 > head.domain.x1)) reader.refuse("x2", fmt::format("more than x1 = {}", head.domain.x1));
@@ -89,9 +93,11 @@ class BodyReader {
         body.first_circle = static_cast<std::uint32_t>(scene_.circles.size());
         body.circle_count = elements_;
         for (std::uint32_t e = 1; e <= elements_; ++e) {
+            reader_.begin_read();
             reader_.integer(key(body.id, "ielm"), e, e);
             CircleElement circle;
             circle.radius = reader_.positive_number(key(body.id, "radius"));
+            reader_.begin_read();
             circle.centre.x = reader_.number(key(body.id, "xc"));
             circle.centre.y = reader_.number(key(body.id, "yc"));
             circle.angle = reader_.number(key(body.id, "angle"));
@@ -105,9 +111,12 @@ class BodyReader {
         std::vector<Vec2> joints;
         double length = 0.0;
         for (std::uint32_t e = 1; e <= elements_; ++e) {
+            reader_.begin_read();
             reader_.integer(key(body.id, "ielm"), e, e);
             const Vec2 start = read_point(body.id, "xs", "ys");
             const int start_line = reader_.line();
+            // The guide does not show whether both ends are of one READ.
+            if (!reader_.numbers_follow(2)) reader_.begin_read();
             const Vec2 end = read_point(body.id, "xe", "ye");
             length += norm(end - start);
             if (!(norm(end - start) > 0.0))
@@ -143,6 +152,7 @@ class BodyReader {
 
     Body read_head(const char* group) {
         Body body;
+        reader_.begin_read();
         const std::string which = fmt::format("id of {} body {}", group, scene_.bodies.size() + 1);
         body.id = static_cast<int>(reader_.integer(which, 1, largest_count));
         if (!ids_.insert(body.id).second)
@@ -151,6 +161,7 @@ class BodyReader {
                                                          static_cast<std::int64_t>(scene_.materials.size()))) -
                         1;
         elements_ = static_cast<std::uint32_t>(reader_.integer(key(body.id, "nelm"), 1, largest_count));
+        reader_.begin_read();
         body.velocity.x = reader_.number(key(body.id, "vx"));
         body.velocity.y = reader_.number(key(body.id, "vy"));
         body.spin = reader_.number(key(body.id, "vw"));
@@ -241,6 +252,7 @@ DeckGeometry read_deck_geometry(DeckReader& reader) {
     scene.first_kick = FirstKick::full;
     scene.bare_segment_width = deck_bare_segment_width;
 
+    reader.begin_read();
     const std::int64_t circles = reader.integer("ncir", 0, largest_count);
     const std::int64_t segments = reader.integer("nseg1", 0, largest_count);
     const std::int64_t large = reader.integer("nseg2", 0, largest_count);
@@ -248,7 +260,7 @@ DeckGeometry read_deck_geometry(DeckReader& reader) {
     BodyReader bodies(reader, scene);
     for (std::int64_t k = 0; k < circles; ++k) bodies.read_circles();
     for (std::int64_t k = 0; k < segments + large; ++k) bodies.read_segments();
-    reader.expect_end("the last body");
+    reader.end_reads();
     geometry.large_segments = static_cast<std::size_t>(large);
     try {
         validate(scene);
@@ -273,14 +285,17 @@ RandomGeometry read_random_geometry(DeckReader& reader) {
     geometry.materials = head.materials;
     geometry.domain = head.domain;
     geometry.thick = head.thick;
+    reader.begin_read();
     geometry.radius_min = reader.positive_number("rmin");
     geometry.radius_max = reader.positive_number("rmax");
     if (geometry.radius_max < geometry.radius_min)
         reader.refuse("rmax", fmt::format("at least rmin = {}", geometry.radius_min));
+    reader.begin_read();
     geometry.material =
         static_cast<int>(reader.integer("material", 1, static_cast<std::int64_t>(head.materials.size()))) - 1;
+    reader.begin_read();
     geometry.void_ratio = reader.number_not_negative("void ratio");
-    reader.expect_end("the void ratio");
+    reader.end_reads();
     return geometry;
 }
 

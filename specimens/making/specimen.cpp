@@ -14,6 +14,7 @@
 
 #include "mesher/mesher.hpp"
 #include "solver/base/errors.hpp"
+#include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "specimens/case/joint_checks.hpp"
 #include "specimens/case/parameters.hpp"
@@ -206,9 +207,11 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
     return std::move(packing.scene);
 }
 
-Scene read_particles(const TestCase& test, const TestHooks& hooks) {
+Scene read_particles(const TestCase& test, const TestHooks& hooks, std::vector<std::string>& notices) {
     const auto path = test.resolve_path("particles.file", *test.particles.file);
-    Scene scene = read_geometry(path);
+    DeckReader reader = DeckReader::open(path);
+    Scene scene = read_deck_geometry(reader).scene;
+    if (const auto ignored = reader.ignored_numbers()) notices.push_back(*ignored);
     for (Material& material : scene.materials) apply_material(test.material, material);
     hooks.report_stage(fmt::format("read {} bodies from {}", scene.bodies.size(), path.string()));
     return scene;
@@ -522,7 +525,8 @@ void find_sides(Specimen& specimen) {
 
 Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
     Specimen specimen;
-    specimen.scene = test.has_table("packing") ? packed_scene(test, hooks, specimen) : read_particles(test, hooks);
+    specimen.scene =
+        test.has_table("packing") ? packed_scene(test, hooks, specimen) : read_particles(test, hooks, specimen.notices);
     classify(specimen, test);
     bring_to_rest(specimen.scene, specimen.notices);
     measure_circles(specimen);

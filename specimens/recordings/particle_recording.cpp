@@ -2,15 +2,18 @@
 // A particle file (in_gm.dat and its like) as a recording of one frame.
 // Tested by tests/tools/commands/view_test.cpp.
 
+#include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "solver/demseg/random_circles.hpp"
 #include "specimens/recordings/recording.hpp"
 
 namespace crackle {
 Recording read_particle_recording(const std::filesystem::path& file, std::uint64_t seed) {
-    const Scene scene = read_geometry_mode(file) == 1 ? read_geometry(file)
-                                                      : make_random_circles(read_random_geometry(file), seed).scene;
+    DeckReader reader = DeckReader::open(file);
+    const Scene scene = read_geometry_mode(file) == 1 ? read_deck_geometry(reader).scene
+                                                      : make_random_circles(read_random_geometry(reader), seed).scene;
     Recording recording;
+    if (const auto ignored = reader.ignored_numbers()) recording.notices.push_back(*ignored);
     recording.name = file.filename().string();
     recording.path = std::filesystem::weakly_canonical(file);
     recording.walls = {scene.domain.x1, scene.domain.x2, scene.domain.y1, scene.domain.y2};

@@ -85,6 +85,7 @@ struct Recording {
     std::vector<RecordedBond> bonds;
     std::vector<FrameHead> frames;
     std::function<RecordedFrame(std::size_t)> frame;  ///< reads frame k of `frames`; the quickest in order
+    std::vector<std::string> notices;                 ///< on what was read, one sentence each
 };
 
 /// At most `most` of `count` frames, evenly chosen; the first, the last and those of `kept` always are among them.

@@ -98,7 +98,8 @@ Source centres_of_list(const std::string& name, const std::string& text, const p
     return source;
 }
 
-Source centres_of_deck(const std::string& name, const std::string& text, const po::variables_map& values) {
+Source centres_of_deck(const std::string& name, const std::string& text, const po::variables_map& values,
+                       Messages& messages) {
     for (const char* option :
          {"domain", "bounding-box", "density", "normal-stiffness", "shear-stiffness", "friction-angle"}) {
         if (values.contains(option) && !values[option].defaulted()) {
@@ -108,6 +109,7 @@ Source centres_of_deck(const std::string& name, const std::string& text, const p
     }
     DeckReader reader(name, text);
     const Scene circles = read_deck_geometry(reader).scene;
+    if (const auto ignored = reader.ignored_numbers()) messages.notice(*ignored);
     Source source;
     for (const Body& body : circles.bodies) {
         if (body.circle_count != 1) {
@@ -221,8 +223,8 @@ Scene meshed_scene(const std::string& name, const std::string& text, const po::v
                    const std::function<bool()>& interrupted) {
     MeshRequest request = request_of(values);
     request.interrupted = interrupted;
-    Source source =
-        looks_like_centre_list(text) ? centres_of_list(name, text, values) : centres_of_deck(name, text, values);
+    Source source = looks_like_centre_list(text) ? centres_of_list(name, text, values)
+                                                 : centres_of_deck(name, text, values, messages);
     messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
     messages.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
     JointNetwork joints;

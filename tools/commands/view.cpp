@@ -59,6 +59,7 @@ int view(const Invocation& given) {
         recordings.push_back(
             read_recording(input, values["frames"].as<std::size_t>(), values["seed"].as<std::uint64_t>()));
         report_recording(messages, recordings.back());
+        for (const std::string& notice : recordings.back().notices) messages.notice(notice);
     }
     const std::filesystem::path output =
         values.contains("output") ? std::filesystem::path(values["output"].as<std::string>()) : default_output(inputs);

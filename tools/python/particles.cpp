@@ -188,7 +188,10 @@ void bind_particles(py::module_& module) {
         "read_particles",
         [](const std::string& path) {
             auto made = std::make_shared<Particles>();
-            made->scene = read_deck_geometry(std::filesystem::path(path)).scene;
+            DeckReader reader = DeckReader::open(path);
+            made->scene = read_deck_geometry(reader).scene;
+            const auto ignored = reader.ignored_numbers();
+            if (ignored && PyErr_WarnEx(PyExc_UserWarning, ignored->c_str(), 1) != 0) throw py::error_already_set();
             return made;
         },
         py::arg("path"));

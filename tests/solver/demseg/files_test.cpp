@@ -55,12 +55,12 @@ TEST(Boundary, RefusalsNameTheKey) {
               "in_bc.dat:1: jclid: found '2', expected 0 (new), 1 (continued with in_cf.dat) or 3 (bonded)");
     EXPECT_EQ(refusal([] { boundary_of("0 0 10\n0 1 0 0"); }),
               "in_bc.dat:2: nprn1: found '0', expected a whole number from 1 to 1000000000000");
-    EXPECT_EQ(refusal([] { boundary_of("0 0 10 1 1 2 5 5 0"); }),
-              "in_bc.dat:1: id 2 of npfd: found 5 a second time, expected each body once");
-    EXPECT_EQ(refusal([] { boundary_of("0 0 10 1 1 0 1\n2 2 0 1 0 1 0"); }),
-              "in_bc.dat:2: body 2: fx: found '2', expected a whole number from 0 to 1");
+    EXPECT_EQ(refusal([] { boundary_of("0 0 10 1 1\n2\n5 5\n0"); }),
+              "in_bc.dat:3: id 2 of npfd: found 5 a second time, expected each body once");
+    EXPECT_EQ(refusal([] { boundary_of("0 0 10 1 1\n0\n1\n2 2 0 1 0 1 0"); }),
+              "in_bc.dat:4: body 2: fx: found '2', expected a whole number from 0 to 1");
     Scene scene = read_geometry(shipped_deck("circle") / "in_gm.dat");
-    EXPECT_EQ(refusal([&] { apply_controls(boundary_of("0 0 10 1 1 0 1 7 0 0 0 0 0 0"), scene); }),
+    EXPECT_EQ(refusal([&] { apply_controls(boundary_of("0 0 10 1 1\n0\n1\n7 0 0 0 0 0 0"), scene); }),
               "in_bc.dat: npbd: found body 7, expected one of the 1 bodies of in_gm.dat");
 }
 
@@ -203,6 +203,38 @@ TEST(ContactFiles, RefuseWhatCannotBe) {
     EXPECT_EQ(tensions(far),
               "in_cf0.dat:2: bodies 1 and 3: found no contact there, expected bonded bodies to touch; are in_gm.dat "
               "and in_cf0.dat of one run?");
+}
+
+TEST(ContactFiles, TwoColumnsThatLeaveElementsOpenAreRefusedOnTheirOwnLine) {
+    const Scene scene = mixed_scene();
+    for (const char* columns : {"3 -2e3", "3 -2e3 1", "3 -2e3 to the square 1 0"}) {
+        World world = build_world(scene);
+        DeckReader reader("in_cf0.dat", fmt::format("1 1\n{}\n2 0\n3 1\n1 -2e3 0 1\n4 0\n", columns));
+        EXPECT_EQ(
+            refusal([&] { read_back_tensions(reader, scene, world); }),
+            "in_cf0.dat:2: body 1: back-tension 1: found nothing that names the elements behind the value, expected "
+            "other body, value, own_element and other_element, because bodies 1 and 3 are not both single circles; "
+            "leave the file away to bond all that overlap");
+    }
+}
+
+TEST(ContactFiles, ContactsWithoutABodyThatCanMoveAreLeftOutAndCounted) {
+    Scene scene = read_geometry(shipped_deck("chain_pulled") / "in_gm.dat");
+    World free = build_world(scene);
+    bond_all(free, 0.0);
+    std::ostringstream tensions, contacts;
+    write_back_tensions(tensions, scene, free);
+    write_contacts(contacts, scene, free);
+    const DofControl held{Drive::displacement, 0.0};
+    for (const int body : {0, 1, 19}) scene.controls.push_back({body, held, held, held, 100});
+    World world = build_world(scene);
+    DeckReader reader("in_cf0.dat", tensions.str());
+    EXPECT_EQ(read_back_tensions(reader, scene, world), 1) << "of bodies 1 and 2";
+    EXPECT_EQ(world.bonds.initial, 18);
+    World other = build_world(scene);
+    DeckReader contact_reader("in_cf.dat", contacts.str());
+    EXPECT_EQ(read_contacts(contact_reader, scene, other), 1);
+    EXPECT_EQ(other.bonds.initial, 18);
 }
 
 /// Message about an in_cf.dat for the mixed scene: bodies 1 (circle), 2 (clump), 3 and 4 (squares).

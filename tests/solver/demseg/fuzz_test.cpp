@@ -25,7 +25,7 @@ using namespace testing;
 constexpr int rounds = 3000;
 
 std::string damaged(std::string text, std::mt19937_64& random) {
-    static const std::string letters = " \n\t0123456789.-+eEdDxn\xff";
+    static const std::string letters = " \n\t0123456789.-+eEdDxn,/*\x1a\x81\x40\xe3\xff";
     const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
     for (std::size_t k = 1 + below(4); k > 0 && !text.empty(); --k) {
         const std::size_t at = below(text.size());

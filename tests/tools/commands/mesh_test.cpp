@@ -164,6 +164,15 @@ TEST_F(CrackleMesh, MeshesAlongJointsWhatHasNoMeshWithout) {
         << answer.out;
 }
 
+TEST_F(CrackleMesh, NumbersThatNoReadOfTheDeckTakesAreANotice) {
+    write_packing();
+    write("noted.dat", read("in_gm.dat") + "7 circles more\n");
+    const Answer answer = call("noted.dat --kind voronoi --thick 1e-3");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_NE(answer.err.find("noted.dat: numbers behind the last value of a READ"), std::string::npos) << answer.err;
+    EXPECT_NE(answer.err.find("'7' in line 208"), std::string::npos) << answer.err;
+}
+
 TEST_F(CrackleMesh, RefusesBadInputInOneMessage) {
     write_packing();
     const std::string cells = " --kind voronoi --thick 1e-3";

@@ -122,7 +122,7 @@ TEST_F(RunCommand, BadInputEndsInOneMessageAndCode2) {
 TEST_F(RunCommand, AStepAboveTheBoundNeedsAllowUnstable) {
     const auto deck = scratch_ / "deck";
     std::filesystem::create_directories(deck);
-    std::ofstream(deck / "in_bc.dat") << "0 0 200 100 10 0 0";
+    std::ofstream(deck / "in_bc.dat") << "0 0 200 100 10\n0\n0\n";
     std::string geometry = read_file(shipped_deck("circle") / "in_gm.dat");
     std::ofstream(deck / "in_gm.dat") << geometry.replace(geometry.find("5.0d-5"), 6, "1.2d-3");
     EXPECT_EQ(crackle("run " + quoted(deck)), 2);
