@@ -130,7 +130,8 @@ TEST_F(GuidePrinted, LimitOfTheStepAndTopOfABounce) {
         if (frame.step > 5000.0) top = std::max(top, frame.rows[0][3]);  // back from the floor
     }
     EXPECT_TRUE(within("top", top, 5.0, 0.01));
-    EXPECT_TRUE(stands_in_table("top of a bounce of ex01-1, of frames 100 steps apart", "5 (no loss)", fmt::format("{:.2f}", top)));
+    EXPECT_TRUE(stands_in_table("top of a bounce of ex01-1, of frames 100 steps apart", "5 (no loss)",
+                                fmt::format("{:.2f}", top)));
 }
 
 TEST_F(GuidePrinted, EnergyIsConservedBySegmentsAndClumps) {
