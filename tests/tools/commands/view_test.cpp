@@ -346,12 +346,12 @@ TEST_F(ViewCommand, SeveralRunsStandSideBySide) {
 TEST_F(ViewCommand, RefusesWhatItCannotShow) {
     std::filesystem::create_directories(folder_ / "empty");
     write("note.txt", "not a page\n");
-    write("broken.dat", "1 0 0 zero\n");
+    write("broken.dat", "1 0 0\nzero\n");
     const std::string deck = quoted(shipped_deck("clump") / "in_gm.dat");
     expect_refused("", "found nothing to look at");
     expect_refused("nowhere", "nowhere: found no such file or folder");
     expect_refused("empty", "empty: found neither summary.json nor output.dat nor in_gm.dat");
-    expect_refused("broken.dat", "broken.dat:1: dt: found 'zero'");
+    expect_refused("broken.dat", "broken.dat:2: dt: found 'zero'");
     expect_refused(deck + " -o note.txt", "not a page of crackle");
     expect_refused(deck + " -o no/such/page.html", "cannot be written");
 }
