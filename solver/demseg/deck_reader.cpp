@@ -84,7 +84,8 @@ bool parse_number(std::string_view word, double& value) {
     return error == std::errc() && end == plain.data() + plain.size();
 }
 
-/// A word's `3*`: the count, and what it repeats. 1 and the word itself where it has none, 0 where the count is none.
+/// Splits a word such as `3*0.5` into its count and its value. A word without a star has count 1, a wrong count gives
+/// 0.
 std::pair<std::int64_t, std::string_view> repeated(std::string_view word) {
     const std::size_t star = word.find('*');
     if (star == std::string_view::npos) return {1, word};

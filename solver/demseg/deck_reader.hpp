@@ -31,7 +31,7 @@ class DeckReader {
 
     /// Begins DEMseg's next READ, on a new line: what the last one left of its line is ignored.
     void begin_read();
-    /// Whether so many numbers follow on the present line.
+    /// Whether `count` more numbers stand on the present line.
     bool numbers_follow(int count) const;
     /// Ignores the rest of the file.
     void end_reads();
@@ -67,7 +67,7 @@ class DeckReader {
     void take_repeats(std::string_view key, std::string_view expected);
     void ignore_rest_of_line();
     void ignore_number(std::string_view word);
-    /// Of errors behind ignored numbers: one of them may be their cause.
+    /// What an error says of the last ignored number, which may be its cause.
     std::string last_ignored_text() const;
 
     std::string name_;

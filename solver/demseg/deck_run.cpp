@@ -255,7 +255,7 @@ bool DeckRun::start_from_state(const Texts& texts) {
     return false;
 }
 
-/// Of a file that was read: numbers in its notes, and contacts of which the world takes no account.
+/// Tells the user which numbers of a file were ignored, and how many of its contacts were left out.
 void DeckRun::add_notices(const DeckReader& reader, std::int64_t contacts_left_out) {
     if (const auto ignored = reader.ignored_numbers()) notices_.push_back(*ignored);
     if (contacts_left_out == 0) return;

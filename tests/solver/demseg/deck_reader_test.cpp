@@ -17,7 +17,7 @@ namespace {
 using testing::refusal;
 using Values = std::vector<double>;
 
-/// READs of so many values each.
+/// Reads one READ after another, each of as many values as given here.
 std::vector<Values> reads(DeckReader& reader, const std::vector<int>& counts) {
     std::vector<Values> all;
     for (const int count : counts) {

@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(OfTheGuide, PrintedExample,
                                            Example{"repose_cp932", "repose_cp932", "repose_cp932", "repose", 20, {}}),
                          [](const auto& example) { return std::string(example.param.name); });
 
-/// That the table of specimens/demseg/README.md has this number in its last column.
+/// Expects this number in the last column of the table in specimens/demseg/README.md.
 ::testing::AssertionResult stands_in_table(const std::string& example, const std::string& guide,
                                            const std::string& ours) {
     const std::string row = fmt::format("| {} | {} |", guide, ours);
