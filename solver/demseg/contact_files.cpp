@@ -122,15 +122,6 @@ std::unordered_map<int, BodyIndex> indices_by_id(const World& world) {
     return indices;
 }
 
-/// Whether nothing can move either body of a point: such pairs have no points where nobody measures their forces.
-bool neither_moves(const World& world, const std::unordered_map<int, BodyIndex>& index_of, const PointName& name) {
-    return std::ranges::all_of(std::array{name.body, name.other}, [&](int id) {
-        if (id < 0) return false;  // a wall
-        const BodyInertia& inertia = world.bodies.inertia[index_of.at(id)];
-        return inertia.inverse_mass_x == 0.0 && inertia.inverse_mass_y == 0.0 && inertia.inverse_moment == 0.0;
-    });
-}
-
 /// Whether a point that touched a step ago can have left the list: its surfaces moved apart by more than the skin.
 bool may_have_parted(const World& world, const std::unordered_map<int, BodyIndex>& index_of, const PointName& name) {
     double speed = 0.0;
@@ -161,12 +152,11 @@ void write_contacts(std::ostream& out, const Scene& scene, const World& world) {
     write_lists(out, scene, lines);
 }
 
-std::int64_t read_contacts(DeckReader& reader, const Scene& scene, World& world) {
+void read_contacts(DeckReader& reader, const Scene& scene, World& world) {
     const BodyNames names(scene);
     const std::map<PointName, PointIndex> points = points_by_name(world);
     const std::unordered_map<int, BodyIndex> index_of = indices_by_id(world);
     std::unordered_set<PointIndex> entered;
-    std::int64_t left_out = 0;
     bool bonds = false;
     for (const Body& body : scene.bodies) {
         const std::int64_t count = read_list_head(reader, body);
@@ -192,10 +182,6 @@ std::int64_t read_contacts(DeckReader& reader, const Scene& scene, World& world)
             auto found = points.find(name);
             // Seen from the other body both the normal and the force turn round: the number is the same.
             if (found == points.end()) found = points.find(name.seen_from_other());
-            if (found == points.end() && neither_moves(world, index_of, name)) {
-                ++left_out;
-                continue;
-            }
             if (found == points.end()) {
                 // One that opened by more than the list reaches in its last step is over; a bond would have broken.
                 if (tension == 0.0 && may_have_parted(world, index_of, name)) continue;
@@ -218,7 +204,6 @@ std::int64_t read_contacts(DeckReader& reader, const Scene& scene, World& world)
     }
     reader.end_reads();
     if (bonds) finish_bonding(world);
-    return left_out;
 }
 
 void write_back_tensions(std::ostream& out, const Scene& scene, const World& world) {
@@ -239,10 +224,9 @@ void write_back_tensions(std::ostream& out, const Scene& scene, const World& wor
     write_lists(out, scene, lines);
 }
 
-std::int64_t read_back_tensions(DeckReader& reader, const Scene& scene, World& world) {
+void read_back_tensions(DeckReader& reader, const Scene& scene, World& world) {
     const BodyNames names(scene);
     const std::map<PointName, PointIndex> points = points_by_name(world);
-    const std::unordered_map<int, BodyIndex> index_of = indices_by_id(world);
     struct Listing {
         double tension;
         int line;
@@ -276,7 +260,6 @@ std::int64_t read_back_tensions(DeckReader& reader, const Scene& scene, World& w
         }
     }
     reader.end_reads();
-    std::int64_t lines_left_out = 0;  // two of a bond
     for (const auto& [name, listing] : listed) {
         const std::string where =
             fmt::format("{}:{}: bodies {} and {}", reader.name(), listing.line, name.body, name.other);
@@ -289,10 +272,6 @@ std::int64_t read_back_tensions(DeckReader& reader, const Scene& scene, World& w
         const auto found = points.find(name);
         if (found == points.end()) {
             if (points.contains(name.seen_from_other()) || listing.tension == 0.0) continue;
-            if (neither_moves(world, index_of, name)) {
-                ++lines_left_out;
-                continue;
-            }
             throw InputError(fmt::format(
                 "{}: found no contact there, expected bonded bodies to touch; are in_gm.dat and in_cf0.dat of one run?",
                 where));
@@ -302,7 +281,6 @@ std::int64_t read_back_tensions(DeckReader& reader, const Scene& scene, World& w
         world.points.state[found->second].flags = point_bonded | point_touching;
     }
     finish_bonding(world);
-    return lines_left_out / 2;
 }
 
 }  // namespace crackle

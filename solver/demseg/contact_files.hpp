@@ -23,14 +23,12 @@ void write_contacts(std::ostream& out, const Scene& scene, const World& world);
 /// Enters the contacts into a freshly built world; a point may be listed from either of its bodies. @throws InputError
 /// on points that do not exist or come twice, and on bonds with walls. Only a point that can have opened by more than
 /// the list reaches in its last step may be missing.
-/// @return how many were left out, because nothing can move either of their bodies and the world has no points there
-std::int64_t read_contacts(DeckReader& reader, const Scene& scene, World& world);
+void read_contacts(DeckReader& reader, const Scene& scene, World& world);
 
 /// in_cf0.dat: per body its back-tensions -k_n δ0; of a world without bonds those its present overlaps would give.
 void write_back_tensions(std::ostream& out, const Scene& scene, const World& world);
 /// Bonds a freshly built world, δ0 = -f_b/k_n. Every bond must stand in the lists of both bodies, with one value.
-/// @return as read_contacts()
-std::int64_t read_back_tensions(DeckReader& reader, const Scene& scene, World& world);
+void read_back_tensions(DeckReader& reader, const Scene& scene, World& world);
 
 /// Input id of a body, or the negative number of a wall.
 int partner_id(const World& world, PointKind kind, const ContactPoint& point);

@@ -96,7 +96,9 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
         const std::filesystem::path path = input(deck_text_names[k]);
         texts.names[k] = path.string();
         texts.present[k] = k < 2 || is_there(path);  // reading in_gm.dat and in_bc.dat reports those two
-        if (texts.present[k]) texts.contents[k] = read_file(path);
+        if (!texts.present[k]) continue;
+        texts.contents[k] = read_file(path);  // whole: its hash belongs to the state
+        refuse_wide_letters(path, texts.contents[k]);
     }
     DeckReader reader = texts.reader(1);
     asked_ = read_boundary(reader);
@@ -197,8 +199,8 @@ void DeckRun::start_new(const Texts& texts) {
     if (asked_.start == DeckStart::bonded) {
         if (texts.present[3]) {
             DeckReader tensions = texts.reader(3);
-            const std::int64_t left_out = read_back_tensions(tensions, base_.scene, world_);
-            add_notices(tensions, left_out);
+            read_back_tensions(tensions, base_.scene, world_);
+            add_notices(tensions);
         } else {
             bond_all(world_, world_.settings.thick);
             notices_.push_back(fmt::format("{}: not there, so {} bonds were made from the present overlaps",
@@ -220,8 +222,8 @@ void DeckRun::start_from_contacts(const Texts& texts) {
     add_notices(geometry);
     boundary_ = asked_;
     world_ = build_world(scene_under(laws_for(texts, 2)));
-    const std::int64_t left_out = read_contacts(contacts, base_.scene, world_);
-    add_notices(contacts, left_out);
+    read_contacts(contacts, base_.scene, world_);
+    add_notices(contacts);
     enter_steps_before();
     world_.stepping.drift =
         world_.stepping.time_step;  // the bodies have just moved: the first force pass takes up the slip of that step
@@ -255,14 +257,9 @@ bool DeckRun::start_from_state(const Texts& texts) {
     return false;
 }
 
-/// Tells the user which numbers of a file were ignored, and how many of its contacts were left out.
-void DeckRun::add_notices(const DeckReader& reader, std::int64_t contacts_left_out) {
+/// Tells the user which numbers of a file were ignored.
+void DeckRun::add_notices(const DeckReader& reader) {
     if (const auto ignored = reader.ignored_numbers()) notices_.push_back(*ignored);
-    if (contacts_left_out == 0) return;
-    notices_.push_back(
-        fmt::format("{}: {} contacts were left out, because both their bodies are controlled in x, y and rotation; the "
-                    "files of the next part do not have them",
-                    reader.name(), contacts_left_out));
 }
 
 void DeckRun::enter_steps_before() {

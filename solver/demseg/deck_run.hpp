@@ -76,7 +76,7 @@ class DeckRun {
     void start_new(const Texts& texts);
     void start_from_contacts(const Texts& texts);
     bool start_from_state(const Texts& texts);
-    void add_notices(const DeckReader& reader, std::int64_t contacts_left_out = 0);
+    void add_notices(const DeckReader& reader);
     void enter_steps_before();
     void find_bodies();
     void complete_earlier_run() const;

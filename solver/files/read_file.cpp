@@ -86,12 +86,16 @@ bool is_of_wide_letters(std::string_view bytes) {
 
 }  // namespace
 
-std::string read_text(const std::filesystem::path& path) {
-    std::string text = read_file(path);
-    if (is_of_wide_letters(text)) {
+void refuse_wide_letters(const std::filesystem::path& path, std::string_view bytes) {
+    if (is_of_wide_letters(bytes)) {
         throw InputError(
             fmt::format("{}: found UTF-16, expected UTF-8 or ASCII; save the text as UTF-8", path.string()));
     }
+}
+
+std::string read_text(const std::filesystem::path& path) {
+    std::string text = read_file(path);
+    refuse_wide_letters(path, text);
     text.erase(0, text.size() - without_byte_order_mark(text).size());
     return text;
 }

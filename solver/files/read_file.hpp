@@ -16,6 +16,9 @@ std::string read_file(const std::filesystem::path& path);
 /// A text without the byte order mark (UTF-8) that some editors put in front.
 std::string_view without_byte_order_mark(std::string_view text);
 
+/// @throws InputError if the bytes of a file are UTF-16
+void refuse_wide_letters(const std::filesystem::path& path, std::string_view bytes);
+
 /// A file of text: its bytes without such a mark. @throws InputError as read_file(), and for UTF-16, which is named
 std::string read_text(const std::filesystem::path& path);
 

@@ -50,8 +50,8 @@ struct FoundKey {
     /// targets do not determine it.
     double low = 0.0, high = 0.0;
     bool determined = true;
-    bool lost_in_scatter =
-        false;  ///< not determined for the scatter of the packings alone: the interval fills the bounds
+    /// Not determined, for the scatter of the packings alone: the interval fills the bounds.
+    bool lost_in_scatter = false;
     bool at_bound = false;
 };
 

@@ -295,7 +295,7 @@ class ConsistencyCheck {
         if (test_.loading.platens != "glued") expect_beside("loading.grip", "platens = \"glued\"");
     }
 
-    /// A platen that goes back: by cycles, each of which begins farther than the one before, or by lateral strain.
+    /// A platen that goes back: by cycles, none of which begins nearer than the one before, or by lateral strain.
     void turning_round() const {
         const TestCase::Loading& loading = test_.loading;
         if (loading.by_lateral_strain()) {

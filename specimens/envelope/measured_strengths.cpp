@@ -2,8 +2,10 @@
 #include "specimens/envelope/measured_strengths.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -16,7 +18,6 @@
 #include "specimens/campaign/campaign.hpp"
 #include "specimens/campaign/identity.hpp"
 #include "specimens/campaign/ledger.hpp"
-#include "specimens/campaign/point_table.hpp"
 #include "specimens/case/parameters.hpp"
 #include "specimens/making/cell_sizes.hpp"
 #include "specimens/recordings/curve_points.hpp"
@@ -252,6 +253,14 @@ void add_campaign(Collection& all, const fs::path& folder, bool with_curves) {
 
 }  // namespace
 
+namespace {
+
+/// Of summary.json: what can stand over a confining pressure.
+constexpr std::array<std::string_view, 4> axial_stresses = {"peak_stress", "largest_stress", "crack_initiation_stress",
+                                                            "crack_damage_stress"};
+
+}  // namespace
+
 std::string StrengthMeasure::spoken_one() const {
     if (strain) return fmt::format("stress at a strain of {:g}", *strain);
     if (figure == "peak_stress") return "strength";
@@ -267,11 +276,9 @@ std::string StrengthMeasure::spoken() const {
 }
 
 MeasuredStrengths read_strengths(std::span<const fs::path> folders, const StrengthMeasure& measure) {
-    if (!measure.strain && unit_of_figure(measure.figure, false) != "N/m")
-        throw InputError(
-            fmt::format("envelope: --figure: found '{:.60}', expected a stress of summary.json, such as "
-                        "peak_stress, largest_stress or crack_damage_stress",
-                        measure.figure));
+    if (!measure.strain && std::ranges::find(axial_stresses, measure.figure) == axial_stresses.end())
+        throw InputError(fmt::format("envelope: --figure: found '{:.60}', expected an axial stress of summary.json: {}",
+                                     measure.figure, fmt::join(axial_stresses, ", ")));
     Collection all(measure);
     FileHashes files;
     for (const fs::path& folder : folders) {

@@ -13,11 +13,13 @@
 #include "specimens/joints/drawn_sets.hpp"
 #include "specimens/joints/faults.hpp"
 #include "specimens/joints/trace_files.hpp"
+#include "specimens/statistics/spoken.hpp"
 
 namespace crackle {
 namespace {
 
-constexpr double join_share = 0.5;  // of snap: ends of rows that near are at one node
+constexpr double most_of_a_side = 0.1, least_of_a_side = 1e-9;  // of the box: what snap may be
+constexpr double join_share = 0.5;                              // of snap: ends of rows that near are at one node
 
 /// Halfway along.
 Vec2 midpoint_of(const std::vector<Vec2>& points) {
@@ -85,9 +87,15 @@ void take_measured(JointNetwork& network, const TestCase& test, std::size_t numb
     } else {
         for (const std::vector<Vec2>& points : read.traces) traces.push_back({points, traces.size(), 1});
     }
-    if (traces.size() < read.traces.size())
-        network.notices.push_back(fmt::format("{}: {} traces that share nodes are {} from end to end", name,
-                                              read.traces.size(), traces.size()));
+    std::size_t joined = 0, ends = 0;
+    for (const Fault& fault : traces) {
+        if (fault.rows == 1) continue;
+        joined += fault.rows;
+        ++ends;
+    }
+    if (ends > 0)
+        network.notices.push_back(
+            fmt::format("{}: {} rows that share nodes are {} from end to end", name, joined, counted(ends, "trace")));
     std::size_t outside = 0;
     for (const auto& [points, row, rows] : traces) {
         const int line = read.rows.lines.empty() ? 0 : read.rows.lines[row];
@@ -129,13 +137,31 @@ void leave_out_short(JointNetwork& network, double shortest, const char* why) {
                                               count, shortest, why, length));
 }
 
+/// @param spacing  of the grains, m; 0 where traces are drawn alone
+double snap_of(const TestCase& test, const Domain& box, double spacing) {
+    if (!test.joints.snap) return snap_share * spacing;
+    const double snap = *test.joints.snap, side = std::min(box.x2 - box.x1, box.y2 - box.y1);
+    const double most = spacing > 0.0 ? spacing : most_of_a_side * side, least = least_of_a_side * side;
+    if (snap > 0.0 && (snap < least || snap > most))
+        throw InputError(fmt::format(
+            "{}: found {:.4g}, expected 0, or {:.4g} to {:.4g} m: {}", test.at("joints.snap"), snap, least, most,
+            spacing > 0.0 ? "at most the mean spacing of the grains" : "at most a tenth of the shorter side"));
+    return snap;
+}
+
 /// Brings nodes together that nearly coincide.
-void clean(JointNetwork& network, double snap, double spacing) {
+void clean(const TestCase& test, JointNetwork& network, double snap, double spacing) {
+    const bool any = !network.traces.empty();
     try {
         network.cleaning = clean_traces(network.traces, network.box, snap, trace_reach_share * spacing);
     } catch (const MeshError& error) {  // of more crossings than memory is meant for: they stay as they are
         network.notices.push_back(fmt::format("nodes that nearly coincide are not brought together: {}", error.what()));
     }
+    if (any && network.traces.empty() && test.joints.snap)
+        throw InputError(
+            fmt::format("{}: found no trace left once nodes nearer than {:.4g} m were brought together, expected one "
+                        "or more; lower it",
+                        test.at("joints.snap"), 0.5 * snap));
 }
 
 }  // namespace
@@ -144,7 +170,7 @@ JointNetwork make_joints(const TestCase& test, const Domain& box, std::size_t ce
     JointNetwork network;
     network.box = box;
     const double spacing = centres > 0 ? std::sqrt(network.area() / static_cast<double>(centres)) : 0.0;
-    const double snap = test.joints.snap.value_or(snap_share * spacing);
+    const double snap = snap_of(test, box, spacing);
     for (std::size_t set = 0; set < test.joint_set.size(); ++set) {
         const std::size_t source = network.sources.size();
         const OrientationLaw directions = orientation_law(test, set);
@@ -160,7 +186,7 @@ JointNetwork make_joints(const TestCase& test, const Domain& box, std::size_t ce
         leave_out_short(network, *test.joints.shortest, "joints.shortest");
     else if (centres > 0)
         leave_out_short(network, spacing, "the mean spacing of the cells; joints.shortest says otherwise");
-    clean(network, snap, spacing);
+    clean(test, network, snap, spacing);
     network.cleaning.derived = !test.joints.snap;
     return network;
 }

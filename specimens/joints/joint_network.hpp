@@ -42,8 +42,9 @@ struct JointNetwork {
 /// in strata, each with its own longest (a factor of 2 in the share of longer ones), for a law without an end has none.
 /// Lines at a spacing that scatter about their mean direction are drawn from so far off that P10 across that lacks at
 /// most one in a thousand (OrientationLaw::stretch).
-/// Where joints.snap is given, or the grain is known, rows of a file that are segments of one fault are joined
-/// (joined_rows) and all traces cleaned (clean_traces): what a test, a mesh and a report have are the same traces.
+/// Where joints.snap or joints.shortest is given, or the grain is known, rows of a file that are segments of one fault
+/// are joined (joined_rows) and all traces cleaned (clean_traces): what a test, a mesh and a report have are the same
+/// traces.
 /// @param centres  of cells that will follow the traces, 0 where none will: without joints.shortest, traces shorter
 /// than the mean spacing of these are left out; walls cut traces that short, and cells beside them would set the time
 /// step

@@ -16,6 +16,7 @@
 #include "solver/files/table_reader.hpp"
 #include "solver/files/text_lines.hpp"
 #include "solver/scene/scene.hpp"
+#include "specimens/statistics/spoken.hpp"
 
 namespace crackle {
 namespace {
@@ -95,15 +96,14 @@ std::size_t named_coordinates(std::string_view text) {
     return z ? 3 : 2;
 }
 
-/// Whether a list without names has heights behind each x y. Numbers taken by twos that are by threes leap between
-/// coordinates: such a line is more than twice as long as the traces, or has one height throughout and is longer by a
-/// third. Points that are by twos and look like that are rarer than surveys with heights.
+/// Whether a list without names, by threes, has heights behind each x y. Numbers taken by twos that are by threes leap
+/// between coordinates: such a line is more than twice as long as the traces, or has one height throughout and is
+/// longer by a third. Points that are by twos and look like that are rarer than surveys with heights.
 bool looks_like_heights(const std::vector<ListedTrace>& traces) {
     constexpr double leaping = 0.5, leaping_at_one_height = 0.75;
     double by_twos = 0.0, by_threes = 0.0;
     bool one_height = true;
     for (const ListedTrace& trace : traces) {
-        if (trace.numbers.size() % 3 != 0 || trace.numbers.size() < 6) return false;
         by_twos += path_length(trace.numbers, 2);
         by_threes += path_length(trace.numbers, 3);
         for (std::size_t k = 2; k < trace.numbers.size(); k += 3)
@@ -120,19 +120,23 @@ Found parse_list(const std::string& name, std::string_view text) {
         ListedTrace trace{reader.line(), {}};
         for (const std::string_view word : reader.values())
             trace.numbers.push_back(coordinate(word, trace.numbers.size() % 2 == 0 ? "x" : "y", reader.lines()));
-        const std::size_t count = trace.numbers.size();
-        if (named != 3 && (count < 4 || count % 2 != 0)) {
-            reader.refuse(fmt::format("{} number{}", count, count == 1 ? "" : "s"),
-                          count >= 6 && count % 3 == 0
-                              ? "x and y of two points or more; if these are x y z, remove every third number"
-                              : "x and y of two points or more");
-        }
         listed.push_back(std::move(trace));
     }
-    if (!listed.empty() && (named == 3 || (named == 0 && looks_like_heights(listed)))) {
+    const bool by_threes = std::ranges::all_of(
+        listed, [](const ListedTrace& t) { return t.numbers.size() >= 6 && t.numbers.size() % 3 == 0; });
+    const bool stated = named == 3 && by_threes;
+    for (const ListedTrace& trace : listed) {
+        const std::size_t count = trace.numbers.size();
+        if (stated || (count >= 4 && count % 2 == 0)) continue;
         throw InputError(fmt::format(
-            "{}:{}: found x y z of each point, expected x y; remove every third number{}", name, listed.front().line,
-            named == 3 ? "" : ", or, if these are x y, say so by a first line '# x1 y1 x2 y2'"));
+            "{}:{}: found {}, expected x and y of two points or more{}", name, trace.line, counted(count, "number"),
+            count >= 6 && count % 3 == 0 ? "; if these are x y z, remove every third number" : ""));
+    }
+    if (!listed.empty() && (stated || (named == 0 && by_threes && looks_like_heights(listed)))) {
+        throw InputError(
+            fmt::format("{}:{}: found x y z of each point, expected x y; remove every third number, or, if these are x "
+                        "y, say so by a first line '# x1 y1 x2 y2'",
+                        name, listed.front().line));
     }
     Found found;
     for (const ListedTrace& trace : listed) found.add(points_of(trace), trace.line);

@@ -11,9 +11,9 @@
 #include <numbers>
 
 #include "solver/base/errors.hpp"
-#include "solver/measure/point_view.hpp"
 #include "solver/stepping/step.hpp"
 #include "specimens/loading/prepare.hpp"
+#include "specimens/statistics/spoken.hpp"
 
 namespace crackle {
 namespace {
@@ -92,12 +92,13 @@ void find_deepest_corner(TestCheck& check, const ElasticAnalysis& analysis, cons
     }
 }
 
-/// degrees, mean over the bonded points
+/// degrees, of the envelope of bonds that break in shear, else of the contacts; mean over the bonded points
 double bond_friction_angle(const World& world) {
     double sum = 0.0, count = 0.0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if ((world.points.state[k].flags & point_bonded) == 0) continue;
-        sum += std::atan(view_point(world, k).friction);
+        const ContactLaw& law = world.settings.laws[world.points.state[k].law];
+        sum += std::atan(world.settings.bond_law == BondLaw::coulomb ? law.bond_friction : law.friction);
         count += 1.0;
     }
     return sum / std::max(count, 1.0) * 180.0 / std::numbers::pi;
@@ -165,15 +166,6 @@ void warn_of_disc(TestCheck& check) {
                             : "`validity` of its summary tells afterwards"));
 }
 
-/// A value below a bound, with as many digits as it takes to see that.
-std::string digits_below(double value, double bound) {
-    for (int digits = 3; digits < 17; ++digits) {
-        std::string text = fmt::format("{:.{}g}", value, digits);
-        if (std::stod(text) < bound) return text;
-    }
-    return fmt::format("{}", value);
-}
-
 void warn(TestCheck& check) {
     const TestSetup& setup = check.test.setup;
     const TestCase& test = check.test.description;
@@ -205,7 +197,7 @@ void warn(TestCheck& check) {
         check.warnings.push_back(
             fmt::format("the specimen is {} grains wide, fewer than {:g}: strength and modulus depend on the "
                         "packing and the boundary; make it of more grains, or average over several seeds",
-                        digits_below(check.grains_across, fewest_grains_across), fewest_grains_across));
+                        spoken_below(check.grains_across, fewest_grains_across), fewest_grains_across));
     }
     if (setup.polygons && test.loading.kind == "tension" && test.loading.platens == "bonded") {
         check.warnings.push_back(fmt::format(

@@ -75,21 +75,24 @@ class Confinement {
         }
         Imbalance left = imbalance();
         double least = missing(left);
+        const auto or_refuse = [&](const auto& move) {
+            try {
+                move();
+            } catch (const UnstableRun& error) {
+                refuse(left, fmt::format(" ({})", error.what()));
+            }
+        };
         for (int round = 0, in_vain = 0; !settled(left); ++round, ++in_vain) {
             if (missing(left) <= most_left_by_rounds * least) {
                 least = missing(left);
                 in_vain = 0;
             }
             if (round == most_rounds || in_vain == most_rounds_in_vain) refuse(left, "");
-            try {
-                approach(left);
-            } catch (const UnstableRun& error) {
-                refuse(left, fmt::format(" ({})", error.what()));
-            }
+            or_refuse([&] { approach(left); });
             const double before = left.force;
             left = imbalance();
             if (settled(left) || left.force < most_left_by_a_solution * before) continue;
-            relax();
+            or_refuse([&] { relax(); });
             left = imbalance();
         }
         world_.stepping.steps = step;

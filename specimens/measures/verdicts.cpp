@@ -127,10 +127,14 @@ double time_of_first_drop(std::span<const CurveRow> rows) {
     return std::numeric_limits<double>::infinity();
 }
 
+std::string spoken_across(double across) {
+    return (across < fewest_across ? spoken_below(across, fewest_across) : fmt::format("{:.3g}", across)) +
+           " particles";
+}
+
 std::vector<Verdict> on_platens(const TestSetup& setup, const ContactHistory& history) {
     const double across = setup.width / std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
-    std::vector<Verdict> verdicts{
-        {wide_enough.holds, across >= fewest_across, fmt::format("{:.3g} particles", across)}};
+    std::vector<Verdict> verdicts{{wide_enough.holds, across >= fewest_across, spoken_across(across)}};
     Verdict place{setup.compression ? away_from_platens.holds : between_grips.holds, std::nullopt,
                   "no bond has broken"};
     if (const auto parting = find_parting(setup, history)) {

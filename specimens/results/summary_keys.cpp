@@ -176,7 +176,8 @@ std::vector<SummaryKey> all_summary_keys() {
           "null of kinds that are not between platens"}},
         {{"cycles[].damage", "-", "1 - modulus/youngs_modulus (of other kinds nominal_modulus)",
           "0 where no bond has broken"}},
-        {{"cycles[].permanent_strain", "-", "low_strain - low_stress/modulus: what would be left without stress"}},
+        {{"cycles[].permanent_strain", "-", "low_strain - low_stress/modulus: what would be left without stress",
+          "0 where the modulus is youngs_modulus"}},
         {{"cycles[].loss", "J", "work put in over the cycle and not given back, the loop's area",
           "null of one that the test does not end"}},
 

@@ -13,6 +13,14 @@ std::string counted(std::int64_t count, const char* noun) {
 
 std::string counted(std::size_t count, const char* noun) { return counted(static_cast<std::int64_t>(count), noun); }
 
+std::string spoken_below(double value, double bound) {
+    for (int digits = 3; digits < 17; ++digits) {
+        std::string text = fmt::format("{:.{}g}", value, digits);
+        if (std::stod(text) < bound) return text;
+    }
+    return fmt::format("{}", value);
+}
+
 std::string spoken_stress(double value, const std::string& unit, int digits) {
     struct Prefix {
         double factor;

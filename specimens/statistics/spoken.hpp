@@ -12,6 +12,9 @@ namespace crackle {
 std::string counted(std::int64_t count, const char* noun);
 std::string counted(std::size_t count, const char* noun);
 
+/// A value below a bound, with as many digits, three or more, as it takes to see that: "19.97" below 20.
+std::string spoken_below(double value, double bound);
+
 /// Pa by its prefix, "17.9 GPa"; any other unit as it is, "5.1e+06 N/m".
 std::string spoken_stress(double value, const std::string& unit, int digits = 4);
 

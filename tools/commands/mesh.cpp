@@ -342,7 +342,7 @@ CommandLine describe_mesh() {
         .operand = "IN",
         .choices = {{"kind", {"delaunay", "voronoi"}}, {"boundary", {"domain", "centres"}}},
         .verbose = "seconds of each stage, counts",
-        .examples = {{"crackle mesh in_gm.dat", "in_gm_tri.dat and in_gm_volo.dat, thick apart, as volonoi.f"},
+        .examples = {{"crackle mesh in_gm.dat", "cells of both kinds, as volonoi.f makes them"},
                      {"crackle mesh in_gm.dat --kind voronoi --thick 1e-3", "the cells of a packing"},
                      {"crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --boundary centres",
                       "triangles between circles only"},

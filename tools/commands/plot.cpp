@@ -342,14 +342,17 @@ void plot_decks(const po::variables_map& given, const Words& folders, const Look
                    : runs.size() > 1        ? distinct_names(runs)
                                             : Words{""};
     if (labels.size() != runs.size())
-        throw InputError(
-            fmt::format("plot: --labels: found {} names, expected {}, one a run", labels.size(), runs.size()));
+        throw InputError(fmt::format("plot: --labels: found {}, expected {}, one a run", counted(labels.size(), "name"),
+                                     runs.size()));
     std::vector<PlottedDeck> decks;
     for (std::size_t k = 0; k < runs.size(); ++k)
         decks.push_back({&runs[k], labels[k], drawn_bodies(given, runs[k], messages)});
     const Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
+    const std::vector<DeckWord> words = words_of_decks(what, decks);
+    if (given.contains("bodies") && std::ranges::all_of(words, [](DeckWord word) { return word == DeckWord::energy; }))
+        throw without_effect("plot", "--bodies", "--what energy");
     std::vector<Panel> panels;
-    for (const DeckWord word : words_of_decks(what, decks)) {
+    for (const DeckWord word : words) {
         const std::vector<Panel> added = deck_panels(word, decks, units, std::ranges::find(what, "all") == what.end());
         panels.insert(panels.end(), added.begin(), added.end());
     }
@@ -464,9 +467,8 @@ CommandLine describe_plot() {
         ("labels", po::value<Words>()->multitoken()->value_name("NAME"),
          "names of the tests in legends, in their order")  //
         ("units", po::value<std::string>()->value_name("UNITS"),
-         "of the run of a deck: what its units are called, si, cgs (cm, dyn, erg) or mm-g-s (mm, µN, nJ); a deck "
-         "states "
-         "none")  //
+         "of the run of a deck: what its units are called, si, cgs (cm, dyn, erg) or mm-g-s (mm, uN, nJ); a deck "
+         "states none")  //
         ("bodies", po::value<std::vector<int>>()->multitoken()->value_name("NUMBER"),
          "of the run of a deck: bodies that are drawn, of those that in_bc.dat lists (default: the first eight)")  //
         ("guide", po::value<std::string>()->value_name("FOLDER"),
@@ -509,8 +511,7 @@ CommandLine describe_plot() {
             {"crackle plot out/wave_chain -o wave.pdf --what displacement --units cgs --bodies 11 13 15",
              "figure 10 of DEMseg's guide"},
             {"crackle plot out/soft out/stiff -o rolling.pdf --what velocity --labels soft stiff", "figure 12"},
-            {"crackle plot --guide out/guide_rock -o out/figures",
-             "figures 26 to 29 of DEMseg's guide, from the tests of tools/quickstart"}}};
+            {"crackle plot --guide out/guide_rock -o out/figures", "figures 26 to 29 of the guide, after quickstart"}}};
 }
 
 int plot(const Invocation& given) {

@@ -40,8 +40,7 @@ CommandLine describe_view() {
          "of the circles that a particle file of mode 0 leaves to chance")  //
         ("units", po::value<std::string>()->value_name("UNITS"),
          "of particle files and decks, which state none: what they are called, si, cgs (cm, dyn, erg) or mm-g-s (mm, "
-         "µN, "
-         "nJ)");
+         "uN, nJ)");
     return {.synopses = {"crackle view IN... [-o view.html]"},
             .description =
                 "A page to look at particles, moving or not: IN is a particle file (in_gm.dat, in_gm_volo.dat, ...), "

@@ -20,6 +20,7 @@
 
 #include "solver/base/errors.hpp"
 #include "specimens/frames/base64.hpp"
+#include "specimens/measures/verdicts.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -367,7 +368,8 @@ class ThinnedCurve {
         all.push_back(&time);
         const std::vector<std::size_t> rows = rows_seen(all, intervals);
         const auto put = [&](const std::string& name, const std::vector<double>& values) {
-            block_.add(prefix_ + name, listed<float>(rows, [&](std::size_t row) { return values[row]; }));
+            // Doubles: displacements are differences of places.
+            block_.add(prefix_ + name, listed<double>(rows, [&](std::size_t row) { return values[row]; }));
         };
         put("time", time);
         for (std::size_t k = 0; k < columns_.size(); ++k) put(names_[k], *columns_[k]);
@@ -445,7 +447,12 @@ PageData pack_recording(const Recording& recording, const std::function<void(std
     Json& manifest = data.manifest;
     manifest["name"] = recording.name;
     manifest["kind"] = name_of(recording.kind);
-    manifest["summary"] = recording.kind == Recording::Kind::test ? recording.results.summary.json() : Json::object();
+    Json summary = recording.kind == Recording::Kind::test ? recording.results.summary.json() : Json::object();
+    if (const auto verdicts = summary.find("validity"); verdicts != summary.end() && verdicts->is_array())
+        for (Json& verdict : *verdicts)
+            if (verdict.value("holds", Json()) == false)
+                verdict["sentence"] = broken_claim(verdict.value("claim", ""), verdict.value("found", ""));
+    manifest["summary"] = std::move(summary);
     if (recording.walls) manifest["walls"] = *recording.walls;
     if (recording.mean_velocities) manifest["velocities"] = "mean";
     if (recording.kind == Recording::Kind::deck) manifest["curves"] = add_curves(first, recording.curves);

@@ -218,7 +218,7 @@ TEST(ContactFiles, TwoColumnsThatLeaveElementsOpenAreRefusedOnTheirOwnLine) {
     }
 }
 
-TEST(ContactFiles, ContactsWithoutABodyThatCanMoveAreLeftOutAndCounted) {
+TEST(ContactFiles, BondsOfTwoHeldBodiesAreRead) {
     Scene scene = read_geometry(shipped_deck("chain_pulled") / "in_gm.dat");
     World free = build_world(scene);
     bond_all(free, 0.0);
@@ -227,14 +227,20 @@ TEST(ContactFiles, ContactsWithoutABodyThatCanMoveAreLeftOutAndCounted) {
     write_contacts(contacts, scene, free);
     const DofControl held{Drive::displacement, 0.0};
     for (const int body : {0, 1, 19}) scene.controls.push_back({body, held, held, held, 100});
+    scene.driven_contacts = DrivenContacts::all;
     World world = build_world(scene);
     DeckReader reader("in_cf0.dat", tensions.str());
-    EXPECT_EQ(read_back_tensions(reader, scene, world), 1) << "of bodies 1 and 2";
-    EXPECT_EQ(world.bonds.initial, 18);
+    read_back_tensions(reader, scene, world);
+    EXPECT_EQ(world.bonds.initial, 19);
     World other = build_world(scene);
     DeckReader contact_reader("in_cf.dat", contacts.str());
-    EXPECT_EQ(read_contacts(contact_reader, scene, other), 1);
-    EXPECT_EQ(other.bonds.initial, 18);
+    read_contacts(contact_reader, scene, other);
+    EXPECT_EQ(other.bonds.initial, 19);
+    scene.circles[scene.bodies[0].first_circle].centre.x -= 1.0;  // away from the second, which is held, too
+    World apart = build_world(scene);
+    DeckReader far("in_cf0.dat", tensions.str());
+    EXPECT_NE(refusal([&] { read_back_tensions(far, scene, apart); }).find("found no contact there"),
+              std::string::npos);
 }
 
 /// Message about an in_cf.dat for the mixed scene: bodies 1 (circle), 2 (clump), 3 and 4 (squares).

@@ -8,6 +8,7 @@
 
 #include "solver/base/errors.hpp"
 #include "tests/support/deck_files.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace crackle {
 namespace {
@@ -49,6 +50,17 @@ TEST(ReadText, LeavesOutTheByteOrderMarkOnce) {
     }
     std::ofstream(scratch / "plain", std::ios::binary) << "\xef\xbb?";
     EXPECT_EQ(read_text(scratch / "plain"), "\xef\xbb?");
+}
+
+TEST(ReadText, NamesLettersOfTwoBytes) {
+    using namespace std::string_literals;
+    for (const std::string& text : {"\xff\xfe"
+                                    "3\0"s,
+                                    "\xfe\xff\0003"s, "3\0 \0"s, "\0003\0 "s})
+        EXPECT_NE(testing::refusal([&] { refuse_wide_letters("in_bc.dat", text); }).find("in_bc.dat: found UTF-16"),
+                  std::string::npos);
+    EXPECT_NO_THROW(refuse_wide_letters("in_bc.dat", "3 1"));
+    EXPECT_NO_THROW(refuse_wide_letters("in_bc.dat", ""));
 }
 
 }  // namespace

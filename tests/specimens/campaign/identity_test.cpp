@@ -132,18 +132,19 @@ TEST(Identity, ResultsVersionGoesUpWhenResultsChange) {
     for (std::size_t at = 0; at < pinned.size();) {
         const std::size_t end = std::min(pinned.find('\n', at), pinned.size());
         const std::string line = pinned.substr(at, end - at);
+        at = end + 1;
+        if (line.starts_with("deck_")) continue;  // no test of a rock
         if (line.find("curve.csv") != std::string::npos || line.find("events.csv") != std::string::npos ||
             line.find("summary.json") != std::string::npos)
             curves += line + '\n';
-        at = end + 1;
     }
     ASSERT_FALSE(curves.empty());
     fmt::print("  results version {}: {}\n", results_version, sha256(curves));
-    EXPECT_EQ(sha256(curves), "e37febb24be598648881cbb4c52c19b4a57d49b0dc1a88df73ebe1dc60d82351")
+    EXPECT_EQ(sha256(curves), "bec752f4497afbbbdea424fb9c51cf1061f36708e534d0f877eec307d94fa894")
         << "results have changed: raise results_version (unless it was a shipped case that changed), and give this "
            "test "
            "the new hash";
-    EXPECT_EQ(results_version, 7);
+    EXPECT_EQ(results_version, 8);
 }
 
 }  // namespace

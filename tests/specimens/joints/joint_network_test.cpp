@@ -356,6 +356,13 @@ TEST(JointNetwork, WhatCannotBeDrawnIsRefused) {
     EXPECT_NE(refused("[[trace]]\npoints = [5.0, 5.0, 6.0, 6.0]\n").find("trace[1]: found all of its traces outside"),
               std::string::npos);
     EXPECT_NE(refused("[[trace]]\nfile = \"none.csv\"\n").find("found no file"), std::string::npos);
+    const std::string line = "[[trace]]\npoints = [0.1, 0.1, 0.9, 0.8]\n";
+    for (const char* snap : {"1.0", "0.11", "1e-300", "1e-12"})
+        EXPECT_NE(refused(std::string("[joints]\nsnap = ") + snap + '\n' + line).find("joints.snap: found "),
+                  std::string::npos)
+            << snap;
+    EXPECT_NE(refused("[joints]\nsnap = 0.1\n[[trace]]\npoints = [0.01, 0.01, 0.02, 0.02]\n").find("no trace left"),
+              std::string::npos);
     EXPECT_NE(refused("[joints]\nsection_trend = 0.0\n" +
                       set_of("orientation = \"fisher\"\ndip = 90.0\ndip_direction = 90.0\n"
                              "fisher_k = 10.0\nspacing = 0.1\n"))

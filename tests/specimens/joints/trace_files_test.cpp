@@ -70,6 +70,8 @@ TEST(TraceFiles, HeightsAreNamed) {
     for (const char* text : {"0 0.5 1.5 2 2 2.25\n", "0 0 1 1 2 2\n", "-1 1 0 0.1 1 -1.2\n", "3 7 3.2 7.4 3.1 7.9\n",
                              "# x1 y1 x2 y2\n0.2 0.3 101.1 1.8 1.5 101.4\n"})
         EXPECT_EQ(parse_traces("a.txt", text, "").front().size(), 3U) << text;
+    EXPECT_EQ(parse_traces("a.txt", "# x1 y1 x2 y2 in m, section at z = 12\n0.1 0.2 0.9 0.8\n", "").front().size(), 2U)
+        << "a remark about heights";
 }
 
 TEST(TraceFiles, OtherKindsOfFileAreNamed) {

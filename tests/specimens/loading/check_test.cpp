@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -98,6 +100,19 @@ TEST(TestCheck, SaysWhereANumberLooksLikeAnotherUnit) {
 }
 
 /// Of what a platen does to the corners that it touches.
+/// Its bonds have 40 degrees, what is left of them 30.
+TEST(TestCheck, ADiscIsJudgedByTheFrictionOfItsBonds) {
+    const testing::ScratchFolder scratch;
+    std::ofstream(scratch / "case.toml") << "include = \"" CRACKLE_SOURCE_DIR
+                                            "/specimens/laboratory/granite_brazilian.toml\"\n"
+                                            "[packing]\nwidth = 0.02\nheight = 0.02\n";
+    const TestCheck check = check_test(read_case(scratch / "case.toml"));
+    ASSERT_TRUE(check.disc.has_value());
+    EXPECT_TRUE(agrees("friction angle", check.disc->friction_angle, 40.0, 1e-12));
+    const double sine = std::sin(40.0 * std::numbers::pi / 180.0);
+    EXPECT_TRUE(agrees("3 + N", check.disc->needed, 3.0 + (1.0 + sine) / (1.0 - sine), 1e-12));
+}
+
 TEST(TestCheck, CornersComeNearerToAPlatenAsTheThicknessShrinks) {
     const auto pressed = [](const char* thick, const char* bond) {
         const testing::ScratchFolder scratch;

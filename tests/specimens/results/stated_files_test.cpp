@@ -145,9 +145,9 @@ TEST_F(FinishedTest, OfAnEarlierVersionIsReadAsItIs) {
     Json silent = summary_.json();
     silent.erase("files");
     write("summary.json", silent.dump());
-    write("curve.csv", read_file(folder_ / "curve.csv") + "\n");
-    expect_says(refusal([&] { read_results(folder_); }), "found 1 values");  // by the reader of numbers
-    write("curve.csv", read_file(folder_ / "curve.csv").substr(0, read_file(folder_ / "curve.csv").size() - 1));
+    write("curve.csv", read_file(folder_ / "curve.csv") + "1\n");
+    expect_says(refusal([&] { read_results(folder_); }), "found 1 value");  // by the reader of numbers
+    write("curve.csv", read_file(folder_ / "curve.csv").substr(0, read_file(folder_ / "curve.csv").size() - 2));
     EXPECT_NO_THROW(read_results(folder_));
 }
 

@@ -16,6 +16,11 @@ TEST(Spoken, OneIsNotSeveral) {
     EXPECT_EQ(counted(std::size_t{12}, "test"), "12 tests");
 }
 
+TEST(Spoken, WhatLiesBelowABoundIsSeenToDoSo) {
+    for (const auto& [value, text] : {std::pair(6.3246, "6.32"), {19.97, "19.97"}, {19.99996, "19.99996"}})
+        EXPECT_EQ(spoken_below(value, 20.0), text);
+}
+
 TEST(Spoken, PascalsHaveTheirPrefix) {
     for (const auto& [value, text] : {std::pair(1.79e10, "17.9 GPa"),
                                       {1.2e7, "12 MPa"},

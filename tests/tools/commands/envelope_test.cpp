@@ -177,7 +177,8 @@ TEST_F(EnvelopeCommand, TakesTestsThatHardenByAnotherStress) {
     EXPECT_EQ(at_strain["measure"]["strain"], 5e-4);
     EXPECT_TRUE(within("N", at_strain["mohr_coulomb"]["slope"]["value"], 0.0, 1e-6));
     expect_refused(folders + "--strain 0.5", "does not reach a strain of 0.5");
-    expect_refused(folders + "--figure youngs_modulus_of_it", "expected a stress of summary.json");
+    expect_refused(folders + "--figure youngs_modulus",
+                   "expected an axial stress of summary.json: peak_stress, largest");
     expect_refused(folders + "--figure largest_stress --strain 0.1", "--figure: found with --strain");
     expect_refused(folders + "--strain 2", "--strain: found 2, expected a number > 0 and < 1");
 }

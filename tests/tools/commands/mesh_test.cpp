@@ -232,9 +232,9 @@ TEST_F(CrackleMesh, RefusesBadInputInOneMessage) {
     write("empty.txt", "");
     expect_refused("empty.txt" + cells, "empty.txt");
     write("seeds.txt", "0.2 0.5\n0.3\n");
-    expect_refused("seeds.txt --domain 0 1 0 1" + cells, "seeds.txt:2: found 1 word");
+    expect_refused("seeds.txt --domain 0 1 0 1" + cells, "seeds.txt:2: found 1 value");
     write("seeds.txt", "0.2 0.5\n0.3 nan\n");
-    expect_refused("seeds.txt --domain 0 1 0 1" + cells, "seeds.txt:2: y: found 'nan'");
+    expect_refused("seeds.txt --domain 0 1 0 1" + cells, "seeds.txt:2: found 'nan', expected a finite number for y");
     write("seeds.txt", "0.2 0.5\n0.3 0.5\n0.2 0.5\n");
     expect_refused("seeds.txt --domain 0 1 0 1" + cells, "centre 0 is seeds.txt:1, centre 2 is seeds.txt:3");
     expect_refused("seeds.txt" + cells, "found neither");

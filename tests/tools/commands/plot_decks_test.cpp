@@ -123,9 +123,10 @@ TEST_F(PlotDecks, RefusesWhatARunHasNot) {
                    "--bodies: found 12, expected one that the run of wave wrote rows of: 11, 13, 15, 17");
     expect_refused("falling -o figure.pdf --what displacement",
                    "falling: found no rows in f-d_curve.dat, expected those of bodies");
-    expect_refused("wave -o figure.pdf --at end", "--at: found it with the run of a deck");
+    expect_refused("wave -o figure.pdf --what energy --bodies 11", "--bodies: found with --what energy");
+    expect_refused("wave -o figure.pdf --at end", "--at: found with runs of decks");
     expect_refused("wave -o figure.pdf --units feet", "--units: found 'feet', expected one of si, cgs, mm-g-s");
-    expect_refused("wave falling -o figure.pdf --labels one", "--labels: found 1 names, expected 2");
+    expect_refused("wave falling -o figure.pdf --labels one", "--labels: found 1 name, expected 2");
     write("wave/energy.dat", "0 1 2 three\n");
     expect_refused("wave -o figure.pdf", "wave/energy.dat:1: enka: found 'three'");
 }

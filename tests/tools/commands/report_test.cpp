@@ -142,12 +142,12 @@ TEST_F(Report, RefusesAnUnknownOption) { expect_refused("test --colour red -o pa
 
 TEST_F(Report, NamesFileLineAndColumnOfABadNumber) {
     replace_in(root / "test" / "curve.csv", "\n0,0,0,", "\n0,zero,0,");
-    expect_refused("test -o page.html", {"test/curve.csv:2: axial_stress: found 'zero', expected a number"});
+    expect_refused("test -o page.html", {"test/curve.csv:2: found 'zero', expected a number or nan for axial_stress"});
 }
 
 TEST_F(Report, NamesFileLineAndColumnOfAnInfiniteNumber) {
     replace_in(root / "test" / "curve.csv", "\n0,0,0,", "\n0,inf,0,");
-    expect_refused("test -o page.html", {"test/curve.csv:2: axial_stress: found 'inf', expected a number"});
+    expect_refused("test -o page.html", {"test/curve.csv:2: found 'inf', expected a number or nan for axial_stress"});
 }
 
 TEST_F(Report, OfTablesThatBeginWithAByteOrderMark) {
@@ -165,7 +165,7 @@ TEST_F(Report, RefusesASummaryOfManyLevels) {
 TEST_F(Report, NamesTheLineOfATruncatedRow) {
     const std::string text = text_of(root / "test" / "curve.csv");
     std::ofstream(root / "test" / "curve.csv", std::ios::binary) << text.substr(0, text.rfind(','));
-    expect_refused("test -o page.html", {"test/curve.csv:602: found 16 values, expected 17"});
+    expect_refused("test -o page.html", {"test/curve.csv:602: found 16 values between commas, expected 17"});
 }
 
 TEST_F(Report, NamesAMissingColumn) {

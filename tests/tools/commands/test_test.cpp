@@ -312,7 +312,7 @@ TEST_F(CrackleTest, ShowsTheLargerStressAfterThePeakAndMegapascalWhereThereIsATh
     const auto summary = read_json(folder_ / "thick/summary.json");
     const auto shown = [&](const char* key) {
         const double stress = summary[key].get<double>();
-        return fmt::format("{:.4g} N/m ({:.4g} MPa) at strain ", stress, stress / 0.05 * 1e-6);
+        return fmt::format("{:.4g} N/m ({:.4g} kPa) at strain ", stress, stress / 0.05 * 1e-3);
     };
     EXPECT_NE(answer.out.find("  strength " + shown("peak_stress")), std::string::npos) << answer.out;
     EXPECT_NE(answer.out.find("  largest stress " + shown("largest_stress")), std::string::npos) << answer.out;

@@ -86,7 +86,7 @@ TEST_F(CrackleJoints, ASurveyIsCleanedByTheGrainOrSnapThatIsGiven) {
         const Answer answer = call(words);
         ASSERT_EQ(answer.code, 0) << answer.err;
         for (const char* text : {"  traces       2\n", "joints: snap = 0.01 m", "none moved further than 3.16e-06 m",
-                                 "notice: survey: 3 traces that share nodes are 2 from end to end"})
+                                 "notice: survey: 2 rows that share nodes are 1 trace from end to end"})
             EXPECT_NE(answer.out.find(text), std::string::npos) << text << '\n' << answer.out;
         const auto json = nlohmann::json::parse(call(std::string(words) + " --json").out);
         EXPECT_TRUE(agrees("snap", json["snap"].get<double>(), 0.01, 1e-12));

@@ -94,7 +94,7 @@ class Particles(InScratch):
                 crackle.pack(**options)
             self.assertEqual(f"crackle: {refused.exception}\n", program("pack", *words, "-o", "none.dat").stderr)
         packed = crackle.pack(**PACKING)
-        for options in (dict(kind="hexagonal", thick=0.0), dict(kind="voronoi"), dict(kind="voronoi", thick=1.0)):
+        for options in (dict(kind="hexagonal", thick=0.0), dict(kind="voronoi", thick=1.0)):
             with self.assertRaises(crackle.InputError):
                 crackle.mesh(packed, **options)
         for wrong in (5, [1.0, 2.0], [("a", "b")]):
@@ -141,7 +141,7 @@ class Particles(InScratch):
         self.assertEqual(told.returncode, 0, told.stderr)
         made = crackle.mesh(packed, kind="delaunay", thick=1e-4, joints="joints.toml")
         self.assertEqual(made.text(), Path("mesh.dat").read_text())
-        self.assertIn("m of traces are", made.facts["notices"][0])
+        self.assertTrue(any("m of traces are" in notice for notice in made.facts["notices"]), made.facts["notices"])
         self.assertEqual(told.stdout.splitlines()[-len(made.facts["notices"]):], made.facts["notices"])
 
     def test_ctrl_c_is_heard_while_packing(self):

@@ -320,7 +320,7 @@ crackle.test(small(packing={{"count": 300}}))
         Path("plan.toml").write_text(PLAN, encoding="utf-8")
         told = []
         crackle.campaign("plan.toml", "out", workers=1, progress=lambda *one: told.append(one))
-        self.assertEqual(told[0][:2], ("stage", "4 tests of 2 points with 2 packings, 1 workers"))
+        self.assertEqual(told[0][:2], ("stage", "4 tests of 2 points with 2 packings, 1 worker"))
         shares = [share for kind, _, share in told if kind == "progress"]
         self.assertEqual((shares[0], sorted(shares)), (0.0, shares))
 

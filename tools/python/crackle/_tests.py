@@ -98,17 +98,20 @@ def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, ki
 
 
 def joints(case: _Case, *, seed: int | None = None, box_width: float | None = None, box_height: float | None = None,
-           traces: _Path | None = None, output: _Path | None = None, columns: int | None = None,
-           width: float | None = None, font: str | None = None, font_size: float | None = None, dpi: int | None = None,
-           title: str | None = None, force: bool = False) -> dict[str, Any]:
+           grain: float | None = None, traces: _Path | None = None, output: _Path | None = None,
+           columns: int | None = None, width: float | None = None, font: str | None = None,
+           font_size: float | None = None, dpi: int | None = None, title: str | None = None,
+           force: bool = False) -> dict[str, Any]:
     """Traces of joints in the box of a specimen, asked for and reached, as `crackle joints --json`.
 
     case: a case that has joints, or a dict, a TOML text or a file of nothing else; seed: in place of joints.seed;
-    box_width, box_height: of the box, m, where the case has none. traces: a file to write, a trace a line (x1 y1 x2 y2
-    ..., m); output: a figure to write, .svg, .pdf or .png, width in mm. Returns a dict, its own units within.
+    box_width, box_height: of the box, m, where the case has none; grain: mean spacing of grains, m, whose mesh the
+    traces are for. traces: a file to write, a trace a line (x1 y1 x2 y2 ..., m); output: a figure to write, .svg, .pdf
+    or .png, width in mm. Returns a dict, its own units within.
     """
-    options = dict(seed=seed, box_width=box_width, box_height=box_height, traces=traces, output=output, columns=columns,
-                   width=width, font=font, font_size=font_size, dpi=dpi, title=title, force=force, json=True)
+    options = dict(seed=seed, box_width=box_width, box_height=box_height, grain=grain, traces=traces, output=output,
+                   columns=columns, width=width, font=font, font_size=font_size, dpi=dpi, title=title, force=force,
+                   json=True)
     path = given_or_shipped(case) if isinstance(case, (str, os.PathLike)) else ""
     name = path if os.path.exists(path) else "case"
     _, text = _engine.run_joints(read_joints(case), name, words_of(options))
@@ -308,28 +311,33 @@ def plot(*results: _Results, output: _Path, what: str | Sequence[str] | None = N
          width: float | None = None, font: str | None = None, font_size: float | None = None, dpi: int | None = None,
          title: str | None = None, magnify: float | None = None, labels: str | Sequence[str] | None = None,
          figure: str | Sequence[str] | None = None, test: str | Sequence[str] | None = None,
-         measured: _Path | None = None, force: bool = False) -> None:
+         measured: _Path | None = None, units: str | None = None, bodies: int | Sequence[int] | None = None,
+         force: bool = False) -> None:
     """Draws a figure for a paper, as `crackle plot OUT... -o FIGURE`: .svg, .pdf or .png.
 
-    results: Results, Campaigns or their folders. what: words of "curve", "ae", "emission", "strain", "specimen", of a
-    campaign of "curve", "axes", "scatter"; at: strains, or "start", "peak", "end"; width in mm; magnify: displacements so many times as large.
+    results: Results, Campaigns or their folders, or folders of decks' runs. what: words of "curve", "ae", "emission",
+    "strain", "specimen", of a campaign of "curve", "axes", "scatter", of a deck of "energy", "displacement", "height",
+    "velocity", "force", "curve"; at: strains, or "start", "peak", "end"; width in mm; magnify: displacements are drawn
+    this many times as large; of decks units: "si", "cgs" or "mm-g-s", what its units are called, bodies: their numbers.
     """
     def many(value):
         return [value] if isinstance(value, (str, float, int)) else value
     options = dict(output=os.fspath(output), what=many(what), at=many(at), columns=columns, width=width, font=font,
                    font_size=font_size, dpi=dpi, title=title, magnify=magnify, labels=many(labels), figure=many(figure),
-                   test=many(test), measured=measured, force=force)
+                   test=many(test), measured=measured, units=units, bodies=many(bodies), force=force)
     _run("plot", [_folder(one) for one in results], options)
 
 
 def view(*particles: _engine.Particles | Result | _Path, output: _Path, title: str | None = None,
-         frames: int | None = None, seed: int | None = None, progress: _Progress = None) -> None:
+         frames: int | None = None, seed: int | None = None, units: str | None = None,
+         progress: _Progress = None) -> None:
     """Writes a page to look at particles, moving or not, as `crackle view IN... -o view.html`.
 
     particles: Particles, Results, or paths of particle files and of folders of tests and decks' runs. frames: show at
-    most so many of each, evenly chosen; seed: of the circles that a particle file of mode 0 leaves to chance.
+    most this many of each, evenly chosen; seed: of the circles that a particle file of mode 0 leaves to chance; units:
+    "si", "cgs" or "mm-g-s", what those of particle files and decks are called.
     """
-    options = dict(output=os.fspath(output), title=title, frames=frames, seed=seed)
+    options = dict(output=os.fspath(output), title=title, frames=frames, seed=seed, units=units)
     scratch = Temporary()
     shown = []
     for number, one in enumerate(particles, 1):

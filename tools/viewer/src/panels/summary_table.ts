@@ -89,8 +89,8 @@ function numberIn(test: TestData, table: string, name: string): number | undefin
 function verdictOf(test: TestData): string | undefined {
     const valid = test.summary['valid'], claims = test.summary['validity'];
     if (!Array.isArray(claims)) return undefined;
-    const broken = (claims as {claim: string; holds: boolean | null; found: string}[]).filter(({holds}) => holds === false);
-    if (broken.length > 0) return `no: it does not hold that ${broken.map(({claim, found}) => `${claim} (${found})`).join('; ')}`;
+    const broken = (claims as {holds: boolean | null; sentence?: string}[]).filter(({holds}) => holds === false);
+    if (broken.length > 0) return `no: ${broken.map(({sentence}) => sentence).join('; ')}`;
     return valid === true ? 'yes' : 'not known yet';
 }
 
