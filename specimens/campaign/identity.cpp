@@ -9,6 +9,7 @@
 #include <array>
 #include <string_view>
 
+#include "solver/base/version.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/case/parameters.hpp"
 #include "specimens/results/sha256.hpp"

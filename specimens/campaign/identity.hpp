@@ -11,10 +11,6 @@
 
 namespace crackle {
 
-/// Goes up when the same case gives other figures than before: earlier tests are then run again, not reused.
-/// tests/same_bytes pins what it stands for.
-inline constexpr int results_version = 8;
-
 /// SHA-256 of files, each read once.
 class FileHashes {
   public:

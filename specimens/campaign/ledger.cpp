@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/version.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/campaign/identity.hpp"
 

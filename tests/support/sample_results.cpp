@@ -343,7 +343,7 @@ std::string summary_text(const SampleTest& test, std::size_t particles, const Bo
         {"peak_converged", test.failed},
         {"steps", 41234},
         {"seed", 1},
-        {"version", "0.1.0"},
+        {"version", "0.2.0"},
         {"wall_seconds", 3.21},
         {"particle_steps_per_second", 1.13e7},
         {"frame_start", "frames/particles_00000.vtp"},

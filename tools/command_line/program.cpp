@@ -22,6 +22,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/base/instruction_set.hpp"
 #include "solver/base/version.hpp"
+#include "tools/command_line/build_commit.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/terminal.hpp"
@@ -104,7 +105,8 @@ int call(const Program& program, const Arguments& words) {
         return exit_done;
     }
     if (words[0] == "--version") {
-        fmt::print("{} {}\n", program.name, project_version);
+        fmt::print("{} {}\ncommit {}\nresults version {}\n", program.name, project_version, build_commit,
+                   results_version);
         return exit_done;
     }
     // `crackle help campaign show` is `crackle campaign show --help`.

@@ -8,6 +8,7 @@
 
 #include <set>
 
+#include "solver/base/version.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/case/parameters.hpp"
 #include "specimens/results/sha256.hpp"

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What all commands have in common: --help, the manual page, completion, how loud they are, colours and progress.
+// What all commands have in common: --help, --version, the manual page, completion, how loud they are, colours and
+// progress.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <regex>
 #include <set>
 #include <sstream>
 
+#include "solver/base/version.hpp"
 #include "tests/support/program_call.hpp"
 #include "tests/support/small_rock.hpp"
 #include "tests/support/terminal_call.hpp"
@@ -163,6 +166,15 @@ TEST_F(CommandLines, MessagesHaveAnEnd) {
     EXPECT_EQ(answer.code, 2);
     EXPECT_LT(answer.err.size(), 2200U);
     EXPECT_NE(answer.err.find("bytes more)"), std::string::npos);
+}
+
+TEST_F(CommandLines, VersionNamesTheProgramsTheCommitsAndTheResults) {
+    const Answer answer = call("--version");
+    EXPECT_EQ(answer.code, 0);
+    const std::regex three_lines(
+        fmt::format("crackle {}\ncommit ([0-9a-f]{{12}}(, with changes)?|unknown: .+)\nresults version {}\n",
+                    project_version, results_version));
+    EXPECT_TRUE(std::regex_match(answer.out, three_lines)) << answer.out;
 }
 
 TEST_F(CommandLines, BashCompletesCommandsOptionsAndTheirWords) {
