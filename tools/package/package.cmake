@@ -2,7 +2,10 @@
 find_program(GZIP gzip REQUIRED)
 set(copyright ${documents}/copyright)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/copyright ${copyright} COPYONLY)
-configure_file(${CMAKE_CURRENT_LIST_DIR}/changelog ${documents}/changelog)
+set(changes ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
+add_custom_command(OUTPUT ${documents}/changelog
+    COMMAND ${CMAKE_CURRENT_LIST_DIR}/debian_changelog ${changes} > ${documents}/changelog
+    DEPENDS ${CMAKE_CURRENT_LIST_DIR}/debian_changelog ${changes} COMMENT "Changelog as Debian has it" VERBATIM)
 # Debian wants both compressed, without the time of the build.
 add_custom_command(OUTPUT ${documents}/changelog.gz ${documents}/crackle.1.gz
     COMMAND ${GZIP} -9nkf ${documents}/changelog ${documents}/crackle.1
