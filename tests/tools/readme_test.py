@@ -24,8 +24,8 @@ TOP = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ["CRACKLE_PROGRAM"]).resolve()
 BENCH_PROGRAM = Path(os.environ["CRACKLE_BENCH_PROGRAM"]).resolve()  # beside it
 ROOMS = ("solver", "mesher", "specimens", "tools", "tests")
-README_AT_MOST = 9000  # bytes: a door, not the house
-PAGES = {"README.md": (TOP / "README.md").read_text(encoding="utf-8")} | {
+AT_MOST = {"README.md": 9000, "CONTRIBUTING.md": 9000}  # bytes: doors, not the house
+PAGES = {name: (TOP / name).read_text(encoding="utf-8") for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")} | {
     str(path.relative_to(TOP)): path.read_text(encoding="utf-8")
     for room in ROOMS for path in sorted((TOP / room).rglob("*.md")) if "node_modules" not in path.parts}
 README = PAGES["README.md"]
@@ -72,9 +72,26 @@ def help_of(words):
     return text, words[1:]
 
 
+@functools.cache
+def build_names():
+    """Presets, and programs that CMake builds."""
+    presets = json.loads((TOP / "CMakePresets.json").read_text(encoding="utf-8"))
+    names = {preset["name"] for preset in presets["configurePresets"]}
+    for room in ROOMS:
+        for path in (TOP / room).rglob("CMakeLists.txt"):
+            names |= set(re.findall(r"(?:add_executable\(|crackle_test\(NAME )(\w[\w-]*)", path.read_text(encoding="utf-8")))
+    return names
+
+
 def check_words(line):
     """Whether a command that is not run could be."""
-    text, words = help_of(shlex.split(line))
+    words = shlex.split(line)
+    if words[0] in ("cmake", "ctest"):
+        for option, name in zip(words, words[1:]):
+            if option in ("--preset", "--target"):
+                assert name in build_names(), f"{line}: found {name}, expected a preset or a program of the build"
+        return
+    text, words = help_of(words)
     for word in words:
         if word.startswith("-"):
             assert re.search(rf"(?<![\w-]){re.escape(word)}(?![\w-])", text), f"{line}: found {word}, expected an option of the program"
@@ -223,8 +240,15 @@ class Pages(unittest.TestCase):
             for mark in re.findall(r"^```(.+)$", text, re.MULTILINE):
                 self.assertIn(mark, ("sh", "sh ci", "sh long", "python", "toml"), f"{page}: a block that no test reads")
 
-    def test_readme_is_a_door(self):
-        self.assertLessEqual(len(README.encode()), README_AT_MOST)
+    def test_doors_are_short(self):
+        for page, most in AT_MOST.items():
+            self.assertLessEqual(len(PAGES[page].encode()), most, page)
+
+    def test_files_that_contributing_names_are_there(self):
+        named = re.findall(r"`((?:solver|specimens|tests|tools)/[\w./]+)`", PAGES["CONTRIBUTING.md"])
+        self.assertGreaterEqual(len(named), 40)
+        for path in named:
+            self.assertTrue((TOP / path).exists(), f"CONTRIBUTING.md: {path}: found nothing")
 
     def test_page_of_files_is_what_the_program_prints(self):
         self.assertEqual(FILES, printed(PROGRAM, "test", "--files"), "make it again: crackle test --files > specimens/results/FILES.md")
