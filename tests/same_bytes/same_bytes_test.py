@@ -65,6 +65,19 @@ class Differences(unittest.TestCase):
             path = pathlib.Path(folder) / "summary.json"
             path.write_text('{"peak_stress": 2.5, "wall_seconds": 3.0, "packing": {"overlap": 1e-5}}')
             self.assertEqual(same_bytes.rows_of(path), ["peak_stress = 2.5", "packing.overlap = 1e-05"])
+            path = pathlib.Path(folder) / "case.toml"
+            path.write_text('# Resolved case of crackle 0.2.0: every value.\ntitle = "crackle 0.2.0: a"\n')
+            self.assertEqual(same_bytes.rows_of(path), ["# Resolved case of crackle: every value.", 'title = "crackle 0.2.0: a"'])
+            path = pathlib.Path(folder) / "checkpoint"
+
+            def checkpoint(case, state):
+                data = b"crackle test checkpoint 1\n" + (64).to_bytes(8, "little") + case * 64 + state
+                path.write_bytes(data + same_bytes.digest(data, 64).encode())
+                return same_bytes.rows_of(path)
+
+            self.assertEqual(checkpoint(b"a", b"state"), checkpoint(b"b", b"state"))
+            self.assertNotEqual(checkpoint(b"a", b"state"), checkpoint(b"a", b"stats"))
+            self.assertNotEqual(checkpoint(b"a", b"state"), checkpoint(b"a", b"states"))
 
 
 if __name__ == "__main__":
