@@ -120,22 +120,21 @@ class WrongJoints:
                     self.differs_by(key, value, figure, sound)
 
     def test_figures_of_traces(self):
-        for name, figure in (("slip", 1.001), ("opening", 1.001), ("largest_slip", -1), ("largest_opening", 1.001), ("failed_share", 0.99)):
+        moved = ("slip", "opening", "largest_slip", "largest_opening", "failed_share")
+        own = {"length": 1.001, "length_of_faces": 1.001, "faces": 2, "bonded_share": 0.9}
 
-            def change(summary, name=name, figure=figure):
-                summary["joints"][0]["at_end"][name] *= figure
-                summary["traces"][0]["at_peak"][name] *= figure
-
-            with self.subTest(figure=name):
-                found = self.spoil_summary(change, weak_cells())
-                self.assertEqual(found, [f"joints[0].at_end.{name}", f"traces[0].at_peak.{name}"])
-        for name, factor in (("length", 1.001), ("length_of_faces", 1.001), ("faces", 2), ("bonded_share", 0.9)):
-
-            def change(summary, name=name, factor=factor):
+        def change(summary):
+            for name in moved:
+                summary["joints"][0]["at_end"][name] *= 0.999
+                summary["traces"][0]["at_peak"][name] *= 0.999
+            for name, factor in own.items():
                 summary["traces"][0][name] *= factor
 
-            with self.subTest(figure=name):
-                self.found(self.spoil_summary(change, weak_circles()), "traces[0]." + name)
+        expected = {f"joints[0].at_end.{name}" for name in moved} | {f"traces[0].at_peak.{name}" for name in moved}
+        expected |= {f"traces[0].{name}" for name in own}
+        for sound in (weak_cells(), weak_circles()):
+            with self.subTest(folder=sound.name):
+                self.assertLessEqual(expected, set(self.spoil_summary(change, sound)))
 
     def test_breaks_on_joints(self):
         def change(summary):

@@ -250,7 +250,7 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
         r = self.agrees(unloaded(), 380)
         cycles = r.summary["cycles"]
         self.assertEqual(cycles[0]["modulus"], r.summary["youngs_modulus"], "nothing broke or slid")
-        self.assertGreater(cycles[2]["damage"], 0.0)
+        self.assertNotEqual(cycles[2]["damage"], 0.0, "a bond had broken")
         self.assertLessEqual({f"cycles[2].{name}" for name in cycles[2]}, r.keys)
         loading = squeezed.replace("0.02", "0.01") + 'control = "lateral"\n'
         self.agrees(run("lateral", packing + area + strengths + cells + cohesive + loading + output), 350)
@@ -402,13 +402,12 @@ class FaultsAreFound(WrongJoints, WrongFiles, unittest.TestCase):
                 self.found(self.spoil_summary(change), ".".join(path))
 
     def test_figures_of_cycles(self):
-        for name in recounted(unloaded()).summary["cycles"][2]:
-
-            def change(summary, name=name):
+        def change(summary):
+            for name in summary["cycles"][2]:
                 summary["cycles"][2][name] *= 1.001
 
-            with self.subTest(figure=name):
-                self.assertEqual(self.spoil_summary(change, unloaded()), ["cycles[2]." + name])
+        names = recounted(unloaded()).summary["cycles"][2]
+        self.assertEqual(self.spoil_summary(change, unloaded()), sorted("cycles[2]." + name for name in names))
 
     def test_cells_measured_without_their_gaps(self):
         for name, off in (("cell_diameter", 1.01), ("cell_spread", 1.03)):
