@@ -7,9 +7,13 @@ from statistics import NormalDist
 
 import numpy as np
 
-from model import Points
+from model import Points, single
+from outlines import outset
 
 least_facing = 0.9  # minus the cosine between edges that face each other: those of a mesh lie parallel
+least_lap, flush = 0.01, 1e-9  # of the mean radius; of both: rounding of flat faces that lie flush
+facing_share = 1e-6  # of bond.thick: rounding; faces of an open joint that lie against each other
+parallel_within = 1e-6  # sine: those of one trace, but for the rounding of corners
 overhang = 0.05  # of bond.thick: gap at which corners of polygons are still bonded, if bond.gap is not given
 _all_bits = (1 << 64) - 1
 
@@ -78,19 +82,19 @@ def factors(results, ids_a, ids_b):
     return np.array([one(int(a), int(b)) for a, b in zip(ids_a, ids_b)])
 
 
-def outset(corners, by):
-    """A convex outline, counter-clockwise, with every edge moved outwards."""
-    along = np.roll(corners, -1, axis=0) - corners
-    along /= np.hypot(*along.T)[:, None]
-    out = np.stack([along[:, 1], -along[:, 0]], axis=1)
-    before = np.roll(out, 1, axis=0)
-    return corners + by * (before + out) / (1 + np.einsum("ij,ij->i", before, out))[:, None]
+@dataclass
+class Face:
+    """Where two bodies face each other, the one with the smaller id first."""
+
+    length: float  # m
+    distance: float  # m, of the centroids across it; of a platen from the middle of the gap
+    begin: np.ndarray  # along the edge of the first, in the middle of the gap
+    end: np.ndarray
+    parallel: bool  # both edges
 
 
 def face(model, i, j, gap):
-    """Length in which two bodies face each other and the distance of their centroids across it; None if nowhere.
-
-    @param i  the one with the smaller id"""
+    """None where they face each other nowhere. @param i  the one with the smaller id"""
     best = None
     outlines = [outset(model.centre[b] + model.outline[b, : model.corner_count[b]], gap / 2) for b in (i, j)]
     for k, a in enumerate(outlines[0]):
@@ -101,42 +105,65 @@ def face(model, i, j, gap):
             other = outlines[1][(m + 1) % len(outlines[1])] - b
             if to @ other > -least_facing * math.hypot(*other) or abs(np.cross(to, b + other / 2 - a)) > gap:
                 continue
-            length = min(long, to @ (b - a)) - max(0.0, to @ (b + other - a))
-            if length > 0 and (best is None or length > best[0]):
-                best = (length, b, other / math.hypot(*other))
+            start, stop = max(0.0, to @ (b + other - a)), min(long, to @ (b - a))
+            if stop > start and (best is None or stop - start > best[0]):
+                best = (stop - start, b, other / math.hypot(*other), a + start * to, a + stop * to, to)
     if best is None:
         return None
-    length, at, along = best  # of a platen, which is the second, its own line
-    if j >= model.count:
-        return length, abs(np.cross(along, model.centre[i] - at))
-    return length, math.dist(model.centre[i], model.centre[j])
+    length, at, along, begin, end, to = best  # of a platen, which is the second, its own line
+    held = j >= model.count
+    distance = abs(np.cross(along, model.centre[i] - at)) if held else math.dist(model.centre[i], model.centre[j])
+    return Face(length, distance, begin, end, abs(np.cross(to, along)) < parallel_within)
 
 
-def share_faces(model, p):
-    """Shares of bonded points: of the stiffness, and of the length that strengths in Pa act on, m."""
-    stiffness, length = p.share.copy(), model.lengths(p)
-    if not model.polygons:
-        return stiffness, length
-    by_pair = {}
+def faces_of(model, p):
+    """Of each pair of polygons with points among these, by its bodies, the smaller id first."""
+    found = {}
+    for pair, own in by_pairs(p).items() if model.polygons else ():
+        i, j = sorted(pair, key=lambda b: model.ids[b])
+        # Corners overhang: the least gap is that of the faces.
+        one = face(model, i, j, np.min(model.thick - p.overlap[own]))
+        if one is not None:
+            found[i, j] = one
+    return found
+
+
+def share_faces(model, p, faces):
+    """Sets the shares of stiffness of bonded points. @return of the length that strengths in Pa act on, m"""
+    flat = ~np.isnan(p.lap)
+    length, distance, count = np.where(flat, 1.0, model.lengths(p)), model.distances(p), np.ones(len(p.i))
+    own = by_pairs(p)
+    for pair, found in faces.items():
+        of_pair = own.get(frozenset(pair), [])
+        length[of_pair], distance[of_pair], count[of_pair] = found.length, found.distance, len(of_pair)
+    left, left_of_shear = model.across_joint(p, distance)
+    lap = np.where(flat, p.lap, 1.0)  # shares of flat faces are kept for a metre
+    p.share = single(length / distance / count * left) * lap
+    p.shear_share = p.share * single(np.sqrt(left_of_shear / left)) ** 2
+    return length / count * lap
+
+
+def faces_on_traces(model, p, faces):
+    """Middle (m) and length of each pair's face that is listed as on a trace, by their ids."""
+    found = {}
+    for pair, own in by_pairs(p).items():
+        ids = frozenset(model.ids[b] for b in pair)
+        if ids in model.joints.pairs:
+            one = faces.get(tuple(sorted(pair, key=lambda b: model.ids[b])))
+            found[ids] = p.position[own].mean(axis=0), p.lap[own].sum() if one is None else one.length
+    return found
+
+
+def by_pairs(p):
+    """Numbers of the points of each pair of bodies."""
+    pairs = {}
     for k, pair in enumerate(zip(p.i.tolist(), p.j.tolist())):
-        by_pair.setdefault(frozenset(pair), []).append(k)
-    for own in by_pair.values():
-        # Corners overhang: the least gap is that of the faces. Edges lie over those of the body with the smaller id.
-        i, j = sorted((int(p.i[own[0]]), int(p.j[own[0]])), key=lambda b: model.ids[b])
-        found = face(model, i, j, np.min(model.thick - p.overlap[own]))
-        if found is not None:
-            stiffness[own] = found[0] / found[1] / len(own)
-            length[own] = found[0] / len(own)
-    return stiffness, length
-
-
-def single(values):
-    """As kept in single precision."""
-    return values.astype(np.float32).astype(float)
+        pairs.setdefault(frozenset(pair), []).append(k)
+    return pairs
 
 
 def make_bonds(model, points):
-    """Bonded points of the specimen at rest, among all that come near. The model learns their shares."""
+    """Bonded points of the specimen at rest, among all that come near. The model learns what these keep for good."""
     case = model.results.key
     gap = np.zeros(len(points.i))
     if model.coulomb and model.polygons:
@@ -146,12 +173,27 @@ def make_bonds(model, points):
         radius = np.zeros(len(model.mass))
         radius[model.circle_body] = model.circle_radius
         gap = np.where(on_platen, 0.0, case("bond", "range", 0.0) * (radius[points.i] + radius[points.j]) / 2)
+    flat = ~np.isnan(points.lap)
+    if flat.any():
+        radii = radius[points.i] + radius[points.j]
+        gap = np.where(flat, np.where(points.lap > least_lap * radii / 2, flush * radii, -radii), gap)
     p = points.chosen((points.overlap + gap > 0) & ~(on_platen & model.frictional))
-    length = np.ones(len(p.i))
+    ids, length = np.array(model.ids), np.ones(len(p.i))
+    faces = faces_of(model, p) if model.by_area or model.joints.traces else {}
+    model.learn_faces(faces)
+    if model.polygons:
+        p.trace = np.array([model.trace_of(i, j) for i, j in zip(p.i.tolist(), p.j.tolist())], int)
+    is_open = model.joints.of("bonded", p.trace, 1.0) == 0
+    # Corners that overhang are as contacts met later.
+    facing = ~is_open | ~np.isnan(p.lap) | (p.overlap >= -facing_share * model.thick)
+    p, is_open, length = p.chosen(facing), is_open[facing], length[facing]
     if model.by_area:
-        p.share, length = share_faces(model, p)
-        p.share = single(p.share)
-        model.remember_shares(p)
+        length = share_faces(model, p, faces)
+    p.rest = np.where(is_open, p.overlap + model.joints.of("aperture", p.trace, 0.0), model.rest_after(p.overlap))
+    model.keep(p)
+    model.on_traces = faces_on_traces(model, p, faces)
+    model.closed = p.chosen(is_open & (model.sense > 0) & (model.joints.of("aperture", p.trace, 0.0) == 0))
+    p, length = p.chosen(~is_open), length[~is_open]
     held = np.zeros(len(p.i), bool)
     if case("loading", "platens") == "glued":
         depth = case("loading", "grip", 0.0) * model.height
@@ -160,10 +202,10 @@ def make_bonds(model, points):
     tension = model.normal_stiffness(p) * p.overlap
     if not model.coulomb:
         return Bonds(**p.fields(), held=held, tensile=tension, cohesion=model.friction(p) * tension)
-    ids = np.array(model.ids)
     each = single(length * factors(model.results, ids[p.i], ids[p.j]))
     given = {}
     for name, factor in (("tensile_strength", "tensile_factor"), ("cohesion", "cohesion_factor")):
         times = case("bond", factor)
-        given[name] = each * (model.weaker(name, p) if times is None else times * tension.mean())
+        rock = model.weaker(name, p) if times is None else np.full(len(each), times * tension.mean())
+        given[name] = each * model.strength(name, p, rock)
     return Bonds(**p.fields(), held=held, tensile=given["tensile_strength"], cohesion=given["cohesion"])

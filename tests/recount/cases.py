@@ -100,3 +100,22 @@ def scattered(distribution, cv):
 
 factors = "tensile_factor = 1.0\ncohesion_factor = 3.0\nrange = 0.05\n" + scattered("lognormal", 0.3)
 circles_every_step = rock[len(packing) :] + cohesive + factors + squeezed + "axial_strain_rate = 0.3\n"
+
+# Joints at 60 degrees through the middle of 80 particles, 0.2556 m wide, and of 16 to 24.
+joint = '[joints]\nseed = 1\n[[joint_set]]\nname = "plane"\nangle = 60.0\nspacing = 10.0\nthrough = [0.128, 0.256]\n'
+gaps = joint.replace("spacing = 10.0", 'length = "gaps"\nlength_mean = 0.1\ngap_mean = 0.1\nspacing = 10.0')
+joint_of_few = joint.replace("0.128, 0.256", "0.07, 0.14")
+weak = """tensile_strength = 2.0e6
+cohesion = 6.0e6
+friction_angle = 30.0
+residual_friction_angle = 20.0
+normal_stiffness = 1.0e12
+shear_stiffness = 4.0e11
+"""
+weaker = "strength_factor = 0.05\nresidual_friction_angle = 15.0\n"
+open_faces = "bonded = false\nfriction_angle = 25.0\n"
+dilating = "dilation_angle = 5.0\ndilation_slip = 2e-4\n"
+wide_gaps = cells.replace("1e-3", "5e-3")  # slips stay below them
+jointed = packing + area + strengths
+touching = cohesive + "range = 0.05\n"  # circles
+a_row_a_step = '[output]\nframe_precision = "double"\nframes = 60000\ncurve_rows = 60000\n'

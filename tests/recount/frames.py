@@ -15,7 +15,7 @@ touching_floor = 1e-14  # of the height: what rests on frictional platens touche
 least_sliding_force = 1e-9  # of the mean strength
 
 
-def recount_places(r, model, rows, what, e):
+def recount_places(r, model, bonds, rows, what, e):
     """Places and orientations of events or slips against the bodies in the frames before and after each.
 
     @param what  their name  @param e  their table"""
@@ -25,7 +25,8 @@ def recount_places(r, model, rows, what, e):
         times.append(float(p["time"][0]))
         places.append(bodies_of(model, p)[1])
     circle = {b: radius for b, radius in zip(model.circle_body, model.circle_radius)}
-    off, apart, turned_by, allowed, allowed_turn = [], [], [], [], []
+    across = {frozenset((i, j)): normal for i, j, lap, normal in zip(bonds.i, bonds.j, bonds.lap, bonds.normal) if lap > 0}
+    off, turned_by, allowed, allowed_turn = [], [], [], []
     for k in range(len(e["time"])):
         after = min(int(np.searchsorted(times, e["time"][k])), len(times) - 1)
         before = max(after - 1, 0)
@@ -36,25 +37,25 @@ def recount_places(r, model, rows, what, e):
             if b >= model.count:  # platens: their face
                 face = places[before][b, 1] + (1 if b == model.bottom else -1) * platen_depth * model.height / 2
                 off.append(abs(at[1] - face))
-                apart.append(0.0)
                 allowed.append(moved + 2 * model.thick)
                 continue
             distance = math.dist(at, places[before][b])
-            if b in circle:
+            if frozenset((i, j)) in across:  # flat faces: midway between the centres
+                off.append(distance - math.dist(places[before][i], places[before][j]) / 2)
+            elif b in circle:
                 off.append(distance - circle[b])
-                apart.append(0.0)
             else:
                 off.append(max(distance - model.reach[b], 0.0))
-                apart.append(0.0)
             allowed.append(moved + 2 * model.thick + model.reach_of_bonds)
         if not model.polygons:
             way = places[before][j] - places[before][i]
             if max(i, j) >= model.count:
                 way = np.array([0.0, 1.0])
+            way = across.get(frozenset((i, j)), way)
             difference = (e["orientation"][k] - math.atan2(way[1], way[0]) + math.pi / 2) % math.pi - math.pi / 2
             turned_by.append(difference)
             allowed_turn.append(1e-9 + 2 * moved / model.circle_radius.min())
-    r.rows(f"{what}: place on the surfaces of both bodies", off, apart, allowed)
+    r.rows(f"{what}: place on the surfaces of both bodies", off, np.zeros(len(off)), allowed)
     if turned_by:
         r.rows(f"{what}: orientation along the centres", turned_by, np.zeros(len(turned_by)), allowed_turn)
     half = np.abs(e["orientation"]) <= math.pi / 2
@@ -89,8 +90,10 @@ def match(model, points, frame, first_frame, bonds):
             of_bond[k] = m
             chosen[k] = key_of.get((bonds.i[m], bonds.element[m], bonds.j[m]), -1)
     used, floor = set(chosen), touching_floor * model.height
+    moved = forces_by_history(model, points, np.zeros(len(points.i), bool))
     for k in np.flatnonzero(names["state"] == 4):
-        own = [m for m in by_pair.get(frozenset((i[k], j[k])), []) if points.overlap[m] > -floor and m not in used]
+        near = by_pair.get(frozenset((i[k], j[k])), [])
+        own = [m for m in near if (points.overlap[m] > points.rest[m] - floor or moved[m]) and m not in used]
         if own:
             chosen[k] = min(own, key=lambda m: (points.i[m] != i[k], math.dist(points.position[m], places[k])))
             used.add(chosen[k])
@@ -123,11 +126,6 @@ def relative_motion(q, places, velocity, spin):
     return arm_i, arm_j, way
 
 
-def rest_after(model, overlap):
-    """Overlap without force of a bond of this δ0 once it is broken, m."""
-    return np.maximum(overlap, 0.0) if model.coulomb else np.zeros_like(overlap)
-
-
 def force_scale(model, bonds):
     """N, beside which rounding is measured."""
     return bonds.tensile.mean()
@@ -138,6 +136,36 @@ def sliding_scale(model, bonds):
     if not model.coulomb:
         return np.mean(model.normal_stiffness(bonds) * bonds.overlap)
     return 0.0 if np.all(bonds.held) else bonds.tensile[~bonds.held].mean()
+
+
+def forces_by_history(model, q, bonded):
+    """Points whose overlap without force has moved: of flat faces, which turn, and of joints that dilate as they slide."""
+    dilates = model.joints.of("dilation_angle", q.trace, 0.0) > 0
+    return ~np.isnan(q.lap) | (dilates & ~bonded)
+
+
+def recount_by_history(r, model, bonds, label, q, bonded, angle, stated, normal, kn, places):
+    """What is known of these forces. @param stated, normal  N, that of the file and that without any motion of the rest"""
+    flat, found = ~np.isnan(q.lap), stated - normal
+    turned_only, slid_open = flat & bonded, ~flat & forces_by_history(model, q, bonded)
+    if turned_only.any():
+        # What both circles have turned by closes their faces, to the first order of their motion.
+        tangent = turned(q.normal)
+        offset, before = (dot(at[q.j] - at[q.i], tangent) for at in (places, model.centre))
+        # They may have turned there and back: as far as any of them.
+        room = np.abs(offset - before)[turned_only].max() * (np.abs(angle[q.i]) + np.abs(angle[q.j]))[turned_only].max()
+        closed = kn * before * (angle[q.i] + angle[q.j]) / 2
+        r.rows(label + "normal_force of bonded flat faces, by their turn", found[turned_only], -closed[turned_only],
+               (kn * (room + 1e-15 * model.height))[turned_only])
+    if slid_open.any():
+        least, rise, slip = (values[slid_open] for values in (
+            found, np.tan(np.radians(model.joints.of("dilation_angle", q.trace, 0.0))),
+            model.joints.of("dilation_slip", q.trace, math.inf)))
+        beyond = np.maximum(0.0, np.maximum(-least, least - kn[slid_open] * rise * slip))
+        r.rows(label + "normal_force within what dilation can add", beyond, 0 * beyond, rounding * force_scale(model, bonds))
+        r.leave("frames: normal_force of faces that dilate", "how far they have slid is in no frame")
+    if np.any(flat & ~bonded):
+        r.leave("frames: normal_force of flat faces without a bond", "what their circles have turned by as they touched is in no frame")
 
 
 def recount_frame(r, model, bonds, frame, first, row):
@@ -151,13 +179,16 @@ def recount_frame(r, model, bonds, frame, first, row):
     chosen, of_bond = match(model, points, frame, first, bonds)
     state = frame.contacts["state"]
     r.compare(label + "contacts without a partner", int(np.sum((chosen < 0) & ((state < 2) | (state > 2)))), 0, 0)
-    bonded_once = set(bonds.keys())
-    loose = np.array([d for key, d in zip(points.keys(), points.overlap.tolist()) if key not in bonded_once])
+    # Whether faces touch whose overlap without force has moved is in the history alone.
+    moved = forces_by_history(model, points, np.zeros(len(points.i), bool))
+    known = (chosen < 0) | ~moved[chosen]
+    bonded_once, beyond = set(bonds.keys()), points.overlap - points.rest
+    loose = np.array([d for key, d, own in zip(points.keys(), beyond.tolist(), moved) if not own and key not in bonded_once])
     by_rounding = int(np.sum(np.abs(loose) <= touching_floor * model.height)) if model.frictional else 0
-    r.compare(label + "contacts without a bond", int(np.sum(state == 4)), int(np.sum(loose > 0)), by_rounding)
-    parted = np.flatnonzero((chosen >= 0) & ((state == 2) | (state == 3)))
-    beyond = points.overlap[chosen[parted]] - rest_after(model, bonds.overlap[of_bond[parted]])
-    r.compare(label + "broken bonds that touch again", int(np.sum(state == 3)), int(np.sum(beyond > 0)),
+    r.compare(label + "contacts without a bond", int(np.sum((state == 4) & known)), int(np.sum(loose > 0)), by_rounding)
+    parted = np.flatnonzero((chosen >= 0) & ((state == 2) | (state == 3)) & known)
+    beyond = points.overlap[chosen[parted]] - model.rest_after(bonds.overlap[of_bond[parted]])
+    r.compare(label + "broken bonds that touch again", int(np.sum((state == 3) & known)), int(np.sum(beyond > 0)),
               int(np.sum(np.abs(beyond) <= 2e-15 * model.height)))
     if model.coulomb or np.any(bonds.held):
         sticking = model.coulomb | bonds.held[of_bond[state == 1]]
@@ -168,11 +199,17 @@ def recount_frame(r, model, bonds, frame, first, row):
     q = points.chosen(chosen[acting])
     bond = of_bond[acting]
     bonded = (bond >= 0) & (state[acting] < 2)
-    rest = np.where(bonded, bonds.overlap[bond], np.where(bond >= 0, rest_after(model, bonds.overlap[bond]), 0.0))
+    for name in ("share", "shear_share"):  # laps of flat faces follow once they are not bonded
+        setattr(q, name, np.where(bonded, getattr(bonds, name)[bond], getattr(q, name)))
+    rest = np.where(bonded, bonds.overlap[bond], np.where(bond >= 0, model.rest_after(bonds.overlap[bond]), q.rest))
     kn, ks = model.normal_stiffness(q), model.shear_stiffness(q)
     tension = force_scale(model, bonds)
     normal = kn * (q.overlap - rest)
-    r.rows(label + "normal_force", frame.contacts["normal_force"][acting], normal, rounding * tension)
+    stated = np.asarray(frame.contacts["normal_force"])[acting]
+    by_history = forces_by_history(model, q, bonded)
+    recount_by_history(r, model, bonds, label, q, bonded, angle, stated, normal, kn, places)
+    normal = np.where(by_history, stated, normal)
+    r.rows(label + "normal_force", stated, normal, rounding * tension)
     shear = np.asarray(frame.contacts["shear_force"])[acting].copy()
     # The file's shear force acts on its body_i: along the same line on ours, whichever of the two we call i.
     if model.coulomb:
@@ -243,7 +280,7 @@ def recount_frame(r, model, bonds, frame, first, row):
     broken = int(np.sum((state == 2) | (state == 3)))
     by_events = int(np.sum(r.events["time"] <= frame.time * (1 + 1e-12))) if len(r.events["time"]) else 0
     r.compare(label + "broken bonds of events.csv", broken, by_events, 0)
-    for name in ("time", "energy", "strength", "orientation", "body_i", "body_j"):
+    for name in ("time", "energy", "strength", "orientation", "body_i", "body_j", *(("trace",) if model.joints.traces else ())):
         drawn = frame.cracks.get("polygon time" if name == "time" else name, [])  # the moment's own comes first
         r.rows(label + f"cracks: {name} of events.csv", drawn, r.events[name][:by_events], 0)
     shears = [float(mode == "shear") for mode in r.events["mode"][:by_events]]
@@ -289,7 +326,9 @@ def recount_frame(r, model, bonds, frame, first, row):
         arm = np.maximum(np.hypot(*arm_i.T), np.hypot(*arm_j.T))
         apart = np.finfo(float).eps * c["step"][row] * arm * kn
         unsure = counted & sticks & (np.abs(shear) >= limit - apart)
-        r.compare(label + "curve: points_sliding", c["points_sliding"][row], int(np.sum(slides & counted)), breaking + int(np.sum(unsure)))
+        # Before the first step nothing moves, and nothing slides.
+        sliding = int(np.sum(slides & counted)) if row > 0 else 0
+        r.compare(label + "curve: points_sliding", c["points_sliding"][row], sliding, breaking + int(np.sum(unsure)))
     slid = int(np.sum(state == 1)) + int(np.sum(np.asarray(r.events["slid"])[:by_events]))
     r.compare(label + "curve: bonds_slid", c["bonds_slid"][row], slid, 0)
     if confined:

@@ -4,10 +4,11 @@
 Follows every contact point from frame to frame by solver/MODEL.md 4, 5 and 8; `r`, `model` and `bonds` as in frames.py."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
-from frames import bodies_of, match, relative_motion, rest_after, touching_floor
+from frames import bodies_of, match, relative_motion, touching_floor
 from model import dot, rounding, turned
 
 # Relative, of numbers kept in single precision: forces of events by back-tension, dashpots' of the step before.
@@ -23,6 +24,25 @@ def holds_every_step(r, rows):
     )
 
 
+class Values(NamedTuple):
+    """Of a contact point in a frame: m, m/s, N/m, N s/m."""
+
+    overlap: float
+    closing: float
+    slip: float
+    kn: float
+    ks: float
+    friction: float
+    cn: float
+    cs: float
+    rest: float  # overlap without force of one that is not bonded, before it slides
+    dilation: float  # tangent
+    dilation_slip: float
+    lap: float  # of flat faces, else nan
+    turning: float  # m, of the step
+    aperture: float
+
+
 class Point:
     """A contact point: shear spring, dashpots, and what its bond remembers."""
 
@@ -31,6 +51,7 @@ class Point:
         self.rest = rest  # overlap without force, m
         self.shear = self.normal_dashpot = self.shear_dashpot = 0.0
         self.slid = self.in_shear = False
+        self.lap = math.nan  # m, of flat faces without a bond
         self.failing = (0.0, 0.0)  # N, forces that events.csv states
 
 
@@ -58,10 +79,15 @@ def moment(model, r, bonds, row, first, dt):
     # w^2/2 arm, since places are those at the end.
     half = dt / 2
     slip = dot(way, tangent) + half * (spin[q.i] ** 2 * dot(arm_i, tangent) - spin[q.j] ** 2 * dot(arm_j, tangent))
+    # What the turning of two circles closes their flat faces by, at the middle of the step.
+    offset = dot(places[q.j] - places[q.i], tangent)
+    turning = half * (offset + half * dot(velocity[q.i] - velocity[q.j], tangent)) * (spin[q.i] + spin[q.j])
+    joint = [model.joints.of(name, q.trace, 0.0) for name in ("dilation_angle", "aperture")]
     columns = (q.overlap, dot(way, q.normal), slip, model.normal_stiffness(q),
                model.shear_stiffness(q), model.residual_friction(q) if model.coulomb else model.friction(q),
-               *model.dashpots(q))
-    return frame, dict(zip(q.keys(), zip(*(column.tolist() for column in columns))))
+               *model.dashpots(q), q.rest, np.tan(np.radians(joint[0])), model.joints.of("dilation_slip", q.trace, math.inf),
+               q.lap, turning, joint[1])
+    return frame, dict(zip(q.keys(), (Values(*row) for row in zip(*(column.tolist() for column in columns)))))
 
 
 def share_to_limit(before, now):
@@ -77,20 +103,36 @@ class Follower:
     def __init__(self, model, bonds):
         self.coulomb = model.coulomb
         self.touching = {key: Point(k, rest) for k, (key, rest) in enumerate(zip(bonds.keys(), bonds.overlap.tolist()))}
-        self.rest_after = dict(zip(bonds.keys(), rest_after(model, bonds.overlap).tolist()))
+        self.rest_after = dict(zip(bonds.keys(), model.rest_after(bonds.overlap).tolist()))
+        self.bonded = list(zip(*(column.tolist() for column in (
+            model.normal_stiffness(bonds), model.shear_stiffness(bonds), *model.dashpots(bonds)))))
+        self.rests = {}  # of joints' faces that have slid or turned, m
+        self.slid = {}  # m, of faces that dilate
+        self.laps, self.met = bonds.lap.tolist(), model.met
         self.held = bonds.held.tolist()
         self.strength = list(zip(bonds.tensile.tolist(), bonds.cohesion.tolist(), model.friction(bonds).tolist()))
         self.broken, self.breaks = set(), []
 
     def follow(self, step, key, values, dt):
         """One point through one step. @return friction and dashpot loss, J"""
-        overlap, closing, slip, kn, ks, friction, cn, cs = values
+        flat = not math.isnan(values.lap)
         point = self.touching.get(key)
+        lost = 0.0
+        if flat and point is not None and point.bond is not None:
+            kn, ks, cn, cs = self.bonded[point.bond]  # their lap stays
+            values = values._replace(kn=kn, ks=ks, cn=cn, cs=cs)
+        elif point is not None and point.bond is None and values.dilation > 0:
+            lost = self._dilate(key, point, values, dt)
+        if flat:
+            self._follow_faces(key, point, values)
+        overlap, closing, slip, kn, ks, friction, cn, cs = values[:8]
         if point is None:
-            rest = self.rest_after[key] if key in self.broken else 0.0
-            if overlap <= rest:
+            rest = self.rests.get(key, values.rest)
+            if overlap <= rest or (flat and values.lap <= 0):
+                self._rest_apart(key, values, rest)
                 return 0.0, 0.0
             point = self.touching[key] = Point(rest=rest)
+            point.lap = values.lap
         trial = point.shear - ks * slip * dt
         opening = overlap - point.rest
         holds = point.bond is not None and self.held[point.bond]
@@ -105,12 +147,13 @@ class Follower:
                 energy = kn / 2 * normal + (shear / 2 / ks if ks > 0 else 0.0)
                 self._part(step, key, energy, point)
                 return 0.0, self._release(key, point, closing, slip, dt)
-        elif point.bond is None and opening <= 0:
-            return point.shear * trial / 2 / ks if ks > 0 else 0.0, self._release(key, point, closing, slip, dt)
+        elif point.bond is None and (opening <= 0 or (flat and values.lap <= 0)):
+            self._rest_apart(key, values, point.rest)
+            return lost + (point.shear * trial / 2 / ks if ks > 0 else 0.0), self._release(key, point, closing, slip, dt)
         limit = math.inf if holds else friction * kn * (opening if self.coulomb else overlap)
         slides = abs(trial) > limit or limit <= 0
         shear = math.copysign(limit, trial) if slides else trial
-        lost = (point.shear + shear) / 2 * (trial - shear) / ks if slides and ks > 0 else 0.0
+        lost += (point.shear + shear) / 2 * (trial - shear) / ks if slides and ks > 0 else 0.0
         normal_dashpot, shear_dashpot = cn * closing, 0.0 if slides else cs * slip
         dashpot = dt / 2 * ((point.normal_dashpot + normal_dashpot) * closing + (point.shear_dashpot + shear_dashpot) * slip)
         point.shear, point.normal_dashpot, point.shear_dashpot = shear, normal_dashpot, shear_dashpot
@@ -120,6 +163,32 @@ class Follower:
             if math.hypot(normal, shear) >= kn * point.rest / 2:
                 point.failing = (normal, shear)
         return lost, dashpot
+
+    def _dilate(self, key, point, values, dt):
+        """Lets a face that slides open (solver/MODEL.md 5.3). @return J, that comes out of what the slider takes"""
+        opening, left = values.overlap - point.rest, values.dilation_slip - self.slid.get(key, 0.0)
+        excess = abs(point.shear - values.ks * values.slip * dt) - values.friction * values.kn * opening
+        if opening <= 0 or left <= 0 or excess <= 0:
+            return 0.0
+        way = min(left, excess / (values.ks + values.friction * values.kn * values.dilation))
+        rise = way * values.dilation
+        point.rest -= rise
+        self.slid[key] = self.slid.get(key, 0.0) + way
+        return -values.kn / 2 * (max(0.0, opening - values.closing * dt) + opening + rise) * rise
+
+    def _follow_faces(self, key, point, values):
+        """Flat faces: closed by the turn of their circles; without a bond their lap follows (solver/MODEL.md 5.4)."""
+        if point is None:
+            return
+        point.rest += values.turning
+        if point.bond is None and values.lap > 0:
+            point.shear *= values.lap / point.lap
+            point.lap = values.lap
+
+    def _rest_apart(self, key, values, rest):
+        """Faces that part meet again there; flat ones that have met later, and are open wider, where they first did."""
+        stays = math.isnan(values.lap) or self.met(key)
+        self.rests[key] = rest if stays else max(values.aperture, min(rest, values.overlap))
 
     def _part(self, step, key, energy, point):
         self.broken.add(key)
@@ -139,21 +208,23 @@ class Follower:
 
     def _break_coulomb(self, step, key, point, values, dt):
         """What is left goes on as a contact without a bond. @return dashpot loss, J"""
-        overlap, closing, slip, kn, ks, friction, cn, _ = values
+        overlap, closing, slip, kn, ks, friction, cn, _ = values[:8]
         opening = overlap - point.rest
         before = opening - closing * dt
         trial = point.shear - ks * slip * dt
         was, now = self._slack(point, kn * before, point.shear), self._slack(point, kn * opening, trial)
         point.in_shear = share_to_limit(was[1], now[1]) < share_to_limit(was[0], now[0])
         point.failing = (kn * opening, trial)
-        left = max(0.0, overlap - self.rest_after[key])
+        rest = self.rests[key] = max(point.rest, 0.0)
+        left = max(0.0, overlap - rest)
         shear = math.copysign(min(abs(trial), friction * kn * left), trial)
         normal, slider = kn / 2 * (before + left) * (opening - left), (point.shear + shear) / 2 * (trial - shear) / ks
         energy = max(0.0, normal) + max(0.0, slider)
         self._part(step, key, energy, point)
         dashpot = self._release(key, point, closing, slip, dt)
         if left > 0:
-            after = self.touching[key] = Point(rest=self.rest_after[key])
+            after = self.touching[key] = Point(rest=rest)
+            after.lap = self.laps[point.bond]
             after.shear, after.normal_dashpot = shear, cn * closing
             dashpot += dt / 2 * after.normal_dashpot * closing
         return dashpot

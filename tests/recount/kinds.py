@@ -71,7 +71,7 @@ def recount_kind(r):
 def recount_box(r, height, length, force, spring):
     """@param force N, that presses the upper half box down  @param spring N/m, by which it grows with the rise"""
     c = r.curve
-    rise, way = c["lateral_strain"] * height, c["axial_strain"] * length
+    rise = c["lateral_strain"] * height
     r.key("dilation_end", rise[-1])
     if spring > 0.0:
         r.key("normal_stress_end", (force + spring * rise[-1]) / length)
@@ -84,7 +84,8 @@ def recount_box(r, height, length, force, spring):
         r.key("residual_stress", c["axial_stress"][c["axial_strain"] >= 0.9 * c["axial_strain"][-1]].mean())
     if r.peak is None:
         return
-    at = c["axial_strain"][r.peak]
+    at, c = c["axial_strain"][r.peak], r.judged
     near = np.abs(c["axial_strain"] - at) <= 0.1 * at
     if near.sum() >= 3:
-        r.key("dilation_angle_at_peak", math.degrees(math.atan(np.polyfit(way[near], rise[near], 1)[0])), floor=1e-6)
+        slope = np.polyfit(c["axial_strain"][near] * length, c["lateral_strain"][near] * height, 1)[0]
+        r.key("dilation_angle_at_peak", math.degrees(math.atan(slope)), floor=1e-6)

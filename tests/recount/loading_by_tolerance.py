@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from cycles import first_share
 from model import dot, turned
 
 looks_a_transit = 20
@@ -51,6 +52,7 @@ def recount_start(r, model, bonds, solution, modulus, elastic):
     order = np.array([model.index[n] for n in p["id"]])
     if p["time"][0] > 0:
         return
+    limit *= first_share(r.results, limit, first, transit, modulus)
     expected = limit * motion
     kept = np.concatenate([elastic, [True, True]])[order]
     size = np.abs(expected[:, :2]).max()

@@ -21,13 +21,13 @@ def first(holds):
     return int(found[0]) if len(found) else None
 
 
-def recount_moduli(r, strain, stress, lateral, sense):
-    """Of ISRM's windows and beyond the peak. Columns of all rows."""
-    peak, rising = stress[r.peak], stress[: r.peak + 1]
+def recount_moduli(r, at_peak, strain, stress, lateral, sense):
+    """Of ISRM's windows and beyond the peak. Columns of all judged rows. @param at_peak  row of the peak among them"""
+    peak, rising = stress[at_peak], stress[: at_peak + 1]
     windows = []
     for k in range(71):
         begin, end = first(rising >= k / 100 * peak), first(rising >= (k / 100 + 0.3) * peak)
-        windows.append(slice(begin, (r.peak if end is None else end) + 1))
+        windows.append(slice(begin, (at_peak if end is None else end) + 1))
     windows = [w for w in windows if w.stop - w.start >= 3]
     left = [regression(strain[w], stress[w])[1] for w in windows]
     # Of windows that a line fits alike but for rounding either may be the best.
@@ -41,10 +41,10 @@ def recount_moduli(r, strain, stress, lateral, sense):
     shortening = strain[half] - strain[0]
     r.key("secant_modulus_50", (stress[half] - stress[0]) / shortening if shortening > 0 else math.nan)
     r.key("secant_50_poissons_ratio", sense * (lateral[half] - lateral[0]) / shortening if shortening > 0 else math.nan, floor=1e-15)
-    begin, end = first(stress[r.peak :] <= 0.9 * peak), first(stress[r.peak :] <= 0.6 * peak)
+    begin, end = first(stress[at_peak :] <= 0.9 * peak), first(stress[at_peak :] <= 0.6 * peak)
     fall = math.nan
     if end is not None and r.summary["failed"]:
-        window = slice(r.peak + begin, r.peak + end + 1)
+        window = slice(at_peak + begin, at_peak + end + 1)
         fall = regression(strain[window], stress[window])[0]
         if not fall < 0:
             fall = math.nan
@@ -129,14 +129,14 @@ def recount_measures(r):
     recount_energies(r)
     if r.peak is None:
         return
-    c, compressed = r.curve, r.summary["kind"] != "tension"
+    c, at_peak, compressed = r.judged, r.peak_judged, r.summary["kind"] != "tension"
     columns = [c[name] for name in ("axial_strain", "axial_stress", "lateral_strain")]
-    recount_moduli(r, *columns, 1.0 if compressed else -1.0)
+    recount_moduli(r, at_peak, *columns, 1.0 if compressed else -1.0)
     if compressed:
-        recount_thresholds(r, *(column[: r.peak + 1] for column in (*columns, c["bonds_broken"])))
+        recount_thresholds(r, *(column[: at_peak + 1] for column in (*columns, c["bonds_broken"])))
 
 
-def recount_rose(r, model):
+def recount_rose(r, model, bonds):
     """Directions of the cracks between particles; lengths where all are circles, whose faces are as long as the smaller
     one is wide."""
     e, s = r.events, r.summary["crack_rose"]
@@ -146,6 +146,7 @@ def recount_rose(r, model):
     shear = np.array([mode == "shear" for mode in e["mode"]], bool)
     pairs = [(model.index[int(a)], model.index[int(b)]) for a, b in zip(e["body_i"], e["body_j"])]
     inside = np.array([max(pair) < model.count for pair in pairs], bool)
+    laps = {frozenset((i, j)): lap for i, j, lap in zip(bonds.i, bonds.j, bonds.lap) if lap > 0}
     for name, own in (("tension_to_peak", ~shear & ~after), ("shear_to_peak", shear & ~after),
                       ("tension_after", ~shear & after), ("shear_after", shear & after)):
         own = np.flatnonzero(own & inside) if len(pairs) else np.array([], int)
@@ -153,7 +154,7 @@ def recount_rose(r, model):
         r.key(label + "cracks", len(own))
         if model.polygons:
             continue
-        length = np.array([2 * min(model.circle_radius[list(pairs[k])]) for k in own])
+        length = np.array([laps.get(frozenset(pairs[k]), 2 * min(model.circle_radius[list(pairs[k])])) for k in own])
         angle = np.asarray(e["orientation"])[own] + math.pi / 2
         r.key(label + "length", float(length.sum()))
         mean = np.sum(length * np.exp(2j * angle)) if len(own) else complex(math.nan, math.nan)

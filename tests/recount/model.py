@@ -8,6 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from flat_faces import lay_faces, meetings
+from joints import sides_of_bodies
+from outlines import clump_centre, outset, polygon_moments
+
 # Relative: sums of thousands of terms, and places known to 1e-16 of a specimen where overlaps are 1e-4 of it.
 rounding = 1e-9
 platen_width, platen_depth = 2.0, 0.05  # of the specimen's width and height (specimens/METHODS.md 3)
@@ -22,16 +26,20 @@ def turned(v):
     return np.stack([-v[:, 1], v[:, 0]], axis=1)
 
 
-def polygon_moments(corners):
-    """Area, centroid and polar second moment about the centroid of a polygon, by Green's theorem."""
-    shift = corners.mean(axis=0)
-    x, y = (corners - shift).T
-    u, v = np.roll(x, -1), np.roll(y, -1)
-    cross = x * v - u * y
-    area = cross.sum() / 2
-    cx, cy = ((x + u) * cross).sum() / (6 * area), ((y + v) * cross).sum() / (6 * area)
-    about_shift = (cross * (x * x + x * u + u * u + y * y + y * v + v * v)).sum() / 12
-    return area, shift + (cx, cy), about_shift - area * (cx * cx + cy * cy)
+def single(values):
+    """As kept in single precision."""
+    return values.astype(np.float32).astype(float)
+
+
+def unset(points):
+    """What Points have beyond the geometry, as of the rock in point units."""
+    count = len(points)
+    return np.ones(count), np.ones(count), np.full(count, math.nan), np.full(count, -1), np.zeros(count)
+
+
+def together(*parts):
+    """Points of several kinds as one table."""
+    return Points(*(np.concatenate([getattr(p, name) for p in parts]) for name in Points.__dataclass_fields__))
 
 
 @dataclass
@@ -45,6 +53,10 @@ class Points:
     normal: np.ndarray  # from i to j
     position: np.ndarray  # m
     share: np.ndarray  # of the material's stiffness, solver/MODEL.md 4.5; 1 in point units
+    shear_share: np.ndarray  # likewise of the shear stiffness, which joints change by itself
+    lap: np.ndarray  # m, of the flat faces of two circles; nan of other points
+    trace: np.ndarray  # across which it is, -1 through the rock
+    rest: np.ndarray  # m, overlap without force while it is not bonded and has not been
 
     def fields(self):
         return {name: getattr(self, name) for name in self.__dataclass_fields__}
@@ -59,7 +71,7 @@ class Points:
 class Model:
     """Bodies of the specimen in the order of their file, then the lower and the upper platen."""
 
-    def __init__(self, results):
+    def __init__(self, results, joints):
         self.results = results
         deck = results.specimen
         self.deck = deck
@@ -84,7 +96,9 @@ class Model:
         self.mesh_gap = 2 * inset if inset else results.key("mesh", "thick", deck.thick)
         self.thick = results.summary["bond_thick"] if not self.polygons else results.key("bond", "thick", self.mesh_gap)
         self.reach_of_bonds = self._reach_of_bonds()
-        self._bonded_shares = {}
+        self._kept = {}  # of points that were bonded or open from the start: share, shear share, trace, rest
+        self.joints = joints
+        self.sides, self.flat_faces, self.parted = {}, [], set()
         self.frictional = results.key("loading", "platens") == "frictional"
         self.sense = -1.0 if results.key("loading", "kind") == "tension" else 1.0
         largest = max(b.id for b in deck.bodies)
@@ -154,8 +168,7 @@ class Model:
         shapes = [(b.circles, b.corners) for b in self.deck.bodies] + [(None, c) for c in self.platen_corners]
         for k, (circles, corners) in enumerate(shapes):
             if circles is not None:
-                a = math.pi * circles[:, 2] ** 2
-                c = (a[:, None] * circles[:, :2]).sum(axis=0) / a.sum() if len(a) > 1 else circles[0, :2]
+                a, c = math.pi * circles[:, 2] ** 2, clump_centre(circles)
                 d2 = ((circles[:, :2] - c) ** 2).sum(axis=1)
                 area.append(a.sum())
                 inertia.append((a * (circles[:, 2] ** 2 / 2 + d2)).sum())
@@ -200,22 +213,39 @@ class Model:
                 value = np.where(((a == c) & (b == d)) | ((a == d) & (b == c)), table[name], value)
         return value
 
+    def _whole(self, name, p):
+        """Stiffness of a pair of materials, before shares."""
+        return self._overridden(name, p, self._series(*self._pair(name, p.i, p.j)))
+
     def normal_stiffness(self, p):
-        stiffness = self._series(*self._pair("normal_stiffness", p.i, p.j))
-        return self._overridden("normal_stiffness", p, stiffness) * p.share
+        return self._whole("normal_stiffness", p) * p.share
 
     def shear_stiffness(self, p):
-        return self._overridden("shear_stiffness", p, self._series(*self._pair("shear_stiffness", p.i, p.j))) * p.share
+        return self._whole("shear_stiffness", p) * p.shear_share
 
     def friction(self, p):
         return np.tan(np.radians(self._friction_angle(p)))
 
     def residual_friction(self, p):
         """Of contacts without a bond; a residual angle is at most the pair's own."""
-        return np.tan(np.radians(np.minimum(self.weaker("residual_friction_angle", p), self._friction_angle(p))))
+        angle = self.joints.of("friction_angle", p.trace, self.weaker("residual_friction_angle", p))
+        angle = self.joints.of("residual_friction_angle", p.trace, angle)
+        return np.tan(np.radians(np.minimum(angle, self._friction_angle(p))))
 
     def _friction_angle(self, p):
-        return self.weaker("friction_angle", p)
+        return self.joints.of("friction_angle", p.trace, self.weaker("friction_angle", p))
+
+    def strength(self, name, p, rock):
+        """Of a joint, where it has one of its own or a factor. @param rock  tensile_strength or cohesion without it"""
+        return self.joints.of(name, p.trace, self.joints.of("strength_factor", p.trace, 1.0) * rock)
+
+    def across_joint(self, p, distance):
+        """Shares of stiffness left in series with a joint's. @param distance  m, over which the face's own acts"""
+        left = []
+        for name in ("normal_stiffness", "shear_stiffness"):
+            own = self.joints.of(name, p.trace, math.inf)
+            left.append(1 / (1 + self._whole(name, p) / (own * distance)))
+        return left
 
     def weaker(self, name, p):
         """Of two materials, unless a table of the pair states it."""
@@ -226,7 +256,12 @@ class Model:
         (h_i, h_j), (k_i, k_j) = self._pair("ratio", p.i, p.j), self._pair(name, p.i, p.j)
         term = self._series(2 * h_i * np.sqrt(k_i), 2 * h_j * np.sqrt(k_j))
         own = self._overridden(name, p, np.full(len(p.i), np.nan))
-        return np.where(np.isnan(own), term, 2 * self._series(h_i, h_j) * np.sqrt(own)) * np.sqrt(p.share)
+        share = p.share if name == "normal_stiffness" else p.shear_share
+        return np.where(np.isnan(own), term, 2 * self._series(h_i, h_j) * np.sqrt(own)) * np.sqrt(share)
+
+    def rest_after(self, overlap):
+        """Overlap without force of a bond of this δ0 once it is broken, m."""
+        return np.maximum(overlap, 0.0) if self.coulomb else np.zeros_like(overlap)
 
     # shares of an area, solver/MODEL.md 4.5
 
@@ -243,19 +278,58 @@ class Model:
             length[k] = sum(math.dist(corner, other) for other in neighbours) / 2
         return length
 
-    def _shares(self, p):
-        if not self.by_area:
-            return np.ones(len(p.i))
+    def distances(self, p):
+        """l of contacts met later, m."""
         radius = np.sqrt(self.area / math.pi)
         radius[self.count :] = 0.0  # held
-        share = (self.lengths(p) / (radius[p.i] + radius[p.j])).astype(np.float32).astype(float)  # kept so
-        for k, key in enumerate(p.keys()):
-            share[k] = self._bonded_shares.get(key, share[k])
-        return share
+        return radius[p.i] + radius[p.j]
 
-    def remember_shares(self, bonds):
-        """Points that were bonded keep their shares for good."""
-        self._bonded_shares = dict(zip(bonds.keys(), bonds.share.tolist()))
+    def _set_properties(self, p):
+        """Shares, traces and rests of points as contacts met later have them, and of those that kept their own."""
+        flat = ~np.isnan(p.lap)
+        p.trace = np.array([self._trace_between(i, j) for i, j in zip(p.i.tolist(), p.j.tolist())], int)
+        p.trace[flat] = -1 - p.element[flat]
+        p.rest = self.joints.of("aperture", p.trace, 0.0)
+        if self.by_area:
+            distance = self.distances(p)
+            left, left_of_shear = self.across_joint(p, distance)
+            # Shares of flat faces are kept for a metre.
+            p.share = single(np.where(flat, 1.0, self.lengths(p)) / distance * left) * np.where(flat, np.maximum(p.lap, 0.0), 1.0)
+            p.shear_share = p.share * single(np.sqrt(left_of_shear / left)) ** 2
+        for k, key in enumerate(p.keys()):
+            if key in self._kept:
+                p.rest[k] = self._kept[key][3]
+                if not flat[k]:
+                    p.share[k], p.shear_share[k], p.trace[k] = self._kept[key][:3]
+
+    def keep(self, points):
+        """Points that were bonded, or open from the start, have what they have for good, flat faces the rest alone."""
+        self._kept |= dict(zip(points.keys(), zip(points.share, points.shear_share, points.trace, points.rest)))
+
+    # joints, solver/MODEL.md 5.3
+
+    def met(self, key):
+        """Whether a point was bonded, or open from the start."""
+        return key in self._kept
+
+    def learn_faces(self, faces):
+        """Which bodies lie on which sides of traces. @param faces  by pair of bodies, of bonds.faces_of()"""
+        on_traces = []
+        for (i, j), found in faces.items():
+            trace = self.joints.pairs.get(frozenset((self.ids[i], self.ids[j])))
+            # A slender cell lets others reach past it: these have an edge on the trace that the other one does not.
+            if trace is not None and found.parallel:
+                on_traces.append((trace, j, i, found.begin, found.end))
+        self.sides = sides_of_bodies(on_traces)
+
+    def trace_of(self, i, j):
+        """That on which two bodies are bonded, or lie against each other."""
+        return self.joints.pairs.get(frozenset((self.ids[i], self.ids[j])), self._trace_between(i, j))
+
+    def _trace_between(self, i, j):
+        """The first trace on opposite sides of which two bodies have faces, -1 if there is none."""
+        others = self.sides.get(j, ())
+        return min((trace for trace, side in self.sides.get(i, ()) if (trace, 1 - side) in others), default=-1)
 
     def dashpots(self, p):
         if self.materials[0]["ratio"] is None:
@@ -294,7 +368,9 @@ class Model:
             own[b].append(e)
         at = centre[self.circle_body] + np.einsum("eij,ej->ei", rotation[self.circle_body], self.circle_at)
         # Circle and circle, circle and outline, corner and outline.
-        cc = [(a, ea, b, eb) for a, b in pairs for ea in own[a] for eb in own[b]]
+        cc = [(a, ea, b, eb) for a, b in pairs if (a, b) not in self.parted for ea in own[a] for eb in own[b]]
+        for faces in self.flat_faces:
+            found.append(self._flat_points(faces, centre))
         if cc:
             a, ea, b, eb = np.array(cc).T
             way = at[eb] - at[ea]
@@ -302,7 +378,7 @@ class Model:
             n = way / apart[:, None]
             d = self.circle_radius[ea] + self.circle_radius[eb] - apart
             place = at[ea] + n * (self.circle_radius[ea] - d / 2)[:, None]
-            found.append(Points(a, ea * len(at) + eb, b, d, n, place, np.ones(len(a))))
+            found.append(Points(a, ea * len(at) + eb, b, d, n, place, *unset(a)))
         outline = centre[:, None] + np.einsum("bij,bkj->bki", rotation, self.outline)
         co = [(x, e, y) for a, b in pairs for x, y in ((a, b), (b, a)) if self.corner_count[y] for e in own[x]]
         if co:
@@ -310,7 +386,7 @@ class Model:
             distance, out, _ = self._to_outline(at[e], outline[b])
             r = self.circle_radius[e]
             d = r + self.thick - distance
-            found.append(Points(a, e, b, d, -out, at[e] - out * (r - d / 2)[:, None], np.ones(len(a))))
+            found.append(Points(a, e, b, d, -out, at[e] - out * (r - d / 2)[:, None], *unset(a)))
         vo = [
             (x, k, y)
             for a, b in pairs
@@ -322,11 +398,24 @@ class Model:
             a, k, b = np.array(vo).T
             corner = outline[a, k]
             distance, out, closest = self._to_outline(corner, outline[b])
-            found.append(Points(a, k, b, self.thick - distance, -out, (corner + closest) / 2, np.ones(len(a))))
-        joined = [np.concatenate([getattr(p, name) for p in found]) for name in Points.__dataclass_fields__]
-        points = Points(*joined)
-        points.share = self._shares(points)
+            found.append(Points(a, k, b, self.thick - distance, -out, (corner + closest) / 2, *unset(a)))
+        points = together(*found)
+        self._set_properties(points)
         return points
+
+    def lay_flat_faces(self, parts):
+        """Of circles at these straight traces: two on opposite sides of one meet there and nowhere else."""
+        self.flat_faces = [lay_faces(self, part) for part in parts]
+        for faces in self.flat_faces:
+            i, j = meetings(faces, self.centre)[:2]
+            self.parted |= set(zip(np.minimum(i, j).tolist(), np.maximum(i, j).tolist()))
+
+    def _flat_points(self, faces, centre):
+        i, j, overlap, lap, normal, place = (values for values in meetings(faces, centre))
+        near = np.minimum(lap, overlap) > -self.circle_radius.min()
+        p = Points(i, np.full(len(i), -1 - faces.part.trace), j, overlap, normal, place, *unset(i)).chosen(near)
+        p.lap = lap[near]
+        return p
 
     @staticmethod
     def _to_outline(place, outline):
@@ -398,11 +487,15 @@ class Model:
                     for b in self.deck.bodies
                 ]
             else:
+                # Meshed cells had an edge there, which the inset may have taken: outset, they reach beyond the side then.
+                by = self.mesh_gap / 2 if self.results.key("mesh", "kind") else 0.0
+
                 def inward(corners, side=side):
                     return corners[:, 0] - self.deck.x1 if side == "left" else self.deck.x2 - corners[:, 0]
 
-                nearest = min(inward(b.corners).min() for b in self.deck.bodies)
-                touches = [np.sum(inward(b.corners) <= nearest + tolerance) >= 2 for b in self.deck.bodies]
+                away = [inward(outset(b.corners, by)) for b in self.deck.bodies]
+                nearest = 0.0 if by else min(a.min() for a in away)
+                touches = [np.sum(a <= nearest + tolerance) >= 2 or a.min() < nearest - tolerance for a in away]
             chosen.append(
                 [k for k in range(self.count) if touches[k] and abs(self.centre[k, 1] - middle) <= self.height / 4]
             )

@@ -2,8 +2,8 @@
 """Peak, failure and largest stress of a curve (specimens/METHODS.md 5), from its rows alone."""
 
 
-def find_fall(strain, stress, share):
-    """Largest row before the stress stays below a share of it for a tenth of its strain and for ten rows, and the row that
+def find_fall(way, stress, share):
+    """Largest row before the stress stays below a share of it for a tenth of the way there and for ten rows, and the row that
     shows it. The second is None where no such fall follows, the first too where there is no stress."""
     peak, below = None, None
     for k in range(len(stress)):
@@ -13,6 +13,6 @@ def find_fall(strain, stress, share):
             below = None
         else:
             below = k if below is None else below
-            if strain[k] - strain[below] >= 0.1 * strain[peak] and k - below >= 10:
+            if way[k] - way[below] >= 0.1 * way[peak] and k - below >= 10:
                 return peak, k
     return peak, None

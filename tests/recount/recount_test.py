@@ -3,12 +3,10 @@
 """Small tests of each kind, recounted; and files made wrong on purpose, each of which the recount must find."""
 
 import json
-import os
 import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 from pathlib import Path
@@ -20,25 +18,12 @@ from cases import (  # noqa: E402
     area, bonded, cells, circles_every_step, cohesive, factors, friction, minerals, minerals_of_an_area, output, packing, pulled,
     rate, rock, scattered, squeezed, strengths, triangles, voronoi, wedges
 )
-from differences import Differences  # noqa: E402
 from expected import figures_expected  # noqa: E402
+from jointed import JointedTests, WrongJoints  # noqa: E402
 from recount import figures, recount  # noqa: E402
 from results import Results as read  # noqa: E402
 from results import Unreadable  # noqa: E402
-
-program = os.environ.get("CRACKLE_PROGRAM", Path(__file__).parents[2] / "build/release/tools/crackle")
-scratch = Path(tempfile.mkdtemp(prefix="recount"))
-differences = Differences()
-
-
-def run(name, case, *options):
-    """Runs a case once. @return its folder"""
-    folder = scratch / name
-    if not folder.exists():
-        file = scratch / f"{name}.toml"
-        file.write_text(case)
-        subprocess.run([program, "test", "-q", str(file), "-o", str(folder), *options], check=True)
-    return folder
+from running import SoundFiles, WrongFiles, differences, differing, program, recounted, run, scratch  # noqa: E402
 
 
 def circles():
@@ -68,25 +53,17 @@ def cells_by_their_size():
     return run("sized_cells", sizes + voronoi + squeezed + output)
 
 
-def differing(folder):
-    return [line[0] for line in recount(folder).lines if not line[5]]
+def unloaded():
+    turns, scatter = "unload_at_strain = [0.0003, 0.002, 0.003]\n", scattered("weibull", 0.3)
+    return run("unloaded", packing + area + strengths + cells + cohesive + scatter + squeezed.replace("0.02", "0.01") + turns + output)
 
 
-class Recount(unittest.TestCase):
-    def agrees(self, folder, fewest):
-        r = recount(folder)
-        differences.take(folder.name, r.lines)
-        for name, stated, ours, difference, tolerance, holds in r.lines:
-            with self.subTest(folder=folder.name, figure=name):
-                self.assertTrue(holds, f"expected {ours} within {tolerance:.1e}, got {stated}, error {difference:.1e}")
-        self.assertGreaterEqual(len(r.lines), fewest, "figures recounted")
-        print(f"{folder.name}: {len(r.lines)} figures")
-
+class Recount(JointedTests, SoundFiles, unittest.TestCase):
     def test_circles_squeezed_at_a_rate_with_a_thickness_and_companions(self):
         self.agrees(circles(), 200)
 
     def test_every_figure_is_recounted_but_those_that_no_file_holds(self):
-        r = recount(circles())
+        r = recounted(circles())
         left = {name for name in figures(r.summary) - r.keys if ".companions." not in name}
         self.assertEqual(left, {
             "initial_tangent_window.contacts_gained",  # needs a frame at the window's last row
@@ -134,7 +111,7 @@ class Recount(unittest.TestCase):
             with self.subTest(kind=kind, shape=shape):
                 folder = run(kind + ("_notched" if shape else "_sprung" if "stiffness" in keys else ""), text)
                 self.agrees(folder, 40)
-                r = recount(folder)
+                r = recounted(folder)
                 self.assertLessEqual({"stress_section", "strain_length", "valid"}, r.keys)
                 self.assertEqual("stiffness" in keys, "normal_stress_end" in r.keys)
                 notched = shape or kind == "scb"
@@ -142,7 +119,7 @@ class Recount(unittest.TestCase):
 
     def test_cells_of_a_size_asked_for(self):
         self.agrees(cells_by_their_size(), 100)
-        self.assertLessEqual({"packing.cell_diameter", "packing.cell_spread"}, recount(cells_by_their_size()).keys)
+        self.assertLessEqual({"packing.cell_diameter", "packing.cell_spread"}, recounted(cells_by_their_size()).keys)
 
     def test_triangles_between_frictional_platens(self):
         self.agrees(run("triangles", rock + triangles + squeezed + friction + output), 100)
@@ -158,7 +135,7 @@ class Recount(unittest.TestCase):
         """Of a specimen that breaks often enough to have one."""
         shipped = Path(__file__).parents[2] / "specimens/guide_rock/delaunay_compression.toml"
         folder = run("verified_triangles", f'include = "{shipped}"\n[packing]\ncount = 40\n' + output, "--verify")
-        r = recount(folder)
+        r = recounted(folder)
         self.assertIsNotNone(r.summary["crack_initiation_stress"])
         self.agrees(folder, 250)
         self.assertLessEqual({f"numerical_errors.crack_initiation_stress.{part}" for part in ("rate", "time_step", "stated")}, r.keys)
@@ -180,7 +157,7 @@ class Recount(unittest.TestCase):
             text = rock.replace("count = 80", "count = 30") + quick + output.replace("frames = 12", "frames = 2000")
             with self.subTest(case=name):
                 folder = run("every_step_" + name, text)
-                r = recount(folder)
+                r = recounted(folder)
                 self.assertTrue(any("history" in line[0] for line in r.lines), "a frame a step")
                 if name == "frictional":
                     self.assertIn("initial_tangent_window.contacts_gained", r.keys)
@@ -225,7 +202,7 @@ class Recount(unittest.TestCase):
         ):
             with self.subTest(case=name):
                 folder = every_step_of_few("coulomb_" + name, case)
-                self.assertTrue(any("history" in line[0] for line in recount(folder).lines), "a frame a step")
+                self.assertTrue(any("history" in line[0] for line in recounted(folder).lines), "a frame a step")
                 self.agrees(folder, 180)
 
     def test_rate_rule_of_every_step(self):
@@ -233,7 +210,7 @@ class Recount(unittest.TestCase):
             text = rock.replace("count = 80", "count = 30") + case + output + "curve_rows = 99998\n"
             with self.subTest(case=name):
                 folder = run("rule_" + name, text)
-                r = recount(folder)
+                r = recounted(folder)
                 self.assertIn("strain_share_above_tolerance", r.keys)
                 self.assertGreater(r.summary["strain_share_above_tolerance"], 0.0, "the rule had something to do")
                 self.agrees(folder, 100)
@@ -269,6 +246,17 @@ class Recount(unittest.TestCase):
                     self.assertGreater(after.sum(), 5, "rows after the peak")
                     self.assertAlmostEqual(stated["post_peak_difference"], expected, delta=1e-9)
 
+    def test_platens_that_turn_round(self):
+        r = self.agrees(unloaded(), 380)
+        cycles = r.summary["cycles"]
+        self.assertEqual(cycles[0]["modulus"], r.summary["youngs_modulus"], "nothing broke or slid")
+        self.assertNotEqual(cycles[2]["damage"], 0.0, "a bond had broken")
+        self.assertLessEqual({f"cycles[2].{name}" for name in cycles[2]}, r.keys)
+        loading = squeezed.replace("0.02", "0.01") + 'control = "lateral"\n'
+        self.agrees(run("lateral", packing + area + strengths + cells + cohesive + loading + output), 350)
+        at_stresses = squeezed.replace("0.02", "0.01") + "unload_at_stress = [2e3, 4e3]\nunload_to = 0.3\n"
+        self.agrees(run("unloaded_at_stresses", rock + voronoi + at_stresses + output), 350)
+
     def test_minerals(self):
         labels = scratch / "labels.txt"
         labels.write_text("".join(("1\n", "mica\n", "feldspar\n")[k % 3] for k in range(80)))
@@ -277,7 +265,7 @@ class Recount(unittest.TestCase):
                            minerals.replace("seed = 5", 'assign = "size"')), ("labelled", rock + by_labels + squeezed)):
             with self.subTest(assign=name):
                 folder = run("minerals_" + name, case + output)
-                self.assertGreater(len([1 for line in recount(folder).lines if line[0].startswith("minerals")]), 20)
+                self.assertGreater(len([1 for line in recounted(folder).lines if line[0].startswith("minerals")]), 20)
                 self.agrees(folder, 150)
         text = rock.replace("count = 80", "count = 30") + minerals + pulled + "axial_strain_rate = 0.2\n"
         self.agrees(run("minerals_every_step", text + output.replace("frames = 12", "frames = 2000")), 180)
@@ -301,7 +289,7 @@ class Recount(unittest.TestCase):
         summary["minerals"][0]["area_share_reached"] += 1e-6
         summary["minerals"][2]["grains"] += 1
         (wrong / "summary.json").write_text(json.dumps(summary))
-        self.assertEqual(differing(wrong), ["minerals[0].area_share_reached", "minerals[2].grains"])
+        self.assertEqual(sorted(differing(recount(wrong))), ["minerals[0].area_share_reached", "minerals[2].grains"])
 
     def test_restarted(self):
         folder, case = scratch / "restarted", scratch / "restarted.toml"
@@ -330,38 +318,8 @@ class Refuses(unittest.TestCase):
                 recount(folder)
 
 
-class FaultsAreFound(unittest.TestCase):
-    """Each a fault as a program might have it, put into the files of a test that agrees."""
-
-    def spoilt(self, what, sound=None):
-        folder = scratch / "spoilt"
-        shutil.rmtree(folder, ignore_errors=True)
-        sound = sound or circles()
-        shutil.copytree(sound, folder)
-        what(folder)
-        return sorted(set(differing(folder)) - set(differing(sound)))
-
-    def spoil_summary(self, change, sound=None):
-        def what(folder):
-            summary = json.loads((folder / "summary.json").read_text())
-            change(summary)
-            (folder / "summary.json").write_text(json.dumps(summary))
-
-        return self.spoilt(what, sound)
-
-    def spoil_column(self, file, column, change, sound=None):
-        def what(folder):
-            lines = [line.split(",") for line in (folder / file).read_text().splitlines()]
-            k = lines[0].index(column)
-            values = change([line[k] for line in lines[1:]])
-            for line, value in zip(lines[1:], values):
-                line[k] = value
-            (folder / file).write_text("".join(",".join(line) + "\n" for line in lines))
-
-        return self.spoilt(what, sound)
-
-    def found(self, differing_figures, word):
-        self.assertTrue(any(word in figure for figure in differing_figures), f"expected {word}, got {differing_figures}")
+class FaultsAreFound(WrongJoints, WrongFiles, unittest.TestCase):
+    sound = staticmethod(circles)
 
     def test_second_body_of_an_event(self):
         found = self.spoil_column("events.csv", "body_j", lambda column: [column[-1]] + column[1:])
@@ -442,6 +400,14 @@ class FaultsAreFound(unittest.TestCase):
 
             with self.subTest(figure=".".join(path)):
                 self.found(self.spoil_summary(change), ".".join(path))
+
+    def test_figures_of_cycles(self):
+        def change(summary):
+            for name in summary["cycles"][2]:
+                summary["cycles"][2][name] *= 1.001
+
+        names = recounted(unloaded()).summary["cycles"][2]
+        self.assertEqual(self.spoil_summary(change, unloaded()), sorted("cycles[2]." + name for name in names))
 
     def test_cells_measured_without_their_gaps(self):
         for name, off in (("cell_diameter", 1.01), ("cell_spread", 1.03)):

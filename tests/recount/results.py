@@ -211,6 +211,13 @@ class Results:
     def particles(self, row):
         return read_vtp(self.folder / f"frames/particles_{row:05d}.vtp")
 
+    def contacts(self, row):
+        return read_vtp(self.folder / f"frames/contacts_{row:05d}.vtp")
+
+    def joints(self, row):
+        """Faces on traces, of a jointed specimen."""
+        return read_vtp(self.folder / f"frames/joints_{row:05d}.vtp")
+
     def frame(self, row):
         read = [read_vtp(self.folder / f"frames/{kind}_{row:05d}.vtp") for kind in ("particles", "contacts", "cracks")]
         return Frame(row, *read)

@@ -8,7 +8,8 @@ import numpy as np
 from bonds import make_bonds
 from frames import touching_floor
 from loading_by_tolerance import by_tolerance, recount_start
-from model import rounding
+from model import rounding, together
+from outlines import outset, polygon_moments
 
 
 def recount_packing(r):
@@ -92,18 +93,32 @@ def recount_cells(r):
     depth = r.results.key("mesh", "inset", r.results.key("mesh", "thick") / 2)
     diameter = []
     for body in r.results.polygons.bodies:
-        p = body.corners
-        edge = np.roll(p, -1, 0) - p
-        after = np.stack([edge[:, 1], -edge[:, 0]], 1) / np.hypot(*edge.T)[:, None]
-        before = np.roll(after, 1, 0)
-        q = p + depth * (before + after) / (1 + np.sum(before * after, 1))[:, None]
-        area = np.sum(q[:, 0] * np.roll(q[:, 1], -1) - q[:, 1] * np.roll(q[:, 0], -1)) / 2
+        area = polygon_moments(outset(body.corners, depth))[0]
         diameter.append(math.sqrt(4 * area / math.pi))
     diameter = np.array(diameter)
     # An edge that the inset took leaves a corner too far out: some depth squared of one cell in ten.
     lost = 0.1 * (depth / diameter.mean()) ** 2
     r.key("packing.cell_diameter", diameter.mean(), lost + 1e-9)
     r.key("packing.cell_spread", diameter.std() / diameter.mean(), 30 * lost + 1e-9)
+
+
+def stable(model, stiffness, damping, step):
+    """Whether leapfrog is, by solver/MODEL.md 7."""
+    root = np.concatenate([np.repeat(model.mass[: model.count, None], 2, 1), model.inertia[: model.count, None]], 1)
+    root = 1 / np.sqrt(root.ravel())
+    free = np.arange(len(root))
+    k, c = (root[:, None] * matrix[np.ix_(free, free)] * root for matrix in (stiffness, damping))
+    try:
+        np.linalg.cholesky(4 * np.eye(len(root)) - 2 * step * c - step * step * k)
+    except np.linalg.LinAlgError:
+        return False
+    return True
+
+
+def leave_loose(r, name):
+    for suffix in ("", "_pa"):
+        if name + suffix in r.summary:
+            r.leave(name + suffix, "a particle that it is read from moves without a force")
 
 
 def recount_specimen(r, model):
@@ -131,9 +146,12 @@ def recount_specimen(r, model):
     bonds = make_bonds(model, points)
     r.key("bonds_initial", len(bonds.i))
     bonded = set(bonds.keys())
-    loose = np.array([d for key, d in zip(points.keys(), points.overlap.tolist()) if key not in bonded])
-    floor = touching_floor * model.height if model.frictional else 0.0
-    fewest, most = len(bonds.i) + np.sum(loose > floor), len(bonds.i) + np.sum(loose > -floor)
+    points = model.points(model.centre, np.zeros(len(model.mass)))  # as bonding has left them
+    beyond = points.overlap - points.rest
+    unbonded = np.array([key not in bonded for key in points.keys()]) & ~(points.lap <= 0)
+    # Flat faces lie flush: they touch by rounding, or not.
+    floor = touching_floor * model.height * (model.frictional | ~np.isnan(points.lap))
+    fewest, most = (len(bonds.i) + np.sum(unbonded & (beyond > side * floor)) for side in (1, -1))
     r.compare("contacts_initial", s["contacts_initial"], (fewest + most) / 2, (most - fewest) / 2)
     r.keys.add("contacts_initial")
     pairs = {(min(a, b), max(a, b)) for a, b in zip(bonds.i, bonds.j)}
@@ -156,7 +174,7 @@ def recount_specimen(r, model):
         r.key("wave_transit_time", model.height / math.sqrt(s["youngs_modulus"] / density))
     if model.frictional or len(model.mass) > 1500:
         return bonds
-    stiffness, damping = model.matrices(bonds, model.centre)
+    stiffness, damping = model.matrices(together(bonds, model.closed), model.centre)
     free = np.arange(3 * model.count)
     solution = np.zeros(3 * len(model.mass))
     solution[3 * model.top + 1] = -model.sense * model.height  # axial strain 1
@@ -171,39 +189,37 @@ def recount_specimen(r, model):
     stress = (force[3 * model.bottom + 1] - force[3 * model.top + 1]) / 2 / model.width * model.sense
     strained = -solution[3 * model.top + 1] / model.height * model.sense
     # The eigenvectors of the softest motions carry the rounding of the stiffest, 1e-16 over the smallest eigenvalue.
+    if stress * model.width < 1e-9 * strained * model.height * model.normal_stiffness(bonds).max():
+        stress = math.nan  # nothing holds the platens together
     r.key("youngs_modulus", stress / strained, 1e-7)
-    if by_tolerance(r):
-        loose = np.abs(scale[:, None] * vectors[:, ~regular]).reshape(model.count, -1).max(axis=1, initial=0.0)
-        recount_start(r, model, bonds, solution, stress / strained, loose <= 1e-6 * scale.max())
+    loose = np.abs(scale[:, None] * vectors[:, ~regular]).reshape(model.count, -1).max(axis=1, initial=0.0)
+    elastic = loose <= 1e-6 * scale.max()
+    if by_tolerance(r) and not math.isnan(stress):
+        recount_start(r, model, bonds, solution, stress / strained, elastic)
     bottom, top = model.axial_gauge(bonds)
-    if len(bottom) and len(top):
+    if not np.all(elastic[np.concatenate([bottom, top])]):
+        leave_loose(r, "gauge_modulus")
+    elif len(bottom) and len(top):
         length = model.centre[top, 1].mean() - model.centre[bottom, 1].mean()
         growth = solution[3 * top + 1].mean() - solution[3 * bottom + 1].mean()
         r.key("gauge_modulus", stress / (-model.sense * growth / length), 1e-6)
     else:
         r.key("gauge_modulus", math.nan)
     left, right = model.gauge()
-    if left and right and (r.results.circles is None or not model.polygons or r.results.key("mesh", "kind") == "voronoi"):
+    if not np.all(elastic[left + right]):
+        leave_loose(r, "poissons_ratio")
+    elif left and right and (r.results.circles is None or not model.polygons or r.results.key("mesh", "kind") == "voronoi"):
         length = model.centre[right, 0].mean() - model.centre[left, 0].mean()
         growth = solution[3 * np.array(right)].mean() - solution[3 * np.array(left)].mean()
-        r.key("poissons_ratio", model.sense * growth / length, 1e-6)
+        r.key("poissons_ratio", model.sense * growth / length + 0 * stress, 1e-6)
     if s.get("numerical_errors") is not None and r.results.key("numerics", "contact_law", "rounded") == "rounded":
-        root = np.concatenate([np.repeat(model.mass[: model.count, None], 2, 1), model.inertia[: model.count, None]], 1)
-        root = 1 / np.sqrt(root.ravel())
-        k = root[:, None] * stiffness[np.ix_(free, free)] * root
-        c = root[:, None] * damping[np.ix_(free, free)] * root
         step = s["stable_time_step"]
-
-        def stable(dt):
-            try:
-                np.linalg.cholesky(4 * np.eye(len(free)) - 2 * dt * c - dt * dt * k)
-            except np.linalg.LinAlgError:
-                return False
-            return True
-
-        r.true("stable_time_step: stable", stable(step))
-        r.true("stable_time_step: unstable two millionths above", not stable(step * (1 + 2e-6)))
-        r.keys.add("stable_time_step")
+        r.true("stable_time_step: stable", stable(model, stiffness, damping, step))
+        r.true("stable_time_step: unstable two millionths above", not stable(model, stiffness, damping, step * (1 + 2e-6)))
+        r.keys.update({"stable_time_step", "time_step_bound"})
+        if len(model.closed.i):  # faces of open joints bear a step later
+            stiffness, damping = model.matrices(bonds, model.centre)
+        r.true("time_step_bound: stable for what bears when loading begins", stable(model, stiffness, damping, s["time_step_bound"]))
         if r.results.key("numerics", "time_step") is None:
             r.key("time_step_over_stable", s["time_step"] / step)
     return bonds
