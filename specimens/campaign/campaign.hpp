@@ -28,8 +28,8 @@ struct Shard {
     bool whole() const { return of == 1; }
 };
 
-/// "confined-pressure=1e7-packing3-1b6f7a6a471c": the name of what is kept of a row's test. A point of many axes is
-/// named by its number, from 1.
+/// "confined-pressure=10000000-packing3-1b6f7a6a471c": the name of what is kept of a row's test. A point of many axes
+/// is named by its number, from 1.
 std::string kept_name(const Plan& plan, const PlanRow& row, const std::string& identity);
 
 /// What has been kept of a campaign's tests, or begun, when this was made: found by identity whatever the plan called
