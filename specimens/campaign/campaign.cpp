@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <cstring>
@@ -15,6 +16,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -191,14 +193,18 @@ class Queue {
 class RowWorker {
   public:
     RowWorker(const Plan& plan, const CampaignOptions& options)
-        : plan_(plan), place_{options.folder, options.endless}, packings_(options.folder / "packings", files_) {}
+        : plan_(plan),
+          place_{options.folder, options.endless},
+          kept_(options.folder),
+          packings_(options.folder / "packings", files_) {}
 
     std::string test(const Task& task) {
         return answer([&] {
             const PlanRow& row = plan_.rows[task.row];
             const Keep keep = row.variant == Variant::as_asked ? plan_.keep : Keep::figures;
             const TestCase test = plan_.test_of(row);
-            const RowResult result = run_row(test, task.identity, keep, place_, packings_);
+            const std::string name = kept_.name(task.identity).value_or(kept_name(plan_, row, task.identity));
+            const RowResult result = run_row(test, {task.identity, name}, keep, place_, packings_);
             FileHashes now;
             if (task.reads_files && identity_of(test, now) != task.identity)
                 throw OutputError(
@@ -240,6 +246,7 @@ class RowWorker {
 
     const Plan& plan_;
     RowPlace place_;
+    KeptTests kept_;
     FileHashes files_;
     PackingStore packings_;
 };
@@ -264,9 +271,32 @@ RowResult result_of(const std::string& identity, const PieceEnd& end, double tim
 }
 
 /// Whether what the plan keeps of a test is there.
-bool is_kept(const fs::path& folder, Keep keep, const std::string& identity) {
-    if (keep == Keep::curves && is_file(folder / "curves" / (identity + ".csv"))) return true;
-    return keep == Keep::figures || is_file(folder / "tests" / identity / "summary.json");
+bool is_kept(const KeptTests& kept, Keep keep, const std::string& identity) {
+    if (keep == Keep::figures) return true;
+    if (keep == Keep::curves && kept.curve(identity)) return true;
+    const std::optional<fs::path> folder = kept.folder(identity);
+    return folder && is_file(*folder / "summary.json");
+}
+
+constexpr std::size_t identity_digits = 12, all_digits = 32;
+
+/// The digits of the identity that an entry of curves/ or tests/ is named by.
+std::string digits_of(const std::string& name) {
+    const std::size_t dash = name.rfind('-');
+    if (dash != std::string::npos) return name.substr(dash + 1);
+    return name.size() == all_digits ? name.substr(0, identity_digits) : "";
+}
+
+std::string name_of_kept(const fs::path& path) {
+    return (path.extension() == ".csv" ? path.stem() : path.filename()).string();
+}
+
+/// As a file's name has it: of "mineral[1].cohesion" "mineral1.cohesion", of "confinement.pressure" "pressure".
+std::string short_key(const std::string& key) {
+    if (key.find('[') == std::string::npos) return key.substr(key.rfind('.') + 1);
+    std::string text = key;
+    std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
+    return text;
 }
 
 }  // namespace
@@ -289,10 +319,54 @@ fs::path ledger_file(const fs::path& folder, const Shard& shard) {
     return folder / "shards" / fmt::format("{}.sqlite", shard.number);
 }
 
-std::optional<fs::path> kept_curve(const fs::path& folder, const std::string& identity) {
-    for (const fs::path& file : {folder / "curves" / (identity + ".csv"), folder / "tests" / identity / "curve.csv"})
-        if (is_file(file)) return file;
+std::string kept_name(const Plan& plan, const PlanRow& row, const std::string& identity) {
+    constexpr std::size_t longest = 80;  // of a point's settings
+    std::string settings;
+    for (const CaseSetting& setting : plan.points[row.point].settings)
+        settings += fmt::format("-{}={}", short_key(setting.key), value_text(setting.value));
+    if (settings.size() > longest) settings = fmt::format("-point{}", row.point + 1);
+    std::string name = fmt::format("{}{}-packing{}", plan.kind_of(row).name, settings, row.seed);
+    std::erase(name, '"');
+    const auto plain = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+               std::string_view("-_=.+").find(c) != std::string::npos;
+    };
+    for (char& c : name)
+        if (!plain(c)) c = '_';
+    return name + '-' + identity.substr(0, identity_digits);
+}
+
+KeptTests::KeptTests(const fs::path& folder) {
+    const auto list = [](const fs::path& room, auto& entries) {
+        std::error_code error;  // where nothing was kept there is no such folder
+        for (const auto& entry : fs::directory_iterator(room, error)) {
+            const fs::path& path = entry.path();
+            const std::string digits = digits_of(name_of_kept(path));
+            if (!digits.empty()) entries[digits] = path;
+        }
+    };
+    list(folder / "curves", curves_);
+    list(folder / "tests", folders_);
+}
+
+std::optional<std::string> KeptTests::name(const std::string& identity) const {
+    for (const auto* entries : {&folders_, &curves_}) {
+        const auto found = entries->find(identity.substr(0, identity_digits));
+        if (found != entries->end()) return name_of_kept(found->second);
+    }
     return std::nullopt;
+}
+
+std::optional<fs::path> KeptTests::curve(const std::string& identity) const {
+    if (const auto alone = curves_.find(identity.substr(0, identity_digits)); alone != curves_.end())
+        return alone->second;
+    const std::optional<fs::path> all = folder(identity);
+    return all && is_file(*all / "curve.csv") ? std::optional(*all / "curve.csv") : std::nullopt;
+}
+
+std::optional<fs::path> KeptTests::folder(const std::string& identity) const {
+    const auto found = folders_.find(identity.substr(0, identity_digits));
+    return found == folders_.end() ? std::nullopt : std::optional(found->second);
 }
 
 CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, const CampaignHooks& hooks) {
@@ -317,12 +391,13 @@ CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, c
         for (const auto& [identity, state] : CampaignLedger::read(ledger_file(options.folder)).ended())
             if (state == row_done) ended[identity] = state;
     }
+    const KeptTests kept(options.folder);
     std::vector<std::size_t> open;
     for (std::size_t k = 0; k < tasks.tasks.size(); ++k) {
         const auto at = ended.find(tasks.tasks[k].identity);
         const bool ran = at != ended.end() && at->second == row_done;
         const bool asked = plan.rows[tasks.tasks[k].row].variant == Variant::as_asked;
-        const bool done = ran && (!asked || is_kept(options.folder, plan.keep, tasks.tasks[k].identity));
+        const bool done = ran && (!asked || is_kept(kept, plan.keep, tasks.tasks[k].identity));
         const bool wrong = at != ended.end() && !ran && !options.retry;
         progress.done += done ? 1 : 0;
         progress.gone_wrong += wrong ? 1 : 0;

@@ -3,7 +3,7 @@
 //
 //   DIR/campaign.sqlite   the ledger (ledger.hpp)
 //   DIR/packings/         packings, each made once
-//   DIR/curves/, tests/   what the plan keeps of its tests, by their identity
+//   DIR/curves/, tests/   what the plan keeps of its tests, named by test, point, packing and identity (kept_name())
 //   DIR/shards/I.sqlite   ledgers of shares that ran by themselves, on a cluster say, until they are gathered
 //
 // Stopped at any moment, the same command goes on; at most the tests that were at work are run again.
@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -27,8 +28,26 @@ struct Shard {
     bool whole() const { return of == 1; }
 };
 
-/// Curve of a test, by its identity, where the plan has kept one.
-std::optional<std::filesystem::path> kept_curve(const std::filesystem::path& folder, const std::string& identity);
+/// "confined-pressure=10000000-packing3-1b6f7a6a471c": the name of what is kept of a row's test. A point of many axes
+/// is named by its number, from 1.
+std::string kept_name(const Plan& plan, const PlanRow& row, const std::string& identity);
+
+/// What has been kept of a campaign's tests, or begun, when this was made: found by identity whatever the plan called
+/// them then. Names that are an identity alone are those of earlier versions.
+class KeptTests {
+  public:
+    explicit KeptTests(const std::filesystem::path& folder);
+
+    /// The name in use; none where nothing is there.
+    std::optional<std::string> name(const std::string& identity) const;
+    /// The curve of a test, alone or among its files.
+    std::optional<std::filesystem::path> curve(const std::string& identity) const;
+    /// Of a test of which all files were kept.
+    std::optional<std::filesystem::path> folder(const std::string& identity) const;
+
+  private:
+    std::map<std::string, std::filesystem::path> curves_, folders_;  // by the first digits of the identity
+};
 
 struct CampaignOptions {
     std::filesystem::path folder;

@@ -99,12 +99,12 @@ Figures figures_of(const TestSummary& summary) {
     return figures;
 }
 
-RowResult run_row(const TestCase& test, const std::string& identity, Keep keep, const RowPlace& place,
-                  PackingStore& packings, const std::function<bool()>& interrupted) {
+RowResult run_row(const TestCase& test, const RowNames& names, Keep keep, const RowPlace& place, PackingStore& packings,
+                  const std::function<bool()>& interrupted) {
     const auto begun = std::chrono::steady_clock::now();
     const double before = processor_seconds();
     RowResult result;
-    result.identity = identity;
+    result.identity = names.identity;
     TestHooks hooks;
     hooks.interrupted = interrupted;
     hooks.keep_packing = [&](const TestCase& of, const PackingRequest& request, const auto& make) {
@@ -120,11 +120,11 @@ RowResult run_row(const TestCase& test, const std::string& identity, Keep keep, 
     try {
         std::string curve;
         const TestSummary summary =
-            keep == Keep::all ? loaded_with_files(description, place.folder / "tests" / identity, place, hooks)
+            keep == Keep::all ? loaded_with_files(description, place.folder / "tests" / names.kept, place, hooks)
                               : loaded_in_memory(description, place, hooks, keep == Keep::curves ? &curve : nullptr);
         if (keep == Keep::curves) {
             make_folder(place.folder / "curves");
-            replace_file(place.folder / "curves" / (identity + ".csv"), curve);
+            replace_file(place.folder / "curves" / (names.kept + ".csv"), curve);
         }
         result.figures = figures_of(summary);
         result.notices = summary.json().at("notices").get<std::vector<std::string>>();

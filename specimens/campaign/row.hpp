@@ -47,9 +47,14 @@ struct RowPlace {
 /// as "packing.void_ratio". Left out: clocks, versions, names of files, and what is not known.
 Figures figures_of(const TestSummary& summary);
 
-/// @param test of the row  @param keep what is left beside the result: curves/IDENTITY.csv, tests/IDENTITY/
+/// By what a row's test is known, and what is kept of it called.
+struct RowNames {
+    std::string identity, kept;
+};
+
+/// @param test of the row  @param keep what is left beside the result: curves/NAME.csv, tests/NAME/
 /// @throws OutputError where the campaign's folder cannot be written
-RowResult run_row(const TestCase& test, const std::string& identity, Keep keep, const RowPlace& place,
-                  PackingStore& packings, const std::function<bool()>& interrupted = {});
+RowResult run_row(const TestCase& test, const RowNames& names, Keep keep, const RowPlace& place, PackingStore& packings,
+                  const std::function<bool()>& interrupted = {});
 
 }  // namespace crackle

@@ -127,6 +127,28 @@ double yield_strain(const World& world, const TestSetup& setup, const Moduli& mo
     return *nth;
 }
 
+double joint_slip_strain(const World& world, const TestSetup& setup, const Moduli& moduli) {
+    const double sense = setup.compression ? -1.0 : 1.0;
+    const std::vector<PointRates> rates = rates_of(world, moduli.solution);
+    std::vector<double> strains;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const PointView view = view_point(world, k);
+        if (!view.closed_joint || !(view.normal_force > 0.0)) continue;
+        const double gained = view.friction * view.normal_stiffness * sense * rates[k].closing.value;
+        double slides = infinite;
+        for (const double way : {1.0, -1.0}) {
+            const double shear = -view.shear_stiffness * sense * rates[k].slipping.value;
+            slides = std::min(slides, strain_of_loss(view.friction * view.normal_force - way * view.shear_force,
+                                                     {gained - way * shear, 0.0}));
+        }
+        strains.push_back(slides);
+    }
+    if (strains.empty()) return infinite;
+    const auto half = strains.begin() + static_cast<std::ptrdiff_t>(strains.size() / 2);
+    std::nth_element(strains.begin(), half, strains.end());
+    return *half;
+}
+
 ElasticAnalysis analyse_elastic(const World& world, const TestSetup& setup, const Moduli& moduli, double strain,
                                 int modes) {
     ElasticAnalysis result;

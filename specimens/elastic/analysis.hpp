@@ -72,6 +72,10 @@ struct ElasticAnalysis {
 /// twin with the same bodies
 double yield_strain(const World& world, const TestSetup& setup, const Moduli& moduli, double share);
 
+/// Axial strain at which half of the points of closed open joints slide by the linear solution, from the forces that
+/// they bear now; infinite where they never do, or none bears any.
+double joint_slip_strain(const World& world, const TestSetup& setup, const Moduli& moduli);
+
 /// @param world bonded with its platens, not yet loaded, with the platens and side particles of `setup`
 /// @param moduli of this world (solve_moduli())
 /// @param strain at which bond forces are given (sense of the test)

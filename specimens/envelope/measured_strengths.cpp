@@ -223,6 +223,7 @@ struct LedgerRow {
 
 void add_campaign(Collection& all, const fs::path& folder, bool with_curves) {
     const CampaignLedger ledger = CampaignLedger::read(ledger_file(folder));
+    const KeptTests kept(folder);
     const std::string text = ledger.meta("rocks");
     if (text.empty()) {
         throw InputError(
@@ -244,8 +245,7 @@ void add_campaign(Collection& all, const fs::path& folder, bool with_curves) {
         RockKeys rock = rocks.at(word_of(figures, "test")).get<RockKeys>();
         for (const auto& [key, value] : row.axes()) rock[key] = value;
         StrengthTest test{row.where(folder), fmt::format("{:.0f}", number_of(figures, "seed")), figures, rock};
-        const std::optional<fs::path> curve =
-            with_curves ? kept_curve(folder, word_of(figures, "identity")) : std::nullopt;
+        const std::optional<fs::path> curve = with_curves ? kept.curve(word_of(figures, "identity")) : std::nullopt;
         if (curve) test.curve = strain_and_stress(number_table(*curve, read_file(*curve)));
         all.add(test);
     }

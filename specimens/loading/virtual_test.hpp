@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "solver/linear/springs.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/case/case_file.hpp"
 #include "specimens/elastic/moduli.hpp"
@@ -21,7 +22,9 @@ struct VirtualTest {
     World world;
     std::optional<SmallStrain> small_strain;  ///< linear solution with bonded platens
     std::string no_small_strain;              ///< why there is none; a notice says it, too
-    double specimen_seconds = 0.0;            ///< wall clock that making the specimen took
+    /// What bears when loading begins, by linear solutions: bonds, or what pressing has closed as well.
+    ClosedPoints closed = ClosedPoints::bonded;
+    double specimen_seconds = 0.0;  ///< wall clock that making the specimen took
 };
 
 }  // namespace crackle

@@ -4,8 +4,8 @@
 // Loading starts in motion, with the velocities of the elastic solution, so that it sends no shock: while the specimen
 // is elastic, any constant rate is as good as rest. What a rate costs comes when the specimen changes: in a transit T =
 // height/sqrt(E/ρ) of a wave the strain grows by rate·T, so the rate is at most sqrt(tolerance)·ε1/T, ε1 the strain at
-// which one in fifty bonded points has slid or broken by the linear solution. Below that it follows two measured
-// errors, smoothed over a transit:
+// which one in fifty bonded points has slid or broken by the linear solution, or a joint in the shear box slides. Below
+// that it follows two measured errors, smoothed over a transit:
 //     out-of-balance   |σ_top - σ_bottom| over the largest stress so far
 //     kinetic share    kinetic energy beyond that of the loading itself, over the strain energy
 // The larger of the two over the tolerance drives ln(rate): slow through bursts of breaks, faster where nothing
@@ -21,7 +21,7 @@ namespace crackle {
 struct RateRule {
     double tolerance = 0.0;         ///< 0: the rate is given, and the rest unused
     double transit_time = 0.0;      // s
-    double first_strain = 0.0;      ///< axial, where one in fifty bonded points has given way by the linear solution
+    double first_strain = 0.0;      ///< axial, where the specimen first gives way by the linear solution
     double stress_floor = 0.0;      // N/m, at that strain
     double energy_floor = 0.0;      // J, stored at that strain
     double kinetic_per_rate = 0.0;  // J s2, of the elastic motion at a rate of 1/s

@@ -92,6 +92,7 @@ std::optional<CampaignFigure> targets_plane(const Rock& rock, const CalibrationO
     const std::string unit = rock.targets[x].unit(in_area_units(rock, outcome, x));
     return CampaignFigure{
         "axes",
+        "",
         fmt::format(
             "{} over {}: means of the fit packings at the points that were tried, the target with its tolerance, "
             "and the mean of {} fresh packings with its 95 % interval",

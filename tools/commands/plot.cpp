@@ -113,10 +113,13 @@ std::size_t frame_at(const Recording& test, const std::string& at) {
                                     test.frames.begin());
 }
 
-Panel drawings_of(const Recording& test, const fs::path& folder, const Words& moments, const DrawingStyle& style) {
+/// @param asked moments, else the usual ones, of which two may be the same
+Panel drawings_of(const Recording& test, const fs::path& folder, const std::optional<Words>& asked,
+                  const DrawingStyle& style) {
     std::vector<DrawnMoment> drawn;
-    for (const std::string& at : moments) {
+    for (const std::string& at : asked.value_or(Words{"start", "peak", "end"})) {
         const std::size_t frame = frame_at(test, at);
+        if (!asked && std::ranges::find(drawn, frame, &DrawnMoment::frame) != drawn.end()) continue;
         const FrameHead& head = test.frames[frame];
         Words names = head.roles;
         if (!test.results.summary.flag("failed"))
@@ -179,7 +182,6 @@ void expect_parts_of(const po::variables_map& given, const Words& what) {
     };
     expect("at", drawn("specimen"), "a figure without specimens");
     expect("magnify", drawn("specimen"), "a figure without specimens");
-    expect("labels", drawn("curve") || drawn("ae") || drawn("strain") || drawn("emission"), "specimens alone");
 }
 
 void plot_tests(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
@@ -220,7 +222,7 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
     std::vector<PlottedTest> plotted;
     for (std::size_t k = 0; k < tests.size(); ++k) plotted.push_back({&tests[k].results, labels[k], k, false});
 
-    const Words moments = given.contains("at") ? given["at"].as<Words>() : Words{"start", "peak", "end"};
+    const std::optional<Words> moments = given.contains("at") ? std::optional(given["at"].as<Words>()) : std::nullopt;
     std::vector<Panel> panels;
     for (const std::string& word : what) {
         if (word == "curve") panels.push_back(stress_strain(plotted));
@@ -228,9 +230,14 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
         if (word == "strain") panels.push_back(area_strain(plotted));
         if (word == "emission") add_emission_panels(panels, tests, folders, plotted);
         if (word != "specimen") continue;
-        for (std::size_t k = 0; k < tests.size(); ++k)
+        for (std::size_t k = 0; k < tests.size(); ++k) {
             panels.push_back(drawings_of(tests[k], folders[k], moments, look.drawing));
+            if (tests.size() > 1) panels.back().title = labels[k];
+        }
     }
+    // A figure of one test has no legend that names it.
+    if (tests.size() == 1)
+        panels.front().title = given.contains("labels") ? labels.front() : tests.front().results.summary.word("title");
     replace_file(output, figure(panels, look.title, look.width, look.format, look.sheet));
     if (!messages.quiet()) std::cout << output.string() << '\n';
 }
@@ -465,7 +472,9 @@ CommandLine describe_plot() {
     options.add_options()("magnify", po::value<double>()->value_name("FACTOR")->default_value(1.0),
                           "draw displacements so many times as large")  //
         ("labels", po::value<Words>()->multitoken()->value_name("NAME"),
-         "names of the tests in legends, in their order")  //
+         "names of the tests, in their order, in legends and above specimens (default: what tells them apart; of one "
+         "test "
+         "its title)")  //
         ("units", po::value<std::string>()->value_name("UNITS"),
          "of the run of a deck: what its units are called, si, cgs (cm, dyn, erg) or mm-g-s (mm, uN, nJ); a deck "
          "states none")  //

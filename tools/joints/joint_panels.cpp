@@ -53,7 +53,8 @@ Panel trace_map(const JointNetwork& network) {
     Panel panel;
     panel.height = [network](const Canvas& measure, double width) {
         const MapAxes scales(network.box, width);
-        const double frame = width - Axes::room_left(measure, scales.y) - 4.0;
+        const double room = width - Axes::room_left(measure, scales.y);
+        const double frame = room - Axes::room_right(measure, scales.x, room);
         return room_above(measure, legend_of(measure, entries_of(network), width)) +
                std::min(scales.height(frame), highest_share * width) + Axes::room_below(measure);
     };
@@ -63,7 +64,7 @@ Panel trace_map(const JointNetwork& network) {
         Axes axes;
         axes.x = scales.x;
         axes.y = scales.y;
-        axes.frame = fitted_frame(scales, frame_below(canvas, place, legend, axes.y));
+        axes.frame = fitted_frame(scales, frame_below(canvas, place, legend, axes.x, axes.y));
         legend.draw(canvas, {place.x + beside_letter, place.y});
         canvas.clip(axes.frame);
         for (const JointTrace& trace : network.traces) {

@@ -91,9 +91,7 @@ Panel area_strain(const std::vector<PlottedTest>& tests) {
             entries = {{"area strain", colour_of(tests.front()), false, false},
                        {"of cracks: less (1 − ν)σ/E", shear_colour, true, false}};
         const Legend legend = legend_of(canvas, std::move(entries), place.width);
-        const double left = Axes::room_left(canvas, axes.y);
-        const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);
-        axes.frame = {place.x + left, top, place.width - left - 4.0, place.bottom() - Axes::room_below(canvas) - top};
+        axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
         legend.draw(canvas, {place.x + beside_letter, place.y});
         if (axes.y.low < 0.0)
             canvas.line({axes.at(axes.x.low, 0.0), axes.at(axes.x.high, 0.0)}, colour("#c8ccd0"), 0.4);

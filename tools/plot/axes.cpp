@@ -122,6 +122,15 @@ double Axes::room_below(const Canvas& canvas, double text) {
     return 2.0 * canvas.size_of("0", text).height + tick_length + label_gap;
 }
 
+double Axes::room_right(const Canvas& canvas, const Scale& x, double room, double text) {
+    constexpr double least = 4.0;  // pt
+    const std::vector<double> ticks = x.ticks();
+    if (ticks.empty()) return least;
+    const double beyond_tick = 0.5 * canvas.size_of(x.label(ticks.back()), text).width;
+    const double rest = (x.high - ticks.back()) / (x.high - x.low);  // of the frame's width, beyond the tick
+    return std::max(least, (beyond_tick - rest * room) / (1.0 - rest));
+}
+
 void Axes::draw(Canvas& canvas, const std::string& x_title, const std::string& y_title) const {
     const double height = canvas.size_of("0", text).height;
     for (const double tick : y.ticks()) {

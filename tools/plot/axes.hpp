@@ -47,6 +47,9 @@ struct Axes {
     /// Room that numbers and a title need beside the frame, pt.
     static double room_left(const Canvas& canvas, const Scale& scale, double text = 1.0);
     static double room_below(const Canvas& canvas, double text = 1.0);
+    /// Room that the number at the last tick needs to the right of the frame, pt.
+    /// @param room from the frame's left end to the panel's right one
+    static double room_right(const Canvas& canvas, const Scale& x, double room, double text = 1.0);
 };
 
 }  // namespace crackle::plot

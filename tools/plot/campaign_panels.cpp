@@ -12,11 +12,56 @@
 #include "specimens/statistics/mean.hpp"
 #include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
+#include "tools/plot/plotted_curves.hpp"
 
 namespace crackle::plot {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Strains and the like, which have no unit, in thousandths where they are small.
+Unit figure_unit(double largest, const std::string& name) {
+    constexpr double small = 0.02;
+    if (!name.empty()) return unit_for(largest, name);
+    return largest > 0.0 && largest < small ? Unit{strain_unit, strain_unit_title} : Unit{1.0, ""};
+}
+
+/// The label of a row in lines of at most this width, pt, broken behind commas where that does.
+std::string broken(const Canvas& canvas, const std::string& label, double text, double width) {
+    std::string all, line;
+    for (std::size_t at = 0; at < label.size();) {
+        const std::size_t comma = label.find(", ", at), end = comma == std::string::npos ? label.size() : comma + 2;
+        const std::string part = label.substr(at, end - at);
+        if (!line.empty() && canvas.size_of(escaped(line + part), text).width > width) {
+            all += line.substr(0, line.size() - 1) + '\n';
+            line.clear();
+        }
+        line += part;
+        at = end;
+    }
+    return all + line;
+}
+
+/// What stands beside the rows of a panel of this width.
+struct RowLabels {
+    static constexpr double text = 0.85;  // of the font size
+
+    std::vector<std::string> markup;
+    double width = 0.0, height = 0.0;  // pt, of the largest
+};
+
+RowLabels labels_of(const Canvas& canvas, const std::vector<Sample>& samples, double panel_width) {
+    constexpr double widest = 0.4;  // of the panel
+    RowLabels labels;
+    for (const Sample& sample : samples) {
+        labels.markup.push_back(escaped(broken(canvas, sample.label, RowLabels::text, widest * panel_width)));
+        const TextSize size = canvas.size_of(labels.markup.back(), RowLabels::text);
+        labels.width = std::max(labels.width, size.width);
+        labels.height = std::max(labels.height, size.height);
+    }
+    labels.width = std::min(labels.width, widest * panel_width);
+    return labels;
+}
 
 /// A scale that begins near the smallest value where that is far from 0: figures, unlike curves, need no 0.
 Scale figure_scale(double smallest, double largest, int ticks) {
@@ -91,7 +136,7 @@ Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<Lab
         axes.x = scale_for(0.0, strain / strain_unit, place.width < 300.0 ? 6 : 10);
         axes.y = scale_for(smallest / unit.factor, largest / unit.factor, 6);
         const Legend legend = legend_of(canvas, entries(), place.width);
-        axes.frame = frame_below(canvas, place, legend, axes.y);
+        axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
         legend.draw(canvas, {place.x + beside_letter, place.y});
         const auto line = [&](const Band& band, const std::vector<double>& values) {
             std::vector<Point> points;
@@ -115,37 +160,38 @@ Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<Lab
                 points.push_back(axes.at(at / strain_unit, stress / unit.factor));
             canvas.line(points, ink, 1.3 * curve_width, true);
         }
-        axes.draw(canvas, strain_title, fmt::format("axial stress, {}", unit.name));
+        const CurveNames names = names_of_kind(bundles.empty() ? "" : bundles.front().kind);
+        axes.draw(canvas, titled(names.strain, strain_unit_title), titled(names.stress, unit.name));
     };
     return panel;
 }
 
 Panel distributions(const std::string& title, const std::string& unit_name, const std::vector<Sample>& samples) {
-    constexpr double row = 2.6;  // of the font size
     Panel panel;
-    panel.height = [samples](const Canvas& measure, double /*width*/) {
-        return row * measure.style().font_size * static_cast<double>(samples.size()) + Axes::room_below(measure) +
-               1.6 * measure.style().font_size;
+    panel.height = [samples](const Canvas& measure, double width) {
+        constexpr double row = 2.6, between = 0.6;  // of the font size
+        const double size = measure.style().font_size;
+        const double rows = std::max(row * size, labels_of(measure, samples, width).height + between * size);
+        return rows * static_cast<double>(samples.size()) + Axes::room_below(measure) + 1.6 * size;
     };
     panel.draw = [title, unit_name, samples](Canvas& canvas, const Rect& place) {
-        double smallest = infinity, largest = -infinity, widest = 0.0;
+        double smallest = infinity, largest = -infinity;
         for (const Sample& sample : samples) {
             for (const double value : sample.values) {
                 smallest = std::min(smallest, value);
                 largest = std::max(largest, value);
             }
-            widest = std::max(widest, canvas.size_of(escaped(sample.label), 0.85).width);
         }
         if (!std::isfinite(smallest)) smallest = largest = 0.0;
-        const Unit unit = unit_name.empty() ? Unit{1.0, ""} : unit_for(largest, unit_name);
+        const Unit unit = figure_unit(largest, unit_name);
+        const RowLabels labels = labels_of(canvas, samples, place.width);
         Axes axes;
         axes.x = figure_scale(smallest / unit.factor, largest / unit.factor, place.width < 300.0 ? 5 : 8);
         // Rows have names in place of ticks.
         axes.y = {1e-3, static_cast<double>(std::max<std::size_t>(1, samples.size())), 1e4};
         const double top = place.y + 1.6 * canvas.style().font_size;
-        widest = std::min(widest, 0.4 * place.width);
-        axes.frame = {place.x + widest + 8.0, top, place.width - widest - 14.0,
-                      place.bottom() - Axes::room_below(canvas) - top};
+        const double left = labels.width + 8.0, right = Axes::room_right(canvas, axes.x, place.width - left);
+        axes.frame = {place.x + left, top, place.width - left - right, place.bottom() - Axes::room_below(canvas) - top};
         for (std::size_t s = 0; s < samples.size(); ++s) {
             const double middle = static_cast<double>(samples.size() - s) - 0.5;
             const Colour &colour = series_colour(s), faint = tinted(colour, 0.55);
@@ -156,8 +202,10 @@ Panel distributions(const std::string& title, const std::string& unit_name, cons
             if (std::isfinite(samples[s].mean))
                 draw_mean(canvas, at(samples[s].mean), at(samples[s].low), at(samples[s].high), colour, true);
             canvas.unclip();
-            canvas.text({axes.frame.x - 5.0, axes.at(axes.x.low, middle).y}, escaped(samples[s].label), Across::right,
-                        Down::middle, 0.85, ink);
+            double text = RowLabels::text;  // letters keep to whole sizes: a word in proportion may still be too wide
+            while (canvas.size_of(labels.markup[s], text).width > labels.width) text *= 0.95;
+            canvas.text({axes.frame.x - 5.0, axes.at(axes.x.low, middle).y}, labels.markup[s], Across::right,
+                        Down::middle, text, ink);
         }
         for (const double tick : axes.x.ticks()) {
             const Point mark = axes.at(tick, axes.y.low);
@@ -194,7 +242,7 @@ Panel over_axis(const std::string& x_title, const std::string& x_unit, const std
             }
         }
         if (!std::isfinite(smallest)) smallest = largest = left_x = right_x = 0.0;
-        const Unit unit = y_unit.empty() ? Unit{1.0, ""} : unit_for(largest, y_unit);
+        const Unit unit = figure_unit(largest, y_unit);
         // Stresses and lengths have prefixes, what has none a power of ten.
         const bool has_prefix = x_unit == "Pa" || x_unit == "N/m" || x_unit == "m";
         const Unit unit_x = has_prefix ? unit_for(right_x, x_unit) : Unit{1.0, x_unit};
@@ -206,7 +254,7 @@ Panel over_axis(const std::string& x_title, const std::string& x_unit, const std
         axes.x = figure_scale(left_x / power, right_x / power, place.width < 300.0 ? 5 : 8);
         axes.y = figure_scale(smallest / unit.factor, largest / unit.factor, 5);
         const Legend legend = legend_of(canvas, entries(), place.width);
-        axes.frame = frame_below(canvas, place, legend, axes.y);
+        axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
         legend.draw(canvas, {place.x + beside_letter, place.y});
         // An interval of two packings may be many times as long as all else.
         canvas.clip(axes.frame);

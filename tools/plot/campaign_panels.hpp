@@ -16,6 +16,7 @@ namespace crackle::plot {
 struct CurveBundle {
     std::string label;
     std::string stress_unit = "N/m";
+    std::string kind = {};                                       ///< of test: what its stress and strain are called
     std::vector<std::vector<std::pair<double, double>>> curves;  ///< strain, stress; strain grows
 };
 

@@ -78,7 +78,7 @@ Panel curves_panel(const AxisTitle& x_title, const AxisTitle& y_title, const std
         Axes axes;
         axes.x = scale_around(x.low / x_unit.factor, x.high / x_unit.factor, whole.width < 300.0 ? 6 : 10);
         axes.y = scale_around(y.low / y_unit.factor, y.high / y_unit.factor, 5);
-        axes.frame = frame_below(canvas, place, legend, axes.y);
+        axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
         legend.draw(canvas, {place.x + beside_letter, place.y});
         const Colour zero = colour("#c8ccd0");
         if (axes.y.low < 0.0 && axes.y.high > 0.0)

@@ -97,9 +97,57 @@ void mark_peak(Canvas& canvas, const Axes& axes, const PlottedTest& test, double
     canvas.circle(axes.at(strain / strain_unit, stress / unit), 1.8, &white, &colour_of(test), curve_width);
 }
 
+/// Places all along the curves, at most this far apart, pt.
+std::vector<Point> places_along(const Axes& axes, const std::vector<PlottedTest>& tests, double unit, double apart) {
+    std::vector<Point> places;
+    for (const PlottedTest& test : tests) {
+        const std::vector<Point> points = curve_points(axes, column(*test.results, "axial_strain"), strain_unit,
+                                                       column(*test.results, "axial_stress"), unit);
+        for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+            const Point a = points[k], b = points[k + 1];
+            const double parts = std::max(1.0, std::ceil(std::hypot(b.x - a.x, b.y - a.y) / apart));
+            for (double part = 0.0; part <= parts; ++part)
+                places.push_back({a.x + part / parts * (b.x - a.x), a.y + part / parts * (b.y - a.y)});
+        }
+    }
+    return places;
+}
+
+bool is_free(const Rect& rect, const std::vector<Point>& taken, double off) {
+    return std::ranges::none_of(taken, [&](const Point& p) {
+        return p.x > rect.x - off && p.x < rect.right() + off && p.y > rect.y - off && p.y < rect.bottom() + off;
+    });
+}
+
+/// Where a label of this size beside a mark hides neither curve nor other labels: above it to the left, else below it
+/// to the right, else farther off. Its own place is taken from then on.
+Rect label_place(const Rect& frame, Point mark, const TextSize& size, std::vector<Point>& taken) {
+    constexpr double beside = 2.5, farther = 3.0, off = 0.5;  // pt
+    Rect best{mark.x + beside, mark.y + beside, size.width, size.height};
+    const auto try_at = [&](double step) {
+        const double x = beside + step, y = 0.5 * step;
+        for (const Rect& rect : {Rect{mark.x - x - size.width, mark.y - y - size.height, size.width, size.height},
+                                 Rect{mark.x + x, mark.y + y, size.width, size.height}}) {
+            const bool inside = rect.x > frame.x + 1.0 && rect.right() < frame.right() && rect.y > frame.y &&
+                                rect.bottom() < frame.bottom() - 1.0;
+            if (!inside || !is_free(rect, taken, off)) continue;
+            best = rect;
+            return true;
+        }
+        return false;
+    };
+    for (int step = 0; step < 6 && !try_at(farther * step); ++step) {
+    }
+    for (const double across : {0.0, 0.25, 0.5, 0.75, 1.0})
+        for (const double down : {0.0, 0.5, 1.0})
+            taken.push_back({best.x + across * best.width, best.y + down * best.height});
+    return best;
+}
+
 /// Crack initiation and damage, where the curve first reaches their stresses.
 void mark_cracks(Canvas& canvas, const Axes& axes, const PlottedTest& test, double unit) {
     const Colour white = colour("#ffffff");
+    std::vector<Point> taken = places_along(axes, {test}, unit, 1.0);
     const std::vector<double>&strain = column(*test.results, "axial_strain"),
           &stress = column(*test.results, "axial_stress");
     for (const auto& [key, name] : {std::pair("crack_initiation_stress", crack_initiation_sign),
@@ -110,10 +158,8 @@ void mark_cracks(Canvas& canvas, const Axes& axes, const PlottedTest& test, doub
         const auto row = static_cast<std::size_t>(reached - stress.begin());
         const Point place = axes.at(strain[row] / strain_unit, *reached / unit);
         canvas.circle(place, 1.5, &white, &colour_of(test), 0.7 * curve_width);
-        // Beside the axis it would stand on its line.
-        const bool by_axis = place.x - axes.frame.x < 4.0 + canvas.size_of(name, small_text).width + 2.0;
-        canvas.text({place.x + (by_axis ? 4.0 : -4.0), place.y}, name, by_axis ? Across::left : Across::right,
-                    Down::middle, small_text, ink);
+        const Rect label = label_place(axes.frame, place, canvas.size_of(name, small_text), taken);
+        canvas.text({label.x, label.y}, name, Across::left, Down::top, small_text, ink);
     }
 }
 
@@ -150,24 +196,11 @@ std::vector<PlottedTest> slivers_of(const std::vector<PlottedTest>& tests) {
 std::optional<Rect> free_place(const Axes& axes, const std::vector<PlottedTest>& tests, double unit, double width,
                                double height) {
     constexpr double off = 4.0, stride = 3.0;  // pt, from curves; between tries
-    std::vector<Point> taken;
-    for (const PlottedTest& test : tests) {
-        const std::vector<Point> points = curve_points(axes, column(*test.results, "axial_strain"), strain_unit,
-                                                       column(*test.results, "axial_stress"), unit);
-        for (std::size_t k = 0; k + 1 < points.size(); ++k) {
-            const Point a = points[k], b = points[k + 1];
-            const double parts = std::ceil(std::hypot(b.x - a.x, b.y - a.y) / off);
-            for (double part = 0.0; part <= parts; ++part)
-                taken.push_back({a.x + part / parts * (b.x - a.x), a.y + part / parts * (b.y - a.y)});
-        }
-    }
+    const std::vector<Point> taken = places_along(axes, tests, unit, off);
     const Rect& frame = axes.frame;
     for (double y = frame.bottom() - off - height; y >= frame.y; y -= stride) {
         for (double x = frame.right() - off - width; x >= frame.x + off; x -= stride) {
-            const bool free = std::none_of(taken.begin(), taken.end(), [&](const Point& p) {
-                return p.x > x - off && p.x < x + width + off && p.y > y - off && p.y < y + height + off;
-            });
-            if (free) return Rect{x, y, width, height};
+            if (is_free({x, y, width, height}, taken, off)) return Rect{x, y, width, height};
         }
     }
     return std::nullopt;
@@ -219,7 +252,8 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
         // The letter of a panel stands beside the frame, where the uppermost number could be.
         const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);
         const double bottom = place.bottom() - Axes::room_below(canvas);
-        lower.frame = {place.x + left, bottom - strip(place.width) + gap, place.width - left - 4.0,
+        const double right = Axes::room_right(canvas, lower.x, place.width - left);
+        lower.frame = {place.x + left, bottom - strip(place.width) + gap, place.width - left - right,
                        strip(place.width) - gap};
         upper.frame = {lower.frame.x, top, lower.frame.width, lower.frame.y - gap - top};
         const std::vector<PlottedTest> slivers = slivers_of(tests);
@@ -281,7 +315,9 @@ Panel breaks(const std::vector<PlottedTest>& tests) {
                 std::any_of(histogram.shear.begin(), histogram.shear.end(), [](int n) { return n > 0; });
             if (any_shear) entries.insert(entries.begin() + 1, {"shear", shear_colour, false, true});
         }
-        const double left = Axes::room_left(canvas, axes.y), right = single ? Axes::room_left(canvas, so_far) : 4.0;
+        const double left = Axes::room_left(canvas, axes.y);
+        const double right =
+            single ? Axes::room_left(canvas, so_far) : Axes::room_right(canvas, axes.x, place.width - left);
         const Legend legend = legend_of(canvas, std::move(entries), place.width);
         const double top = place.y + legend.height();
         axes.frame = {place.x + left, top, place.width - left - right, place.bottom() - Axes::room_below(canvas) - top};

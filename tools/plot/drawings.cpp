@@ -6,9 +6,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <unordered_map>
 
@@ -26,6 +28,23 @@ namespace fs = std::filesystem;
 const Colour grain = colour("#e3e0d9"), grain_edge = colour("#8d877b"), platen = colour("#4b5259"),
              joint_colour = colour("#2a7f62");
 
+/// Light, and told apart in grey as well: cracks are drawn over them.
+const Colour& mineral_colour(std::size_t number) {
+    static const std::array<Colour, 6> all{colour("#ece9e2"), colour("#d9b9a3"), colour("#a9a39a"),
+                                           colour("#b9c7ac"), colour("#cdbfdc"), colour("#e8d48f")};
+    return all[number % all.size()];
+}
+
+/// Of a rock of several minerals, in the order of their material numbers.
+std::vector<std::string> minerals_of(const Recording& recording) {
+    std::vector<std::string> names;
+    const auto& summary = recording.results.summary.json();
+    const auto found = summary.find("minerals");
+    if (found != summary.end())
+        for (const auto& mineral : *found) names.push_back(mineral.value("name", ""));
+    return names;
+}
+
 struct Extent {
     double x1 = std::numeric_limits<double>::infinity(), x2 = -x1, y1 = x1, y2 = -x1;
     void include(Vec2 place, double reach) {
@@ -42,9 +61,9 @@ struct Extent {
     double height() const { return y2 - y1; }
 };
 
-/// A crack, or a face on a trace of joints that has not lost its bonds, or never had any.
+/// A crack, or a face on a trace of joints that has not lost its bonds, or, open, never had any.
 struct FaceLine {
-    enum class Kind : std::uint8_t { tension, shear, joint };
+    enum class Kind : std::uint8_t { tension, shear, joint, open_joint };
 
     Vec2 from, to;
     Kind kind = Kind::tension;
@@ -57,9 +76,11 @@ const Colour& colour_of(FaceLine::Kind kind) {
         case FaceLine::Kind::shear:
             return shear_colour;
         case FaceLine::Kind::joint:
+            return joint_colour;
+        case FaceLine::Kind::open_joint:
             break;
     }
-    return joint_colour;
+    return ink;
 }
 
 /// How a cell has moved since the first frame: place' = centre + displacement + R(angle) (place - centre).
@@ -108,7 +129,8 @@ std::vector<FaceLine> faces_of(const fs::path& folder, const FrameHead& head, co
         const std::vector<std::size_t>& ends = data.cells[k].points;
         const double value = word != data.cell_data.end() ? word->second.at(k) : 0.0;
         if (joints && value == static_cast<double>(ContactState::broken)) continue;  // the cracks show it
-        const FaceLine::Kind kind = joints         ? FaceLine::Kind::joint
+        const bool open = value == static_cast<double>(ContactState::loose);
+        const FaceLine::Kind kind = joints         ? (open ? FaceLine::Kind::open_joint : FaceLine::Kind::joint)
                                     : value != 0.0 ? FaceLine::Kind::shear
                                                    : FaceLine::Kind::tension;
         const auto i = bodies.find(static_cast<int>(body_i[k])), j = bodies.find(static_cast<int>(body_j[k]));
@@ -133,8 +155,14 @@ struct Moment {
     const std::vector<RecordedCell>* cells = nullptr;
     std::vector<FaceLine> faces;  // joints first: cracks are drawn over them
     std::vector<DrawnMark> marks;
-    std::vector<std::string> caption;  // lines
+    std::vector<std::string> caption;   // lines
+    std::vector<std::string> minerals;  // none of a rock of one material
     Extent extent;
+
+    const Colour& colour_of_cell(std::size_t k) const {
+        const auto number = static_cast<std::size_t>((*cells)[k].material - 1);
+        return number < minerals.size() ? mineral_colour(number) : grain;
+    }
 };
 
 /// How far out fragments are followed, of the specimen's width, and the share of all cells from which on one always is:
@@ -203,6 +231,7 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
     const RecordedFrame frame = recording.frame(drawn.frame);
     Moment moment;
     moment.cells = &recording.cells;
+    moment.minerals = minerals_of(recording);
     std::unordered_map<int, DrawnBody> bodies;  // of a clump one of its circles
     for (std::size_t k = 0; k < recording.cells.size(); ++k) {
         const RecordedCell& cell = recording.cells[k];
@@ -260,11 +289,12 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
         const RecordedCell& cell = (*moment.cells)[k];
         if (!moment.shown[k]) continue;
         if (cell.radius > 0.0) {
-            canvas.circle(at(moment.outlines[k].front()), scale * cell.radius, &grain, &grain_edge, edge);
+            canvas.circle(at(moment.outlines[k].front()), scale * cell.radius, &moment.colour_of_cell(k), &grain_edge,
+                          edge);
         } else if (cell.open) {
             canvas.line(on_sheet(moment.outlines[k]), platen, 1.2);
         } else {
-            canvas.polygon(on_sheet(moment.outlines[k]), &grain, &grain_edge, edge);
+            canvas.polygon(on_sheet(moment.outlines[k]), &moment.colour_of_cell(k), &grain_edge, edge);
         }
     }
     for (const FaceLine& line : moment.faces) canvas.line({at(line.from), at(line.to)}, colour_of(line.kind), crack);
@@ -280,29 +310,42 @@ double round_length(double most) {
 }
 
 struct Key {
-    bool tension = false, shear = false, joint = false;
+    bool tension = false, shear = false, joint = false, open_joint = false;
     double magnify = 1.0;
+    std::vector<std::string> minerals = {};
 };
 
-/// Scale bar, what the cracks' colours mean and by how much displacements are magnified, in one line.
+/// Scale bar, what the colours of minerals and cracks mean and by how much displacements are magnified, in one line.
 void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a_metre) {
     const double middle = place.y + 0.5 * place.height;
     const double length = round_length(std::min(60.0, 0.15 * place.width) / points_a_metre);
     const Unit unit = unit_for(length, "m");
     struct Item {
+        enum class Sample : std::uint8_t { bar, line, patch, none };
+
         std::string text;
-        const Colour* line;  // nullptr: text alone
-        double length;       // pt
+        Sample sample;
+        Colour colour;
+        double length;  // pt
     };
-    std::vector<Item> items{{fmt::format("{:.6g} {}", length / unit.factor, unit.name), &ink, length * points_a_metre}};
-    if (key.tension) items.push_back({"broken in tension", &tension_colour, 10.0});
-    if (key.shear) items.push_back({"in shear", &shear_colour, 10.0});
-    if (key.joint) items.push_back({"joint", &joint_colour, 10.0});
-    if (key.magnify != 1.0) items.push_back({fmt::format("displacements ×{:.6g}", key.magnify), nullptr, 0.0});
+    constexpr double patch = 6.0;  // pt
+    std::vector<Item> items{
+        {fmt::format("{:.6g} {}", length / unit.factor, unit.name), Item::Sample::bar, ink, length * points_a_metre}};
+    for (std::size_t k = 0; k < key.minerals.size(); ++k)
+        items.push_back({escaped(key.minerals[k]), Item::Sample::patch, mineral_colour(k), patch});
+    const auto add_line = [&](bool any, const char* text, const Colour& colour) {
+        if (any) items.push_back({text, Item::Sample::line, colour, 10.0});
+    };
+    add_line(key.tension, "broken in tension", tension_colour);
+    add_line(key.shear, "in shear", shear_colour);
+    add_line(key.joint, "joint", joint_colour);
+    add_line(key.open_joint, "open joint", ink);
+    if (key.magnify != 1.0)
+        items.push_back({fmt::format("displacements ×{:.6g}", key.magnify), Item::Sample::none, ink, 0.0});
     double lines = 0.0, texts = 0.0;  // pt
     for (const Item& item : items) {
         lines += item.length;
-        texts += (item.line != nullptr ? 3.0 : 0.0) + canvas.size_of(item.text, key_text).width;
+        texts += (item.sample != Item::Sample::none ? 3.0 : 0.0) + canvas.size_of(item.text, key_text).width;
     }
     double gap = 1.2 * canvas.style().font_size;
     texts += gap * (static_cast<double>(items.size()) - 1.0);
@@ -312,14 +355,18 @@ void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a
     const double width = lines + shrunk * texts;
     double x = place.x + 0.5 * (place.width - width);
     for (const Item& item : items) {
-        if (item.line != nullptr) {
-            canvas.line({{x, middle}, {x + item.length, middle}}, *item.line, item.line == &ink ? 0.8 : 1.2);
-            if (item.line == &ink) {
-                for (const double end : {x, x + item.length})
-                    canvas.line({{end, middle - 2.0}, {end, middle + 2.0}}, ink, 0.8);
-            }
-            x += item.length + 3.0 * shrunk;
+        const double end_x = x + item.length;
+        if (item.sample == Item::Sample::patch) {
+            const double half = 0.5 * item.length;
+            canvas.polygon({{x, middle - half}, {end_x, middle - half}, {end_x, middle + half}, {x, middle + half}},
+                           &item.colour, &grain_edge, 0.3);
+        } else if (item.sample != Item::Sample::none) {
+            const bool bar = item.sample == Item::Sample::bar;
+            canvas.line({{x, middle}, {end_x, middle}}, item.colour, bar ? 0.8 : 1.2);
+            for (const double end : {x, end_x})
+                if (bar) canvas.line({{end, middle - 2.0}, {end, middle + 2.0}}, ink, 0.8);
         }
+        if (item.sample != Item::Sample::none) x = end_x + 3.0 * shrunk;
         canvas.text({x, middle}, item.text, Across::left, Down::middle, size);
         x += canvas.size_of(item.text, size).width + gap;
     }
@@ -351,7 +398,9 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
             key.tension = key.tension || line.kind == FaceLine::Kind::tension;
             key.shear = key.shear || line.kind == FaceLine::Kind::shear;
             key.joint = key.joint || line.kind == FaceLine::Kind::joint;
+            key.open_joint = key.open_joint || line.kind == FaceLine::Kind::open_joint;
         }
+        if (key.minerals.empty()) key.minerals = moment.minerals;
     }
     const double height = y2 - y1 + 2.0 * beyond;
     const auto scale_at = [widths, widest, gaps, height](double width) {

@@ -146,7 +146,8 @@ void draw_magnitudes(Canvas& canvas, const Rect& place, const Magnitudes& all) {
         y += 1.1 * canvas.size_of(all.lines[k], size).height;
     }
     const double top = y + 3.0;
-    axes.frame = {place.x + left, top, place.width - left - 4.0, place.bottom() - Axes::room_below(canvas) - top};
+    const double right = Axes::room_right(canvas, axes.x, place.width - left);
+    axes.frame = {place.x + left, top, place.width - left - right, place.bottom() - Axes::room_below(canvas) - top};
     draw_legend(canvas, {place.x + beside_letter, place.y + 0.6 * canvas.style().font_size});
     const Colour white = colour("#ffffff");
     for (std::size_t k = 0; k < magnitudes.size();) {

@@ -81,7 +81,8 @@ struct MohrAxes {
         x = scale_for(left / unit.factor, right / unit.factor, panel_width < 300.0 ? 7 : 10);
         const double top = 1.12 * radius / unit.factor;
         y = {0.0, top, scale_for(0.0, top, 4).step};
-        width = panel_width - Axes::room_left(canvas, y) - 4.0;
+        const double left_room = Axes::room_left(canvas, y);
+        width = panel_width - left_room - Axes::room_right(canvas, x, panel_width - left_room);
     }
     double points_of_unit() const { return width / (x.high - x.low); }
     double height() const { return y.high * points_of_unit(); }
@@ -118,7 +119,7 @@ Panel strengths_over_confinement(const EnvelopeFigure& figure) {
                            place.width < 300.0 ? 5 : 8);
         axes.y = scale_for(0.0, highest / unit.factor, 5);
         const Legend legend = legend_of(canvas, fitted_entries(figure), place.width);
-        axes.frame = frame_below(canvas, place, legend, axes.y);
+        axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
         legend.draw(canvas, {place.x + beside_letter, place.y});
         canvas.clip(axes.frame);
         canvas.line(curve_of(axes, unit.factor, laws.mohr_coulomb_tension(), last,
@@ -173,7 +174,7 @@ Panel mohr_circles(const EnvelopeFigure& figure) {
         Axes axes;
         axes.x = scales.x;
         axes.y = scales.y;
-        axes.frame = frame_below(canvas, place, legend, axes.y);
+        axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
         // A row may be higher than this needs: more of the ordinate, at the same scale.
         axes.y.high = axes.frame.height / (axes.frame.width / (axes.x.high - axes.x.low));
         legend.draw(canvas, {place.x + beside_letter, place.y});

@@ -59,6 +59,11 @@ Legend::Legend(const Canvas& canvas, std::vector<Entry> entries, double width) :
         widest = 0.0;
         columns = measure();
     }
+    if (widest - between > width) {
+        text_ *= width / (widest - between);
+        widest = 0.0;
+        columns = measure();
+    }
     columns = std::min(columns, std::max<std::size_t>(1, entries_.size()));
     rows_ = static_cast<int>((entries_.size() + columns - 1) / columns);
     for (std::size_t k = 0; k < entries_.size(); ++k) {
@@ -85,10 +90,10 @@ Legend legend_of(const Canvas& canvas, std::vector<Legend::Entry> entries, doubl
     return {canvas, std::move(entries), width - beside_letter - 4.0};
 }
 
-Rect frame_below(const Canvas& canvas, const Rect& place, const Legend& legend, const Scale& y) {
-    const double left = Axes::room_left(canvas, y);
-    const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);
-    return {place.x + left, top, place.width - left - 4.0, place.bottom() - Axes::room_below(canvas) - top};
+Rect frame_below(const Canvas& canvas, const Rect& place, const Legend& legend, const Scale& x, const Scale& y) {
+    const double left = Axes::room_left(canvas, y), right = Axes::room_right(canvas, x, place.width - left);
+    const double top = place.y + room_above(canvas, legend);
+    return {place.x + left, top, place.width - left - right, place.bottom() - Axes::room_below(canvas) - top};
 }
 
 }  // namespace crackle::plot

@@ -73,6 +73,6 @@ inline double room_above(const Canvas& canvas, const Legend& legend) {
 }
 
 /// What a legend above and the axes' numbers leave of a panel.
-Rect frame_below(const Canvas& canvas, const Rect& place, const Legend& legend, const Scale& y);
+Rect frame_below(const Canvas& canvas, const Rect& place, const Legend& legend, const Scale& x, const Scale& y);
 
 }  // namespace crackle::plot

@@ -7,6 +7,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/base/threads_to_be_had.hpp"
+#include "tools/plot/legend.hpp"
 
 namespace crackle::plot {
 namespace {
@@ -48,7 +49,7 @@ std::string figure(const std::vector<std::vector<Panel>>& rows, const std::strin
     std::size_t panels = 0;
     for (const std::vector<Panel>& row : rows) panels += row.size();
     const auto letter_height = [&](const Panel& panel) {
-        return panels > 1 && panel.letter_above ? 1.5 * style.font_size : 0.0;
+        return (panels > 1 && panel.letter_above) || !panel.title.empty() ? 1.5 * style.font_size : 0.0;
     };
     const auto panel_width = [&](const std::vector<Panel>& row) {
         const auto count = static_cast<double>(row.size());
@@ -74,6 +75,12 @@ std::string figure(const std::vector<std::vector<Panel>>& rows, const std::strin
         for (const Panel& panel : row) {
             const double top = y + letter_height(panel);
             panel.draw(canvas, {x, top, panel_width(row), bottom - top});
+            if (!panel.title.empty()) {
+                const double beside = panels > 1 ? beside_letter : 0.0;
+                const std::string text = escaped(panel.title);
+                const double fits = (panel_width(row) - beside) / canvas.size_of(text).width;
+                canvas.text({x + beside, y}, text, Across::left, Down::top, std::min(1.0, fits), ink);
+            }
             std::vector<double> letters;
             if (panel.more_letters) letters = panel.more_letters(panel_width(row));
             letters.insert(letters.begin(), 0.0);

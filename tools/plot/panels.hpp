@@ -17,6 +17,7 @@ struct Panel {
     std::function<double(const Canvas& measure, double width)> height;  ///< pt; text is measured on the canvas
     std::function<void(Canvas&, const Rect&)> draw;
     bool letter_above = false;  ///< its letter, (a), (b), ..., needs a line of its own
+    std::string title = {};     ///< of its test, beside the letter; empty: none
     /// Of a panel of this width: places from its left, pt, of letters beside its first one; none in most panels.
     std::function<std::vector<double>(double width)> more_letters = {};
 };

@@ -47,16 +47,18 @@ double number_of(const PlottedTest& test, const char* key) {
     return test.results->summary.number(key).value_or(std::nan(""));
 }
 
-CurveNames names_of(const std::vector<PlottedTest>& tests) {
+CurveNames names_of_kind(const std::string& kind) {
     static const std::map<std::string, CurveNames, std::less<>> kinds{
         {"brazilian", {"tensile stress at the centre", "shortening of the diameter"}},
         {"bending", {"fibre stress", "fibre strain"}},
         {"scb", {"P/2R", "displacement over R"}},
         {"direct_shear", {"shear stress", "displacement over length"}}};
-    const auto name = [](const PlottedTest& test) {
-        const auto found = kinds.find(test.results->summary.word("kind"));
-        return found == kinds.end() ? CurveNames{"axial stress", "axial strain"} : found->second;
-    };
+    const auto found = kinds.find(kind);
+    return found == kinds.end() ? CurveNames{"axial stress", "axial strain"} : found->second;
+}
+
+CurveNames names_of(const std::vector<PlottedTest>& tests) {
+    const auto name = [](const PlottedTest& test) { return names_of_kind(test.results->summary.word("kind")); };
     if (tests.empty()) return {};
     const CurveNames first = name(tests.front());
     const bool alike = std::ranges::all_of(

@@ -29,6 +29,8 @@ struct CurveNames {
     const char* strain = "strain";
 };
 CurveNames names_of(const std::vector<PlottedTest>& tests);
+/// Of one kind of test.
+CurveNames names_of_kind(const std::string& kind);
 
 std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests);
 Scale strain_scale(const std::vector<PlottedTest>& tests, double width);

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <regex>
+#include <set>
 #include <thread>
 
 #include "solver/base/errors.hpp"
@@ -221,6 +223,46 @@ TEST_F(CampaignTest, KeepsCurvesOrEverythingWhereAskedFor) {
     }
     EXPECT_EQ(files, 4U);
     EXPECT_EQ(table("curves"), table("all"));
+}
+
+TEST_F(CampaignTest, WhatIsKeptIsNamedByTestPointAndPackingAndFoundByIdentity) {
+    write_small_plan(folder_, 1, "[run]\nkeep = \"all\"\n");
+    const CampaignOutcome outcome = run("out");
+    const std::regex readable("(tension|compression)-friction_angle=(20|35)-packing1-[0-9a-f]{12}");
+    std::set<std::string> points;
+    for (const auto& entry : fs::directory_iterator(folder_ / "out/tests")) {
+        const std::string name = entry.path().filename().string();
+        EXPECT_TRUE(std::regex_match(name, readable)) << name;
+        points.insert(name.substr(0, name.rfind('-')));
+    }
+    EXPECT_EQ(points.size(), 4U);
+    // Earlier versions named them by all digits of the identity: they are found, and nothing is run again.
+    const LedgerTable tests = CampaignLedger::read(outcome.ledger).query("SELECT identity FROM test");
+    ASSERT_EQ(tests.rows.size(), 4U);
+    for (const auto& row : tests.rows) {
+        const std::string identity = std::get<std::string>(row[0]);
+        const auto named = KeptTests(folder_ / "out").folder(identity);
+        ASSERT_TRUE(named.has_value()) << identity;
+        fs::rename(*named, folder_ / "out/tests" / identity);
+        EXPECT_EQ(KeptTests(folder_ / "out").curve(identity), folder_ / "out/tests" / identity / "curve.csv");
+    }
+    EXPECT_EQ(run("out").run, 0);
+    EXPECT_FALSE(KeptTests(folder_ / "out").name("0123456789abcdef0123456789abcdef").has_value());
+}
+
+TEST_F(CampaignTest, APointOfManyAxesIsNamedByItsNumber) {
+    Plan plan = read_plan(write_small_plan(folder_));
+    const PlanRow& row = plan.rows.back();
+    const std::string identity = "0123456789abcdef0123456789abcdef";
+    EXPECT_EQ(kept_name(plan, row, identity), "compression-friction_angle=35-packing2-0123456789ab");
+    for (const char* key : {"mineral[1].contact_modulus", "mineral[2].contact_modulus", "material.tensile_strength"})
+        plan.points[row.point].settings.push_back({key, CaseValue(6e10), "plan.toml"});
+    EXPECT_EQ(kept_name(plan, row, identity), "compression-point4-packing2-0123456789ab");
+    plan.points[row.point].settings = {{"mineral[1].cohesion", CaseValue(6e7), "plan.toml"}};
+    plan.tests[1].name = "Größe/1";
+    const std::string odd = kept_name(plan, row, identity);
+    EXPECT_EQ(odd.find('/'), std::string::npos) << odd;
+    EXPECT_NE(odd.find("-mineral1.cohesion="), std::string::npos) << odd;
 }
 
 // The parent is killed at moments spread over the campaign; the same command then goes on.

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <numbers>
 
 #include "solver/base/errors.hpp"
 #include "solver/stepping/step.hpp"
@@ -34,8 +36,60 @@ class Kinds : public ::testing::Test {
         wanted.numerics = numerics;
         return read_case(testing::write_small_case(scratch_ / "", wanted));
     }
+    /// Circles of some millimetres in the shear box under 5 MPa. @param tables of traces and the mesh
+    TestCase packed(const std::string& tables, double max_strain) const {
+        std::ofstream(scratch_ / "packed.toml") << fmt::format(
+            "[packing]\nwidth = 0.03\nheight = 0.02\nradius_min = 0.9e-3\nradius_max = 1.6e-3\nmean_overlap = "
+            "1e-6\nseed = 4\n"
+            "{}[material]\ndensity = 2650.0\nunits = \"area\"\ncontact_modulus = 60e9\nstiffness_ratio = 2.5\n"
+            "friction_angle = 45.0\ntensile_strength = 200e6\ncohesion = 600e6\ndamping_ratio = 0.2\n[bond]\n"
+            "law = \"coulomb\"\nrange = 0.1\n[loading]\nkind = \"direct_shear\"\nnormal_stress = 5e6\n"
+            "max_axial_strain = {}\n",
+            tables, max_strain);
+        return read_case(scratch_ / "packed.toml");
+    }
     testing::ScratchFolder scratch_;
 };
+
+constexpr const char* open_joint =
+    "[[trace]]\nname = \"joint\"\npoints = [0.0, 0.01, 0.03, 0.01]\nbonded = false\nfriction_angle = 30.0\n";
+
+// Pressing brings circles together that no bond joins: the linear solution of the bonds alone goes past them.
+TEST_F(Kinds, BoxPressesCirclesThatMeetByTheNormalStress) {
+    for (const char* joint : {"", open_joint}) {
+        VirtualTest test = bond_test(packed(joint, 0.001));
+        compute_forces(test.world);
+        const double force = 5e6 * test.setup.width;
+        EXPECT_TRUE(agrees(fmt::format("{}: force on the upper box", *joint == '\0' ? "rock" : "joint"),
+                           test.world.bodies.force[test.setup.top].fy, force, most_unbalanced_pressed));
+        EXPECT_EQ(test.world.bonds.broken, 0);
+    }
+}
+
+// The joint parts the boxes from side to side: what presses it and what shears it are the boxes' forces over its
+// length.
+TEST_F(Kinds, OpenJointAmongCirclesSlidesAtItsFriction) {
+    TestCase description = packed(open_joint, 4e-4);
+    description.loading.strength_drop = 1.0;  // it slides on
+    VirtualTest test = prepare_test(description);
+    const double strength = 5e6 * std::tan(30.0 * std::numbers::pi / 180.0);
+    const double strain = test.setup.rate_rule.first_strain;
+    // Before it slides the solution is linear, and its points share the stress evenly but for the boxes' ends.
+    EXPECT_TRUE(within("strain of the rule over the stress that slides by the modulus",
+                       strain * test.small_strain->moduli.youngs_modulus / strength, 1.0, 0.3));
+    load_specimen(test);
+    double sum = 0.0, count = 0.0;
+    for (const CurveRow& row : test.state.rows) {
+        if (row.axial_strain < 2.0 * strain) continue;
+        sum += row.axial_stress;
+        ++count;
+    }
+    ASSERT_GT(count, 20.0);
+    EXPECT_TRUE(agrees("mean shear stress while it slides", sum / count, strength, 0.03));
+    EXPECT_TRUE(within("largest over it", test.state.failure.largest_stress / strength, 1.0, 0.1));
+    EXPECT_TRUE(within("rise over the way", test.state.rows.back().lateral_strain / 4e-4, 0.0, 0.02));
+    EXPECT_EQ(test.world.bonds.broken, 0);
+}
 
 TEST_F(Kinds, BoxPressesWithTheNormalStressBeforeItShears) {
     constexpr double normal = 1e3;  // N/m

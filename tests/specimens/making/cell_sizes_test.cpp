@@ -70,7 +70,8 @@ TEST(CellSizes, AskedForAreReached) {
         double spread;
     };
     for (const Asked& asked :
-         {Asked{"voronoi", "uniform", 0.12}, Asked{"voronoi", "lognormal", 0.24}, Asked{"delaunay", "uniform", 0.2}}) {
+         {Asked{"voronoi", "uniform", 0.12}, Asked{"voronoi", "lognormal", 0.24}, Asked{"voronoi", "lognormal", 0.35},
+          Asked{"delaunay", "uniform", 0.2}, Asked{"delaunay", "lognormal", 0.5}}) {
         TestCase test = cells_case(asked.kind, 0.004, asked.spread);
         test.packing.sizes = asked.sizes;
         test.mesh.thick = 4e-9;
@@ -116,8 +117,14 @@ TEST(CellSizes, OutOfReachAreRefusedWithTheirKey) {
     EXPECT_NE(refusal(0.02, "uniform").find("packing.cell_spread: found 0.02, expected 0.037 to 0.211"),
               std::string::npos)
         << refusal(0.02, "uniform");
-    EXPECT_NE(refusal(0.25, "uniform").find("\"lognormal\" reaches further"), std::string::npos);
-    EXPECT_NE(refusal(0.5, "lognormal").find("have not been measured"), std::string::npos);
+    EXPECT_NE(refusal(0.3, "uniform")
+                  .find("expected 0.037 to 0.211 for Voronoi cells of uniform circles; "
+                        "sizes = \"lognormal\" reaches 0.536"),
+              std::string::npos)
+        << refusal(0.3, "uniform");
+    for (const char* sizes : {"uniform", "lognormal"})
+        EXPECT_NE(refusal(0.6, sizes).find("; 0.536 is the most that packed circles reach"), std::string::npos)
+            << refusal(0.6, sizes);
 }
 
 TEST(DerivedGap, IsAFiftiethOfTheMeanCellSize) {

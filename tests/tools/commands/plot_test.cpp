@@ -10,6 +10,8 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -116,6 +118,12 @@ int shapes_filled(const std::string& svg, std::array<int, 3> rgb) {
 }
 
 constexpr std::array<int, 3> grain{0xe3, 0xe0, 0xd9};
+
+/// The longest line of a figure.
+std::vector<Vec2> curve_in(const std::string& svg) {
+    const std::vector<std::vector<Vec2>> lines = lines_of(svg);
+    return *std::ranges::max_element(lines, {}, &std::vector<Vec2>::size);
+}
 
 TEST_F(PlotCommand, APngHasTheWidthAskedForAtItsResolution) {
     for (const auto& [words, mm, dpi] : {std::tuple("", 85.0, 300.0), std::tuple("--columns 2 --dpi 100", 180.0, 100.0),
@@ -284,6 +292,117 @@ TEST_F(PlotCommand, CracksLieOnTheFacesThatTheyParted) {
                worst);
     EXPECT_GT(cracks.size(), 10U);
     EXPECT_LT(worst, 0.5);  // half the gap of 1.08 mm at some 600 pt a metre, and single precision
+}
+
+/// Straight lines of a colour, as Cairo writes it.
+std::vector<std::vector<Vec2>> lines_in(const std::string& svg, const std::string& stroke) {
+    pugi::xml_document document;
+    EXPECT_TRUE(document.load_string(svg.c_str()));
+    std::vector<std::vector<Vec2>> lines;
+    for (const pugi::xpath_node& node : document.select_nodes("//*[local-name()='path']")) {
+        const std::string style = node.node().attribute("style").value();
+        std::vector<Vec2> corners = corners_of(node.node().attribute("d").value());
+        if (corners.size() == 2 && style.find("stroke:rgb(" + stroke) != std::string::npos) lines.push_back(corners);
+    }
+    return lines;
+}
+
+/// Runs a small jointed or mineral rock of cells. @param tables of traces or minerals
+void test_cells(const fs::path& folder, const std::string& name, const std::string& tables) {
+    write_small_case(folder, {.kind = "compression",
+                              .mesh = "voronoi",
+                              .max_strain = 1e-4,
+                              .output = "curve_rows = 20\nframes = 2",
+                              .material = "units = \"area\"\ncontact_modulus = 5e7\nstiffness_ratio = 2.5\n"
+                                          "friction_angle = 30.0\ntensile_strength = 1e4\ncohesion = 3e4",
+                              .bond = "law = \"coulomb\"",
+                              .minerals = tables});
+    const std::string words = fmt::format("'{}' test case.toml -o {} -q", CRACKLE_PROGRAM, name);
+    ASSERT_EQ(std::system(fmt::format("cd '{}' && {}", folder.string(), words).c_str()), 0);
+}
+
+TEST_F(PlotCommand, OpenJointsAreDrawnFromTheStart) {
+    const auto drawn_with = [&](const std::string& name, const std::string& tables) {
+        test_cells(folder_, name, tables);
+        return drawn(name + " --what specimen --at start --width 150", "figure.svg");
+    };
+    // The trace rises by half of what it goes along.
+    const auto on_trace = [](const std::string& svg, const std::string& stroke) {
+        return std::ranges::count_if(lines_in(svg, stroke), [](const std::vector<Vec2>& line) {
+            const double along = line[1].x - line[0].x, up = line[0].y - line[1].y;
+            return std::abs(along) > 0.1 && std::abs(up / along - 0.5) < 0.05;
+        });
+    };
+    const std::string trace = "[[trace]]\nname = \"flaw\"\npoints = [0.05, 0.2, 0.19, 0.27]\n";
+    const std::string ink = "11.3", green = "16.4";
+    const std::string open = drawn_with("open", trace + "bonded = false\n"), closed = drawn_with("closed", trace);
+    fmt::print("  faces of the open joint {}, of the bonded one {}\n", on_trace(open, ink), on_trace(closed, green));
+    EXPECT_GT(on_trace(open, ink), 3);
+    EXPECT_EQ(on_trace(open, green), 0);
+    EXPECT_GT(on_trace(closed, green), 3);
+    EXPECT_EQ(on_trace(closed, ink), 0);
+}
+
+TEST_F(PlotCommand, MineralsHaveColoursAndAKey) {
+    test_cells(folder_, "grains",
+               "[[mineral]]\nname = \"quartz\"\narea_share = 0.3\n[[mineral]]\nname = \"mica\"\narea_share = 0.7\n"
+               "cohesion = 2e4");
+    const nlohmann::json minerals = nlohmann::json::parse(read("grains/summary.json")).at("minerals");
+    const std::string svg = drawn("grains --what specimen --at start", "figure.svg");
+    EXPECT_EQ(shapes_filled(svg, grain), 0);
+    constexpr std::array<std::array<int, 3>, 2> colours{{{0xec, 0xe9, 0xe2}, {0xd9, 0xb9, 0xa3}}};
+    for (std::size_t k = 0; k < colours.size(); ++k)
+        EXPECT_EQ(shapes_filled(svg, colours.at(k)), minerals[k].at("grains").get<int>() + 1) << "grains, and the key";
+}
+
+TEST_F(PlotCommand, SignsOfCracksHideNeitherTheCurveNorEachOther) {
+    SampleTest test;
+    const auto middles = [&](double initiation, double damage) {
+        write_sample_results(folder_ / "marked", test);
+        nlohmann::ordered_json summary = nlohmann::ordered_json::parse(read("marked/summary.json"));
+        summary["crack_initiation_stress"] = initiation * summary["peak_stress"].get<double>();
+        summary["crack_damage_stress"] = damage * summary["peak_stress"].get<double>();
+        std::ofstream(folder_ / "marked/summary.json") << summary.dump(2) << '\n';
+        const std::string svg = drawn("marked --what curve --width 120", "figure.svg");
+        // The sign's σ is the only letter of its font and size: of each label one.
+        std::map<std::string, std::vector<Vec2>> by_glyph;
+        pugi::xml_document document;
+        EXPECT_TRUE(document.load_string(svg.c_str()));
+        for (const pugi::xpath_node& node : document.select_nodes("//*[local-name()='use']"))
+            by_glyph[node.node().attribute("xlink:href").value()].push_back(
+                {node.node().attribute("x").as_double(), node.node().attribute("y").as_double()});
+        std::vector<std::vector<Vec2>> pairs;
+        const std::vector<Vec2> frame = frames_of(svg).front();
+        for (const auto& [glyph, places] : by_glyph)
+            if (places.size() == 2 && std::ranges::all_of(places, [&](Vec2 p) {
+                    return p.x > frame[1].x && p.y > frame[0].y && p.y < frame[1].y;
+                }))
+                pairs.push_back(places);
+        return std::pair(pairs, curve_in(svg));
+    };
+    for (const double damage : {0.46, 0.55, 0.9}) {
+        const auto [pairs, curve] = middles(0.45, damage);
+        ASSERT_FALSE(pairs.empty()) << damage;
+        for (const std::vector<Vec2>& pair : pairs) {
+            EXPECT_TRUE(std::abs(pair[0].x - pair[1].x) > 10.0 || std::abs(pair[0].y - pair[1].y) > 6.0) << damage;
+            for (const Vec2 letter : pair)
+                for (std::size_t k = 0; k + 1 < curve.size(); ++k)
+                    EXPECT_GT(distance_from(letter, curve[k], curve[k + 1]), 0.4) << damage;
+        }
+    }
+}
+
+TEST_F(PlotCommand, OneTestHasItsTitleSeveralTheirNamesAboveSpecimens) {
+    const auto glyphs = [&](const std::string& words) {
+        pugi::xml_document document;
+        EXPECT_TRUE(document.load_string(drawn(words, "figure.svg").c_str()));
+        return static_cast<int>(document.select_nodes("//*[local-name()='use']").size());
+    };
+    const int named = glyphs("squeezed --what specimen --labels abc");
+    EXPECT_EQ(glyphs("squeezed --what specimen") - named, 11 - 3) << "Sample test";
+    EXPECT_EQ(glyphs("squeezed pulled --what specimen --labels abc defgh") -
+                  glyphs("squeezed pulled --what specimen --labels a d"),
+              2 + 4);
 }
 
 TEST_F(PlotCommand, TheSameResultsGiveTheSameBytes) {

@@ -38,7 +38,6 @@ TEST_F(UnusedOptions, OfFiguresAndPagesOfTests) {
     expect_without_effect("plot squeezed -o figure.svg --what curve --at peak", "--at", "a figure without specimens");
     expect_without_effect("plot squeezed -o figure.svg --what ae --magnify 3", "--magnify",
                           "a figure without specimens");
-    expect_without_effect("plot squeezed -o figure.svg --what specimen --labels one", "--labels", "specimens alone");
     expect_without_effect("plot --guide six -o figures --what curve", "--what", "--guide");
     expect_refused("plot squeezed -o figure.pdf --dpi 600",
                    "--dpi: found with a figure of lines, where it has no effect; leave it out, or write a .png");

@@ -74,5 +74,19 @@ TEST(Axes, HaveTheirLowEndsAtTheLeftAndTheBottom) {
     EXPECT_EQ((std::pair{between.x, between.y}), (std::pair{35.0, 60.0}));
 }
 
+TEST(Axes, TheNumberAtTheLastTickStaysWithinThePanel) {
+    const Canvas canvas(1.0, 1.0, Format::svg, {});
+    constexpr double room = 100.0;
+    for (const Scale& x :
+         {Scale{-8.0, -4.0, 1.0}, Scale{-8.0, -3.98, 1.0}, Scale{-8.0, -3.2, 1.0}, Scale{0.0, 1e4, 1e4}}) {
+        const double right = Axes::room_right(canvas, x, room);
+        const Axes axes{{0.0, 0.0, room - right, 50.0}, x, {0.0, 1.0, 1.0}};
+        const double last = x.ticks().back();
+        const double end = axes.at(last, 0.0).x + 0.5 * canvas.size_of(x.label(last)).width;
+        EXPECT_LE(end, room + 1e-9) << x.label(last);
+        EXPECT_TRUE(right == 4.0 || end > room - 1e-9) << "no more than that: " << x.label(last);
+    }
+}
+
 }  // namespace
 }  // namespace crackle::plot

@@ -55,9 +55,10 @@ std::string points_table(const CampaignRecord& record) {
 
 /// What was kept of a test, as a link.
 std::string link_to(const CampaignRecord& record, const std::string& identity, const fs::path& from) {
-    const fs::path test = record.folder / "tests" / identity;
-    for (const fs::path& kept :
-         {test / "report.html", test / "summary.json", record.folder / "curves" / (identity + ".csv")}) {
+    std::vector<fs::path> files;
+    if (const auto test = record.kept.folder(identity)) files = {*test / "report.html", *test / "summary.json"};
+    if (const auto curve = record.kept.curve(identity)) files.push_back(*curve);
+    for (const fs::path& kept : files) {
         if (!is_file(kept)) continue;
         const std::string way = fs::absolute(kept)
                                     .lexically_normal()

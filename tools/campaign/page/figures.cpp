@@ -57,12 +57,14 @@ std::optional<CurveBundle> bundle_of(const CampaignRecord& record, const PointSu
     CurveBundle bundle;
     bundle.label = point.axes.empty() ? point.test : spoken_point(point);
     bundle.stress_unit = point.area_units ? "Pa" : "N/m";
-    const std::size_t identity = place_of(record.results, "identity");
+    const std::size_t identity = place_of(record.results, "identity"), kind = place_of(record.results, "kind");
     for (const std::size_t number : point.rows) {
-        const std::optional<fs::path> file = kept_curve(record.folder, text_of(record.results.rows[number], identity));
+        const std::optional<fs::path> file = record.kept.curve(text_of(record.results.rows[number], identity));
         if (!file) continue;
         CurvePoints curve = strain_and_stress(number_table(*file, read_file(*file)));
-        if (!curve.empty()) bundle.curves.push_back(std::move(curve));
+        if (curve.empty()) continue;
+        bundle.curves.push_back(std::move(curve));
+        bundle.kind = text_of(record.results.rows[number], kind);
     }
     if (bundle.curves.empty()) return std::nullopt;
     return bundle;
@@ -116,8 +118,7 @@ bool is_campaign(const fs::path& folder) { return is_folder(folder) && is_file(l
 CampaignRecord read_campaign(const fs::path& folder, const std::vector<std::string>& figures,
                              const std::vector<std::string>& tests) {
     const CampaignLedger ledger = CampaignLedger::read(ledger_file(folder));
-    CampaignRecord record;
-    record.folder = folder;
+    CampaignRecord record(folder);
     record.title = ledger.meta("title");
     record.results = ledger.results();
     record.counts = ledger.counts();
@@ -175,6 +176,7 @@ std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
                                          : "";
             all.push_back(
                 {"curve",
+                 kind,
                  fmt::format("{}: the median of {}, and the range of the middle 80 %{}", kind,
                              fewest == most ? counted(most, "packing") : fmt::format("{} to {} packings", fewest, most),
                              some),
@@ -187,6 +189,7 @@ std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
         for (const std::string& axis : axes) {
             CampaignFigure figure;
             figure.part = "axes";
+            figure.test = kind;
             figure.caption = fmt::format("{} over {}: means with 95 % intervals, and every packing", kind,
                                          axis_label(axis, points.front()->area_units).name);
             for (const std::string& name : record.figures)
@@ -196,6 +199,7 @@ std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
         }
         CampaignFigure spread;
         spread.part = "scatter";
+        spread.test = kind;
         spread.caption = fmt::format("{}: every packing, and the mean with its 95 % interval", kind);
         constexpr std::size_t most_samples = 12;
         for (const std::string& name : record.figures) {
@@ -209,6 +213,9 @@ std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
         }
         if (!spread.panels.empty()) all.push_back(std::move(spread));
     }
+    if (kinds.size() == 1) return all;
+    for (CampaignFigure& figure : all)
+        for (Panel& panel : figure.panels) panel.title = figure.test;
     return all;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "specimens/campaign/campaign.hpp"
 #include "specimens/campaign/ledger.hpp"
 #include "specimens/campaign/point_table.hpp"
 #include "tools/plot/campaign_panels.hpp"
@@ -17,7 +18,10 @@ namespace crackle::tools {
 
 /// What is read of a campaign.
 struct CampaignRecord {
+    explicit CampaignRecord(const std::filesystem::path& campaign) : folder(campaign), kept(campaign) {}
+
     std::filesystem::path folder;
+    KeptTests kept;
     std::string title;
     LedgerTable results;
     LedgerCounts counts;
@@ -44,6 +48,7 @@ std::string spoken_figure(const std::string& figure);
 /// axis that has several values.
 struct CampaignFigure {
     std::string part;  ///< "curve", "axes" or "scatter"
+    std::string test;  ///< of the plan
     std::string caption;
     std::vector<plot::Panel> panels;
 };
