@@ -221,6 +221,7 @@ class TraceCleaner {
             parts_.push_back({none, {place(k), place(next)}, {k, next}});
         }
         std::vector<std::vector<int>> nodes;
+        nodes.reserve(lines_.size());
         for (const std::vector<Vec2>& points : lines_) nodes.emplace_back(points.size(), -1);
         for (const bool on_walls : {true, false})
             for (std::size_t t = 0; t < lines_.size(); ++t)

@@ -92,6 +92,7 @@ class RowJoiner {
         };
         std::vector<Turn> turns;
         std::vector<Vec2> ways;
+        ways.reserve(ends.size());
         for (const std::size_t end : ends) ways.push_back(direction(end));
         const double least = ends.size() == 2 ? runs_back : least_straight;
         for (std::size_t a = 0; a < ends.size(); ++a)

@@ -186,6 +186,7 @@ class CsvTraces {
         while (columns.size() > 2 && values[columns.back().x].empty() && values[columns.back().y].empty())
             columns.pop_back();
         std::vector<Vec2> points;
+        points.reserve(columns.size());
         for (const auto& [x, y] : columns)
             points.push_back({number(x, reader_.names()[x]), number(y, reader_.names()[y])});
         return points;

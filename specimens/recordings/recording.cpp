@@ -59,7 +59,7 @@ bool has_rows_of_a_run(const fs::path& file) {
 fs::path folder_of_run(const fs::path& path) {
     constexpr std::array<const char*, 3> results{"summary.json", "curve.csv", "events.csv"};
     if (!fs::is_regular_file(path)) return path;
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     const auto is_named = [name = path.filename().string()](const char* one) { return name == one; };
     if (std::ranges::any_of(deck_output_names, is_named) && fs::exists(folder / deck_output_names[0])) return folder;
     if (std::ranges::any_of(results, is_named) && fs::exists(folder / results[0])) return folder;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -268,10 +269,9 @@ bool are_runs_of_decks(const Words& paths) {
 /// Numbers of the bodies that a run has curves of.
 std::vector<int> watched_bodies(const Recording& deck) {
     std::vector<int> all;
-    for (const DeckBodyCurve& body : deck.curves.bodies) all.push_back(body.id);
-    if (all.empty()) {
-        for (const DeckVelocityCurve& body : deck.curves.velocities) all.push_back(body.id);
-    }
+    const auto id = [](const auto& curve) { return curve.id; };
+    std::ranges::transform(deck.curves.bodies, std::back_inserter(all), id);
+    if (all.empty()) std::ranges::transform(deck.curves.velocities, std::back_inserter(all), id);
     return all;
 }
 
@@ -280,7 +280,7 @@ std::vector<int> drawn_bodies(const po::variables_map& given, const Recording& d
     constexpr std::size_t most = 8;  // curves that can be told apart
     std::vector<int> watched = watched_bodies(deck);
     if (given.contains("bodies")) {
-        const std::vector<int> bodies = given["bodies"].as<std::vector<int>>();
+        std::vector<int> bodies = given["bodies"].as<std::vector<int>>();
         for (const int id : bodies) {
             if (std::ranges::find(watched, id) != watched.end()) continue;
             throw InputError(fmt::format("plot: --bodies: found {}, expected one that the run of {} wrote rows of: {}",

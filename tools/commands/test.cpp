@@ -40,7 +40,7 @@ std::string stress(const nlohmann::ordered_json& summary, const std::string& key
     const bool area = summary.value("material_units", "point") == "area";
     const auto value = summary.find(key), converted = summary.find(key + converted_suffix);
     if (value == summary.end() || !value->is_number()) return "-";
-    const std::string in_plane = spoken_stress(value->get<double>(), area ? "Pa" : "N/m");
+    std::string in_plane = spoken_stress(value->get<double>(), area ? "Pa" : "N/m");
     const bool thick = summary.contains("out_of_plane_thickness") && summary["out_of_plane_thickness"].is_number();
     if (area || !thick || converted == summary.end() || !converted->is_number()) return in_plane;
     return fmt::format("{} ({})", in_plane, spoken_stress(converted->get<double>(), "Pa"));
