@@ -101,16 +101,23 @@ std::optional<FirstEvent> first_of(const std::vector<LinearBond>& bonds, double 
     return first;
 }
 
-std::vector<LinearBond> linear_bonds(const World& world, const TestSetup& setup, const Moduli& moduli, double strain) {
-    // The solution is for unit strain in tension.
+/// The solution is for unit strain in tension; a test may compress.
+std::vector<PointRates> rates_of_test(const World& world, const TestSetup& setup, const Moduli& moduli) {
     const double sense = setup.compression ? -1.0 : 1.0;
-    const std::vector<PointRates> rates = rates_of(world, moduli.solution);
+    std::vector<PointRates> rates = rates_of(world, moduli.solution);
+    for (auto& [closing, slipping] : rates) {
+        closing.value *= sense;
+        slipping.value *= sense;
+    }
+    return rates;
+}
+
+std::vector<LinearBond> linear_bonds(const World& world, const TestSetup& setup, const Moduli& moduli, double strain) {
+    const std::vector<PointRates> rates = rates_of_test(world, setup, moduli);
     std::vector<LinearBond> bonds;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if ((world.points.state[k].flags & point_bonded) == 0) continue;
-        const auto& [closing, slipping] = rates[k];
-        bonds.push_back(linear_bond(
-            world, k, {{sense * closing.value, closing.error}, {sense * slipping.value, slipping.error}}, strain));
+        bonds.push_back(linear_bond(world, k, rates[k], strain));
     }
     return bonds;
 }
@@ -128,16 +135,15 @@ double yield_strain(const World& world, const TestSetup& setup, const Moduli& mo
 }
 
 double joint_slip_strain(const World& world, const TestSetup& setup, const Moduli& moduli) {
-    const double sense = setup.compression ? -1.0 : 1.0;
-    const std::vector<PointRates> rates = rates_of(world, moduli.solution);
+    const std::vector<PointRates> rates = rates_of_test(world, setup, moduli);
     std::vector<double> strains;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const PointView view = view_point(world, k);
         if (!view.closed_joint || !(view.normal_force > 0.0)) continue;
-        const double gained = view.friction * view.normal_stiffness * sense * rates[k].closing.value;
+        const double gained = view.friction * view.normal_stiffness * rates[k].closing.value;
         double slides = infinite;
         for (const double way : {1.0, -1.0}) {
-            const double shear = -view.shear_stiffness * sense * rates[k].slipping.value;
+            const double shear = -view.shear_stiffness * rates[k].slipping.value;
             slides = std::min(slides, strain_of_loss(view.friction * view.normal_force - way * view.shear_force,
                                                      {gained - way * shear, 0.0}));
         }
