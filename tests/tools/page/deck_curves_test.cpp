@@ -123,12 +123,11 @@ TEST_F(DeckCurvesTest, ThePageHasThemAndThinsThemToTheirExtremes) {
     EXPECT_NEAR(time.back(), 1700e-5, 1e-8);
     const auto ends_of = [](const std::vector<double>& values) { return std::ranges::minmax(values); };
     std::vector<double> of_file;
-    for (const auto& row : energies) of_file.push_back(static_cast<float>(row[2]));
+    for (const auto& row : energies) of_file.push_back(row[2]);
     EXPECT_EQ(ends_of(kinetic).min, ends_of(of_file).min);
     EXPECT_EQ(ends_of(kinetic).max, ends_of(of_file).max);
     std::vector<double> x;
-    for (const auto& row : rows_of(read_rows(folder_ / "wave" / "f-d_curve.dat"), 1, 13.0))
-        x.push_back(static_cast<float>(row[3]));
+    for (const auto& row : rows_of(read_rows(folder_ / "wave" / "f-d_curve.dat"), 1, 13.0)) x.push_back(row[3]);
     EXPECT_EQ(ends_of(page.plain("body.13.x")).max, ends_of(x).max);
     EXPECT_EQ(ends_of(page.plain("body.13.x")).min, ends_of(x).min);
 }
