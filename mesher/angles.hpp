@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Angle and direction by sums, products and roots alone, which every processor rounds alike: a library's sine may
-// differ in the last digit, and seeds with it. Tested by tests/mesher/angles_test.cpp.
+// Angle of a vector, and unit vector at an angle, computed only from sums, products and square roots, which all
+// processors round identically. The sine of a mathematical library may differ in the last digit between machines, and
+// then so would the seeds. Tested by tests/mesher/angles_test.cpp.
 #pragma once
 
 #include <cmath>
@@ -10,8 +11,8 @@
 
 namespace crackle {
 
-/// Of a direction, -π to π, to some 1e-15: tan of an eighth of the angle within half a quadrant, then the series of
-/// atan.
+/// Angle of a direction, rad, from -π to π, with an error of about 1e-15. The angle is reduced to half a quadrant. Then
+/// the tangent of an eighth of the angle is computed and inserted into the arctangent series.
 inline double angle_of(double x, double y) {
     const bool steep = std::abs(y) > std::abs(x);
     double t = steep ? std::abs(x / y) : std::abs(y / x);  // at most 1
@@ -24,10 +25,11 @@ inline double angle_of(double x, double y) {
     return y < 0.0 ? -angle : angle;
 }
 
-/// Unit vector at an angle of at most a few turns: series of a sixty-fourth of it, doubled six times.
+/// Unit vector at an angle of at most a few turns, rad: sums the series for 1/64 of the angle and doubles the angle six
+/// times.
 inline Point direction_at(double angle) {
     const double part = angle / 64.0, square = part * part;
-    double sine = 0.0, lack = 0.0;  // lack: 1 - cosine, of which nothing is lost
+    double sine = 0.0, lack = 0.0;  // lack is 1 - cosine, stored in this form to keep all digits
     double term = part;
     for (int k = 1; k <= 15; k += 2) {
         sine += term;

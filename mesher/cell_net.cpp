@@ -9,7 +9,7 @@
 namespace crackle {
 namespace {
 
-// Least sine of the turn at a corner of a convex cell.
+// Smallest sine of the turning angle at a corner of a convex cell.
 constexpr double least_turn = 1e-3;
 
 double turn(Point a, Point b, Point c) { return cross(Point{b.x - a.x, b.y - a.y}, Point{c.x - b.x, c.y - b.y}); }
@@ -132,8 +132,8 @@ Loop CellNet::together(const Loop& a, const Loop& b) {
     }
     Loop made;
     for (std::size_t k = 0; k < a.size(); ++k) {
-        if (shared[a.before(k)] == 0 || shared[k] != 0) continue;  // the first edge behind the shared ones
-        if (!made.corners.empty()) return {};                      // shared twice
+        if (shared[a.before(k)] == 0 || shared[k] != 0) continue;  // find the first edge after the shared ones
+        if (!made.corners.empty()) return {};                      // the cells share two separate chains of edges
         std::size_t i = k;
         for (; shared[i] == 0; i = a.next(i)) {
             made.corners.push_back(a.corners[i]);
@@ -147,6 +147,75 @@ Loop CellNet::together(const Loop& a, const Loop& b) {
         }
     }
     return made;
+}
+
+Loop CellNet::part_of(const Loop& l, std::size_t begin, std::size_t end) {
+    Loop made;
+    made.centre = l.centre;
+    for (std::size_t k = begin; k != end; k = l.next(k)) {
+        made.corners.push_back(l.corners[k]);
+        made.traces.push_back(l.traces[k]);
+    }
+    made.corners.push_back(l.corners[end]);
+    made.traces.push_back(-1);
+    return made;
+}
+
+template <class Use>
+void CellNet::each_union(int piece, Use use) const {
+    const Loop& l = loop(piece);
+    for (std::size_t k = 0; k < l.size(); ++k) {
+        const int u = l.corners[k], v = l.corners[l.next(k)];
+        if (l.traces[k] >= 0) continue;
+        for (const int cell : around(u)) {
+            if (cell == piece || !around(v).contains(cell)) continue;
+            Loop both = together(l, loop(cell));
+            if (both.size() >= 3) use(cell, both, distance(place(u), place(v)));
+        }
+    }
+}
+
+int CellNet::join(int piece) {
+    double longest = 0.0;
+    Loop best;
+    int best_cell = -1;
+    each_union(piece, [&](int cell, Loop& both, double length) {
+        if (length <= longest || !convex(both)) return;
+        best = std::move(both);
+        best_cell = cell;
+        longest = length;
+    });
+    if (best_cell < 0) return -1;
+    best.centre = loop(best_cell).centre;
+    replace(best_cell, std::move(best));
+    replace(piece, {});
+    return best_cell;
+}
+
+bool CellNet::divide_again(int piece, double least_area) {
+    double largest = least_area;
+    Loop own, others;
+    int best_cell = -1;
+    each_union(piece, [&](int cell, const Loop& both, double /*length*/) {
+        for (std::size_t j = 2; j < both.size(); ++j) {
+            for (std::size_t i = 0; i + 1 < j; ++i) {
+                Loop one = part_of(both, i, j), other = part_of(both, j, i);
+                if (std::min(one.size(), other.size()) < 3 || !convex(one) || !convex(other)) continue;
+                const double smaller = std::min(area(one), area(other));
+                if (smaller <= largest) continue;
+                largest = smaller;
+                best_cell = cell;
+                own = std::move(one);
+                others = std::move(other);
+            }
+        }
+    });
+    if (best_cell < 0) return false;
+    own.centre = loop(piece).centre;
+    others.centre = loop(best_cell).centre;
+    replace(piece, std::move(own));
+    replace(best_cell, std::move(others));
+    return true;
 }
 
 }  // namespace crackle

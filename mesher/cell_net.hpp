@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells of a partition that share their corners by number, so that one can be cut, moved or joined and its neighbours
-// go with it. Tested by tests/mesher/cut_cells_test.cpp.
+// Cells of a partition that share corners by index, so that cutting, moving or merging a cell also updates its
+// neighbours. Tested by tests/mesher/cell_net_test.cpp and cut_cells_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,10 @@
 
 namespace crackle {
 
-/// Outline of a cell; empty of one that is no more.
+/// Outline of a cell; empty if the cell no longer exists.
 struct Loop {
     std::vector<int> corners;  // counter-clockwise
-    std::vector<int> traces;   // by the edge to the next
+    std::vector<int> traces;   // for each corner: trace on the edge to the next corner, or -1
     int centre = -1;
 
     std::size_t size() const { return corners.size(); }
@@ -27,40 +27,52 @@ struct Loop {
 
 class CellNet {
   public:
-    using Box = std::pair<Point, Point>;  // lower left, upper right
+    using Box = std::pair<Point, Point>;  // lower left and upper right corners
 
-    /// @param spacing  m, of the cells  @param margin  m, that a corner may be moved by  @param near  m, of rounding
+    /// @param spacing mean spacing of the cells, m @param margin largest distance by which a corner may be moved, m
+    /// @param near tolerance for round-off, m
     CellNet(double spacing, double margin, double near) : margin_(margin), near_(near), cells_at_(spacing) {}
 
     std::size_t corners() const { return places_.size(); }
     const std::vector<Loop>& loops() const { return loops_; }
     Point place(int corner) const { return places_[static_cast<std::size_t>(corner)]; }
-    /// Cells that have a corner.
+    /// Cells that have this corner.
     const std::set<int>& around(int corner) const { return around_[static_cast<std::size_t>(corner)]; }
     Loop& loop(int cell) { return loops_[static_cast<std::size_t>(cell)]; }
     const Loop& loop(int cell) const { return loops_[static_cast<std::size_t>(cell)]; }
 
-    /// The corner of these coordinates, bit for bit.
+    /// Index of the corner with exactly these coordinates, which is added if it does not exist.
     int corner_at(Point p);
     int add(Loop made);
     void replace(int cell, Loop made);
-    /// Into the edge between two corners, of all cells that have it.
+    /// Inserts a corner into the edge between corners u and v, in all cells that have this edge.
     void insert_into(int u, int v, int corner);
-    /// @return whether the cells around stay convex; else it stays where it was
+    /// Moves a corner if the cells around it remain convex. @return whether it was moved
     bool move_to(int corner, Point target);
 
-    /// Whether it ends an edge on a trace.
+    /// Whether the corner is an end of an edge that lies on a trace.
     bool on_trace(int corner) const;
     bool inside(const Loop& l, Point p) const;
-    /// Flat corners aside, which lie on the line between the two beside them.
+    /// Whether the cell is convex. Flat corners, which lie on the line between their neighbours, are ignored.
     bool convex(const Loop& l) const;
     double area(const Loop& l) const;
-    /// The union across the edges that both have, which follow each other; empty where one of these is a trace.
+    /// Union of two cells across their common edges, which must be consecutive. Empty if the common edges are not
+    /// consecutive, or if one of them lies on a trace.
     static Loop together(const Loop& a, const Loop& b);
+    /// The part of a cell from one corner to another, given by their positions, closed by a straight edge.
+    static Loop part_of(const Loop& l, std::size_t begin, std::size_t end);
 
-    /// That may reach into it, in the order of their numbers.
+    /// Merges the piece with a neighbour, across the longest edge that is not on a trace and for which the union is
+    /// convex. @return index of the union; -1 if there is no such neighbour
+    int join(int piece);
+    /// Cuts the union of the piece and a neighbour again between two of its corners, so that both parts are convex and
+    /// the smaller one is as large as possible. @return false, and nothing changes, if every such cut leaves a part
+    /// smaller than this @param least_area m2
+    bool divide_again(int piece, double least_area);
+
+    /// Cells that may extend into the box, in ascending order.
     std::set<int> cells_near(const Box& box) const;
-    /// Calls use(i, j) for the squares of a grid of the spacing that a box meets.
+    /// Calls use(i, j) for the grid squares that a box touches.
     template <class Use>
     void each_square(const Box& box, Use use) const {
         for (std::int64_t i = cells_at_.index(box.first.x); i <= cells_at_.index(box.second.x); ++i)
@@ -69,11 +81,15 @@ class CellNet {
 
   private:
     Box box_of(const Loop& l) const;
+    /// Calls use(cell, union, length) for each neighbour of the piece across an edge that is not on a trace, with the
+    /// length of this edge.
+    template <class Use>
+    void each_union(int piece, Use use) const;
 
     double margin_, near_;
-    std::vector<Point> places_;  // by corner
+    std::vector<Point> places_;  // position of each corner
     std::map<std::pair<double, double>, int> numbers_;
-    std::vector<std::set<int>> around_;  // cells, by corner
+    std::vector<std::set<int>> around_;  // for each corner, the cells that have it
     std::vector<Loop> loops_;
     Squares cells_at_;
 };

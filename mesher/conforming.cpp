@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Traces are cut into pieces about as long as the centres are apart; centres within 0.4 of that of a trace are left
-// out, for triangles on the trace with them would be flat; wall points come from the mesh without traces. CGAL's
-// mesher then splits pieces until each has an empty diametral circle, and adds circumcentres where a triangle near a
-// trace has a small angle. Away from traces the triangles stay those of the centres.
+// Traces are divided into pieces about as long as the spacing of the centres. Centres closer to a trace than 0.4
+// spacings are omitted, since triangles between them and the trace would be too flat. Points on the walls are the same
+// as in the mesh without traces. CGAL's mesher then splits pieces until each has an empty diametral circle, and inserts
+// circumcentres where a triangle near a trace has a small angle. Away from traces, the triangles are those of the
+// centres.
 
 #include "mesher/conforming.hpp"
 
@@ -31,40 +32,46 @@
 namespace crackle {
 namespace {
 
-// Shares of the spacing. A triangle on a piece one spacing long whose apex is 0.4 off has angles above 21 degrees.
+// Distance from a trace, relative to the spacing, within which centres are omitted. A triangle with a base of one
+// spacing on the trace and its apex at a distance of 0.4 spacings has angles above 21 degrees.
 constexpr double left_out_seed_share = 0.4;
-constexpr double near_share = 1.3;  // within it triangles are looked at: the first row beside the trace
-// Passages narrower than that share, and angles below that sine (of a degree), would be filled with triangles as small.
+constexpr double near_share =
+    1.3;  // relative to the spacing; triangles closer to a trace than this, the first row beside it, are checked
+// Narrowest passage between traces, relative to the spacing, and sine of the smallest angle between them (1 degree).
+// Smaller values are refused, since the triangles there would be just as small.
 constexpr double narrowest_share = 0.02, least_sine = 0.0175;
-constexpr double smallest_squared_sine = 0.125;  // of 20.7 degrees: up to that refinement is sure to end
+// Square of the sine of 20.7 degrees; refinement is guaranteed to terminate for angles up to this one.
+constexpr double smallest_squared_sine = 0.125;
 
 struct PointInfo {
     int centre = -1;
-    bool near_trace = true;  // also of points that refinement adds
-    int number = -1;         // among the mesh's points
+    bool near_trace = true;  // stays true for points that refinement adds
+    int number = -1;         // index of the point in the mesh
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using TracedVertexBase =
     CGAL::Triangulation_vertex_base_with_info_2<PointInfo, Kernel, CGAL::Delaunay_mesh_vertex_base_2<Kernel>>;
 struct FaceNumber {
-    int value = -1;  // of the triangle; of what lies outside of the mesh -1
+    int value = -1;  // index of the triangle; -1 outside the mesh
 };
 using TracedFaceBase =
     CGAL::Triangulation_face_base_with_info_2<FaceNumber, Kernel, CGAL::Delaunay_mesh_face_base_2<Kernel>>;
 using TracedStructure = CGAL::Triangulation_data_structure_2<TracedVertexBase, TracedFaceBase>;
 using Unconstrained = CGAL::Delaunay_triangulation_2<Kernel, TracedStructure>;
 using ConstrainedBase = CGAL::Constrained_Delaunay_triangulation_2<Kernel, TracedStructure, CGAL::Exact_predicates_tag>;
-/// Lists its constrained edges, so that CGAL's mesher, before it begins, need not look for them round every vertex.
+/// A triangulation that provides a list of its constrained edges, so that CGAL's mesher need not search for them around
+/// every vertex.
 class Constrained : public ConstrainedBase {
   public:
-    // What the mesher asks of one that lists them.
+    // CGAL's mesher requires this tag for a triangulation that provides the list.
     using Constraint_hierarchy_tag = CGAL::Tag_true;
     using Listed = std::vector<std::pair<std::pair<Vertex_handle, Vertex_handle>, bool>>;
     using Subconstraint_iterator = Listed::const_iterator;
     Subconstraint_iterator subconstraints_begin() const { return listed_.begin(); }
     Subconstraint_iterator subconstraints_end() const { return listed_.end(); }
-    void split_constraint(Vertex_handle, Vertex_handle, Vertex_handle) const {}  // the list is read once
+    void split_constraint(Vertex_handle, Vertex_handle, Vertex_handle) const {
+    }  // not needed, since the list is read only once
 
     void list_constraints();
 
@@ -76,24 +83,25 @@ using ConstrainedFace = Constrained::Face_handle;
 
 Point place_of(ConstrainedVertex v) { return {v->point().x(), v->point().y()}; }
 
-/// Whether two edges from one place may meet at less than 60 degrees, whatever the rounding.
+/// Whether two edges from a common point may meet at less than 60 degrees, allowing for round-off.
 bool meet_sharply(Point u, Point v) {
     const double along = dot(u, v);
     return !(along <= 0.0 || 4.0 * along * along < 0.999 * dot(u, u) * dot(v, v));
 }
 
-/// Those that the mesher may have to do with: at a sharp angle to another, or with a point in their diametral circle.
-/// In the order of the edges, in which it splits them.
+/// Lists the edges that CGAL's mesher may have to split, in the order in which it splits them. These are edges at a
+/// sharp angle to another edge, and edges with a point inside their diametral circle.
 void Constrained::list_constraints() {
     struct Arm {
         crackle::Point along;
-        int next;  // at the same vertex; -1: none
+        int next;  // index of the next arm at the same vertex, or -1
     };
     std::vector<Edge> edges;
     std::vector<Arm> arms;
-    std::vector<int> last;                                                          // arm, by vertex
-    std::vector<char> sharp;                                                        // by vertex
-    const auto number = [&](Vertex_handle v) -> int& { return v->info().number; };  // no point has another yet
+    std::vector<int> last;    // index of the last arm of each vertex
+    std::vector<char> sharp;  // by vertex
+    // Points do not have an index yet, so their field `number` can hold the index of the vertex.
+    const auto number = [&](Vertex_handle v) -> int& { return v->info().number; };
     const auto add_arm = [&](Vertex_handle from, Vertex_handle to) {
         if (number(from) < 0) {
             number(from) = static_cast<int>(last.size());
@@ -129,7 +137,7 @@ void Constrained::list_constraints() {
     }
 }
 
-/// CGAL's criterion for triangles near a trace; others are good.
+/// CGAL's quality criterion, applied only to triangles near a trace.
 class NearTraceCriteria : public CGAL::Delaunay_mesh_criteria_2<Constrained> {
     using Base = CGAL::Delaunay_mesh_criteria_2<Constrained>;
 
@@ -152,7 +160,7 @@ class NearTraceCriteria : public CGAL::Delaunay_mesh_criteria_2<Constrained> {
 
 struct TracePiece : Segment {
     int trace;
-    int from, to;  // among the traces' points
+    int from, to;  // indices of the points on traces
 };
 
 class Conforming {
@@ -180,7 +188,7 @@ class Conforming {
     };
 
     void cut_into_pieces() {
-        int points = static_cast<int>(graph_.nodes.size());  // those between nodes come after them
+        int points = static_cast<int>(graph_.nodes.size());  // points between nodes are numbered after the nodes
         for (const TraceGraph::Edge& edge : graph_.edges) {
             const Point a = graph_.nodes[static_cast<std::size_t>(edge.from)],
                         b = graph_.nodes[static_cast<std::size_t>(edge.to)];
@@ -205,20 +213,22 @@ class Conforming {
         if (other >= 0 && other != trace) named.push_back(other);
         const std::string beside = other < 0 ? "a wall" : other == trace ? "itself" : fmt::format("trace {}", other);
         throw MeshError(
-            fmt::format("mesh: found trace {} and {} {} at ({:.9g}, {:.9g}), expected traces at least {:.4g} "
-                        "apart ({} of the mean spacing) or meeting at 1 degree or more; remove one, move "
-                        "it, or make the particles smaller",
-                        trace, beside, what, at.x, at.y, narrowest_share * spacing_, narrowest_share),
+            fmt::format(
+                "mesh: found trace {} and {} {} at ({:.9g}, {:.9g}), expected at least {:.4g} between them ({} of the "
+                "mean spacing) or 1 degree where they meet; remove one, move it, or use smaller particles",
+                trace, beside, what, at.x, at.y, narrowest_share * spacing_, narrowest_share),
             {}, std::move(named));
     }
 
-    /// Two straight pieces that do not meet are nearest at an end of one.
+    /// Refuses narrow passages between traces. Two straight pieces that do not cross are closest to each other at an
+    /// end of one of them.
     void refuse_narrow_passages(const SegmentGrid& grid) const {
         const double narrow = narrowest_share * spacing_;
         for (const TracePiece& piece : pieces_) {
             for (const auto& ends : {std::pair{piece.a, piece.b}, {piece.b, piece.a}}) {
-                const auto &end = ends.first, &start = ends.second;  // clang++ 14 captures no structured bindings
-                // Between nodes the piece before has been here.
+                // Named variables, because clang++ 14 cannot capture structured bindings.
+                const auto &end = ends.first, &start = ends.second;
+                // At a point between nodes, this end has already been checked with the previous piece.
                 if (end == piece.a && piece.from >= static_cast<int>(graph_.nodes.size())) continue;
                 grid.each_near(end, [&](std::size_t number) {
                     const TracePiece& other = pieces_[number];
@@ -236,7 +246,7 @@ class Conforming {
             }
         }
     }
-    /// @param at  where both pieces begin
+    /// Refuses two pieces that meet at too small an angle. @param at common starting point of the two pieces
     void refuse_sharp(int trace, int other, Point at, Point end, Point other_end) const {
         const Point u{end.x - at.x, end.y - at.y}, v{other_end.x - at.x, other_end.y - at.y};
         const double lengths = distance(at, end) * distance(at, other_end);
@@ -254,10 +264,12 @@ class Conforming {
         }
     }
 
-    /// Beyond near_share something beyond; where a centre is left out, no more than what leaves it out.
+    /// Distance to the nearest trace, m. It is exact up to near_share; a larger value, possibly infinite, only means
+    /// that the trace is farther away than that. Once a centre is certain to be omitted, the search stops and returns
+    /// an upper bound.
     double from_traces(Point p, const SegmentGrid& grid) const {
         const double room = left_out_seed_share * spacing_, enough = 0.999 * room * room;
-        double least = std::numeric_limits<double>::infinity();  // squared
+        double least = std::numeric_limits<double>::infinity();  // squared distance
         grid.any_near(p, [&](std::size_t k) {
             least = std::min(least, squared_distance_to(grid.segments()[k], p));
             return least < enough;
@@ -265,7 +277,7 @@ class Conforming {
         return std::sqrt(least);
     }
 
-    /// Centres far enough from traces, and what the walls have of points without traces.
+    /// Centres that are far enough from traces, and the wall points of the mesh without traces.
     std::vector<ChosenPoint> chosen_points(std::span<const CellCentre> centres, const SegmentGrid& grid) {
         std::vector<CellCentre> kept;
         std::vector<int> number;
@@ -301,7 +313,8 @@ class Conforming {
         return points;
     }
 
-    /// @param number  of each that is kept among the given centres, by which errors name it
+    /// Points of the mesh without traces. @param number index of each kept centre among the given centres, for error
+    /// messages
     Triangles points_without_traces(std::span<const CellCentre> kept, std::span<const CellCentre> given,
                                     const std::vector<int>& number) const {
         try {
@@ -314,7 +327,9 @@ class Conforming {
     }
 
     void insert_points(const std::vector<ChosenPoint>& points) {
-        using Placed = std::pair<Kernel::Point_2, int>;  // small, to be sorted: a chosen point, or ~ one of the traces'
+        // A point and either the index of a chosen point, or ~index of a point on a trace. Small pairs are sorted
+        // faster.
+        using Placed = std::pair<Kernel::Point_2, int>;
         std::vector<Placed> order;
         order.reserve(points.size() + 2 * pieces_.size());
         for (const ChosenPoint& one : points)
@@ -325,17 +340,18 @@ class Conforming {
         }
         using PlaceOf = CGAL::First_of_pair_property_map<Placed>;
         CGAL::spatial_sort(order.begin(), order.end(), CGAL::Spatial_sort_traits_adapter_2<Kernel, PlaceOf>());
-        Unconstrained points_alone;  // its flips look after no constraints
+        Unconstrained points_alone;  // without constraints, so that edge flips need not check for them
         ConstrainedFace hint;
         for (const auto& [place, which] : order) {
             patience_.piece();
-            // A trace's point comes once a piece: where it is already, locating it would take exact arithmetic.
+            // A point on a trace occurs once per piece. If it has already been inserted, locating it again would
+            // require exact arithmetic.
             ConstrainedVertex v = which < 0 ? vertex(~which) : ConstrainedVertex();
             if (v == ConstrainedVertex()) {
                 const std::size_t before = points_alone.number_of_vertices();
                 v = points_alone.insert(place, hint);
                 const PointInfo info = which < 0 ? PointInfo{} : points[static_cast<std::size_t>(which)].info;
-                // A trace's point may be a corner.
+                // A point on a trace may coincide with a corner.
                 if (points_alone.number_of_vertices() != before || info.centre < 0) v->info() = info;
                 if (which < 0) vertex(~which) = v;
             }
@@ -347,7 +363,7 @@ class Conforming {
 
     void constrain() {
         for (const TracePiece& piece : pieces_) constrain(vertex(piece.from), vertex(piece.to));
-        // The walls are the convex hull.
+        // The walls are the edges of the convex hull.
         auto round = mesh_.incident_vertices(mesh_.infinite_vertex());
         const auto start = round;
         std::vector<ConstrainedVertex> around;
@@ -370,11 +386,11 @@ class Conforming {
         mesh_.list_constraints();
         CGAL::Delaunay_mesher_2<Constrained, NearTraceCriteria> mesher(mesh_, NearTraceCriteria(smallest_squared_sine));
         mesher.init();
-        // What refine_mesh() does, step by step.
+        // Equivalent to CGAL's refine_mesh(), but meshing can be cancelled between steps.
         while (mesher.step_by_step_refine_mesh()) patience_.piece();
     }
 
-    /// The constrained edges from a to b, which refinement has split, are the trace's.
+    /// Marks the constrained edges between a and b, into which refinement has split a piece, as belonging to the trace.
     void note_trace(ConstrainedVertex a, ConstrainedVertex b, int trace) {
         const Point end = place_of(b);
         const Point from = place_of(a);
@@ -389,7 +405,7 @@ class Conforming {
             const Point here = place_of(a);
             ConstrainedVertex best = nullptr;
             Constrained::Edge best_edge;
-            double least = 1e-6 * whole;  // off the line: other traces leave at angles that can be seen
+            double least = 1e-6 * whole;  // largest distance from the line; other traces deviate by much more
             auto edge = mesh_.incident_edges(a);
             const auto start = edge;
             do {
@@ -412,13 +428,13 @@ class Conforming {
             if (best == ConstrainedVertex(nullptr))
                 throw MeshError(
                     fmt::format("mesh: found trace {} at ({:.9g}, {:.9g}) so close to another that its "
-                                "edges are lost in rounding, expected traces apart or crossing; remove one",
+                                "edges are lost in rounding, expected separate or crossing traces; remove one",
                                 trace, here.x, here.y));
             mark(best_edge.first, best_edge.second, trace);
             a = best;
         }
     }
-    /// On both sides of an edge, those of the mesh.
+    /// Marks an edge on each of its sides that belongs to the mesh.
     void mark(ConstrainedFace face, int k, int trace) {
         const ConstrainedFace beyond = face->neighbor(k);
         for (const auto& [side, edge] : {std::pair{face, k}, {beyond, beyond->index(face)}})
@@ -468,7 +484,7 @@ class Conforming {
     Patience& patience_;
     double spacing_;
     std::vector<TracePiece> pieces_;
-    std::vector<ConstrainedVertex> vertices_;  // by the traces' points
+    std::vector<ConstrainedVertex> vertices_;  // vertex of each point on a trace, by index of the point
     Constrained mesh_;
     ConformingTriangles out_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Delaunay triangles of a rectangle whose edges follow traces (constrained Delaunay, refined until it is Delaunay and
-// no angle at a trace is below 20 degrees, but where traces themselves meet at less; Shewchuk, Comput. Geom. 22, 2002).
+// Delaunay triangulation of a rectangle with edges that follow traces. A constrained Delaunay triangulation is refined
+// until all triangles are Delaunay and no angle at a trace is below 20 degrees. Exceptions are traces that meet at a
+// smaller angle (Shewchuk, Comput. Geom. 22, 2002).
 // Tested by tests/mesher/jointed_delaunay_test.cpp.
 #pragma once
 
@@ -13,16 +14,18 @@
 
 namespace crackle {
 
-/// Triangles with the traces on their edges, and what it took.
+/// Triangles with traces on their edges, and the numbers of omitted and added points.
 struct ConformingTriangles {
-    Triangles triangles;       ///< `traces` filled
-    std::size_t left_out = 0;  ///< centres nearer to a trace than a fair triangle needs
-    std::size_t added = 0;     ///< points inside that no centre is: on traces and beside them
+    Triangles triangles;  ///< with `traces` filled in
+    /// Number of centres omitted because triangles between them and a trace would be badly shaped.
+    std::size_t left_out = 0;
+    std::size_t added = 0;  ///< number of interior points that are not centres: on traces and near them
 };
 
-/// Centres, points of the walls and of the traces, and further ones beside traces where triangles would be poor.
-/// @param spacing  m, mean of the centres: about as long are the edges along a trace
-/// @throws MeshError naming traces that meet too close together for the domain's digits
+/// Triangulates centres, points on walls and points on traces. Further points are added near traces where triangles
+/// would be badly shaped.
+/// @param spacing mean spacing of the centres, m; edges along a trace have about this length
+/// @throws MeshError that names the traces, if they are too close together or meet at too small an angle
 ConformingTriangles conforming_triangles(std::span<const CellCentre> centres, const Rectangle& domain,
                                          const TraceGraph& graph, double spacing, Patience& patience);
 

@@ -19,19 +19,22 @@
 namespace crackle {
 namespace {
 
-// Corners as near to a trace go onto it, and to one that is there already as near.
-constexpr double onto_trace_share = 0.25, onto_corner_share = 0.08;  // of the spacing
-// Of the largest coordinate: what lies on a line.
+// Two distances, relative to the spacing. A corner closer to a trace than the first is moved onto the trace; if a
+// corner on the trace is closer than the second, the two corners are merged.
+constexpr double onto_trace_share = 0.25, onto_corner_share = 0.08;
+// Tolerance for a point to lie on a line, relative to the largest coordinate.
 constexpr double on_line_share = 1e-12;
-// Of a cut: what is shorter of it, on the trace or beyond its tip, is no face of its own.
+// Shortest part of a cut, on the trace or beyond the trace's end, that becomes a separate face, relative to the length
+// of the cut.
 constexpr double least_face_share = 0.15;
 
-/// An edge of the graph as a line: distances along it, and to its left.
+/// An edge of the graph as a line, with coordinates along it and to its left.
 struct Line {
     Point start, along;
     double length;
-    int from, to;                                  // corners at its nodes
-    std::vector<std::pair<double, double>> trace;  // parts of the line on which its trace lies, in order
+    int from, to;  // corners at the two nodes of the edge
+    std::vector<std::pair<double, double>>
+        trace;  // start and end positions, along the line, of the parts that belong to its trace; sorted
 
     double at(Point p) const { return (p.x - start.x) * along.x + (p.y - start.y) * along.y; }
     double off(Point p) const { return (p.y - start.y) * along.x - (p.x - start.x) * along.y; }
@@ -39,7 +42,7 @@ struct Line {
         const double s = at(p);
         return {start.x + s * along.x, start.y + s * along.y};
     }
-    /// Length of the trace between two places.
+    /// Length of trace between two positions along the line.
     double covered(double first, double last) const {
         double sum = 0.0;
         for (const auto& [from_here, to_here] : trace)
@@ -51,13 +54,14 @@ struct Line {
 class CellCutter {
   public:
     CellCutter(const TracedCells& whole, const Rectangle& domain, const TraceGraph& graph,
-               std::span<const std::size_t> cut_by, double spacing, double least_share, Patience& patience)
+               std::span<const std::size_t> cut_by, double spacing, SmallPieces small_pieces, Patience& patience)
         : domain_(domain),
           graph_(graph),
           cut_by_(cut_by.begin(), cut_by.end()),
           patience_(patience),
           spacing_(spacing),
-          least_area_(least_share * spacing * spacing),
+          least_area_(small_pieces.least_share * spacing * spacing),
+          divided_again_(small_pieces.divided_again),
           near_(on_line_share * coordinate_scale(domain)),
           net_(spacing, onto_trace_share * spacing, near_),
           nodes_at_(spacing) {
@@ -105,7 +109,7 @@ class CellCutter {
     static CellNet::Box box_of(Point a, Point b) {
         return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
     }
-    /// Of cells that meet at a node that is their corner, but for rounding.
+    /// Cell corner at node p, allowing for round-off; added if it is missing.
     int node_at(Point p) {
         for (const int cell : net_.cells_near({p, p}))
             for (const int corner : net_.loop(cell).corners)
@@ -128,7 +132,7 @@ class CellCutter {
         return line;
     }
 
-    /// A node that lies on an edge of cells becomes a corner of these.
+    /// If the node lies on an edge of cells, makes it a corner of these cells.
     void insert_node(int node) {
         if (!net_.around(node).empty()) return;
         const Point p = net_.place(node);
@@ -150,7 +154,7 @@ class CellCutter {
         }
     };
 
-    /// Nearest ones first: those further off find them in place.
+    /// Moves corners onto traces, starting with the nearest, so that corners moved later can be merged with them.
     void put_corners_onto_traces() {
         std::vector<Segment> segments;
         segments.reserve(lines_.size());
@@ -171,7 +175,7 @@ class CellCutter {
             if (best) moves.push_back(*best);
         }
         std::sort(moves.begin(), moves.end());
-        std::vector<std::vector<int>> on(lines_.size());  // corners that lie on the line
+        std::vector<std::vector<int>> on(lines_.size());  // for each line, the corners that lie on it
         for (std::size_t k = 0; k < lines_.size(); ++k) on[k] = {lines_[k].from, lines_[k].to};
         for (const Move& move : moves) {
             patience_.piece();
@@ -185,7 +189,7 @@ class CellCutter {
                 continue;
             }
             const unsigned walls = sides_at(p, domain_);
-            if (walls != 0) continue;  // stays on its wall
+            if (walls != 0) continue;  // a corner on a wall stays on that wall
             if (net_.move_to(move.corner, target)) on[move.line].push_back(move.corner);
         }
     }
@@ -193,7 +197,7 @@ class CellCutter {
         return *std::min_element(corners.begin(), corners.end(),
                                  [&](int a, int b) { return distance(net_.place(a), p) < distance(net_.place(b), p); });
     }
-    /// A corner takes the place of another and is it from then on; neither leaves its wall.
+    /// Merges a corner with another corner; a corner on a wall stays on that wall.
     void put_together(int corner, int onto) {
         const unsigned walls = sides_at(net_.place(corner), domain_);
         if ((walls & ~sides_at(net_.place(onto), domain_)) != 0) return;
@@ -216,13 +220,13 @@ class CellCutter {
         if (net_.around(onto).empty() ? !surrounded(changed, onto) : !joined) return;
         for (auto& [cell, made] : changed) net_.replace(cell, std::move(made));
     }
-    /// A node within a cell becomes a corner: only if the cell whose inside it was is among those changed.
+    /// Whether the node is at a corner or lies inside one of the changed cells.
     bool surrounded(const std::map<int, Loop>& changed, int onto) {
         for (const int cell : net_.cells_near({net_.place(onto), net_.place(onto)}))
             if (net_.inside(net_.loop(cell), net_.place(onto))) return changed.contains(cell);
         return true;
     }
-    /// Cells that the open edge enters, by its line.
+    /// Cuts the cells that the edge crosses along its line.
     void cut(const Line& line, int trace) {
         for (const int cell : net_.cells_near(box_of(net_.place(line.from), net_.place(line.to)))) {
             patience_.piece();
@@ -232,12 +236,12 @@ class CellCutter {
             mark_cut(line, ends->first, ends->second, trace);
         }
     }
-    /// Corners of the cell between which the line cuts it, put in where there are none.
+    /// The two corners between which the line cuts the cell; corners that do not exist yet are inserted.
     std::optional<std::pair<int, int>> ends_of_cut(int cell, const Line& line) {
         struct End {
             double along;
-            int corner;  // -1: to be put in
-            int u, v;    // between these
+            int corner;  // -1 if the corner has yet to be inserted
+            int u, v;    // the corners between which the new corner is inserted
             Point place;
         };
         std::vector<End> ends;
@@ -272,10 +276,11 @@ class CellCutter {
         const int from = corner_of(first), to = corner_of(last);
         return std::pair{from, to};
     }
-    /// A tip that hardly enters a cell, or whose cut would leave a small piece, moves back to the cell's outline.
+    /// Whether to cut the cell. If the trace ends in the cell after a short distance, or the cut would leave a small
+    /// piece, the cell is not cut. The trace then ends at the cell's outline.
     bool enters(const Loop& l, const Line& line, double first, double last) {
         const double covered = line.covered(first, last), length = last - first;
-        if (length - covered <= near_) return true;  // no tip
+        if (length - covered <= near_) return true;  // the trace does not end in this cell
         const bool in =
             covered >= least_face_share * length && smaller_part(l, line) >= smallest_piece_share * spacing_ * spacing_;
         if (!in) moved_by(covered);
@@ -294,7 +299,7 @@ class CellCutter {
         ++moved_;
         largest_move_ = std::max(largest_move_, length);
     }
-    /// Exactly on the wall where both are.
+    /// If a and b lie on the same wall, moves the point p exactly onto this wall.
     Point on_wall_of(Point a, Point b, Point p) const {
         const unsigned walls = sides_at(a, domain_) & sides_at(b, domain_);
         if ((walls & (side_left | side_right)) != 0) p.x = a.x;
@@ -306,27 +311,17 @@ class CellCutter {
         const auto index = [&](int corner) {
             return static_cast<std::size_t>(std::find(l.corners.begin(), l.corners.end(), corner) - l.corners.begin());
         };
-        const auto part = [&](std::size_t begin, std::size_t end) {
-            Loop made;
-            made.centre = l.centre;
-            for (std::size_t k = begin; k != end; k = l.next(k)) {
-                made.corners.push_back(l.corners[k]);
-                made.traces.push_back(l.traces[k]);
-            }
-            made.corners.push_back(l.corners[end]);
-            made.traces.push_back(-1);
-            return made;
-        };
-        Loop one = part(index(from), index(to)), other = part(index(to), index(from));
+        Loop one = CellNet::part_of(l, index(from), index(to)), other = CellNet::part_of(l, index(to), index(from));
         net_.replace(cell, std::move(one));
         const int piece = net_.add(std::move(other));
         ++cut_;
         pieces_.insert({cell, piece});
     }
-    /// The trace along a cut: the whole of it but for what lies far beyond a tip, where the node becomes a corner.
+    /// Marks the edges along a cut as lying on the trace. If the cut extends far beyond the trace's end, the end
+    /// becomes a corner, and the part beyond it is not marked.
     void mark_cut(const Line& line, int from, int to, int trace) {
         const double first = line.at(net_.place(from)), last = line.at(net_.place(to)), length = last - first;
-        std::vector<std::pair<double, double>> parts;  // of the cut that are the trace's
+        std::vector<std::pair<double, double>> parts;  // positions of the parts of the cut that belong to the trace
         for (auto [begin, end] : line.trace) {
             begin = std::max(begin, first);
             end = std::min(end, last);
@@ -364,7 +359,7 @@ class CellCutter {
             }
         }
     }
-    /// Between whichever of the corners along a cut it lies.
+    /// Inserts a node into the edge between the two corners of the cut, in the cells on both sides.
     void insert_into_cut(int from, int to, int node) {
         const std::set<int> cells = net_.around(from);
         for (const int cell : cells) {
@@ -381,7 +376,7 @@ class CellCutter {
         }
     }
 
-    /// Edges that lie on a trace before anything is cut.
+    /// Marks cell edges that already lie on a trace before anything is cut.
     void mark(const Line& line, int trace) {
         const Segment s{net_.place(line.from), net_.place(line.to)};
         for (const int cell : net_.cells_near(box_of(s.a, s.b))) {
@@ -401,8 +396,13 @@ class CellCutter {
         for (int piece : small) {
             while (!net_.loop(piece).corners.empty() && net_.area(net_.loop(piece)) < least) {
                 patience_.piece();
-                const int into = join(piece);
-                if (into < 0 && net_.area(net_.loop(piece)) < least_area_) refuse(piece, net_.area(net_.loop(piece)));
+                const int into = net_.join(piece);
+                if (into < 0) {
+                    const double area = net_.area(net_.loop(piece));
+                    if (area >= least_area_) break;
+                    if (!divided_again_ || !net_.divide_again(piece, least_area_)) refuse(piece, area);
+                }
+                ++joined_;
                 if (into < 0) break;
                 piece = into;
             }
@@ -417,40 +417,11 @@ class CellCutter {
         std::vector<int> traces(named.begin(), named.end());
         const Point at = net_.place(net_.loop(piece).corners[0]);
         const std::string text = fmt::format(
-            "mesh: found traces {} so near to each other, or a tip so near to a wall, that they cut off a piece of "
-            "{:.2g} "
-            "of the mean cell at ({:.9g}, {:.9g}), expected pieces of at least {:.2g} of it; remove one, move it, or "
-            "make the particles smaller",
+            "mesh: found traces {} near each other, or a tip near a wall, that cut off {:.2g} of the mean cell at "
+            "({:.9g}, {:.9g}), expected at least {:.2g}; remove one, move it, or use smaller particles",
             fmt::join(traces, ", "), piece_area / (spacing_ * spacing_), at.x, at.y,
             least_area_ / (spacing_ * spacing_));
         throw MeshError(text, {}, std::move(traces));
-    }
-    /// To the neighbour across the longest edge that is no trace.
-    /// @return the union, -1: there is none
-    int join(int piece) {
-        const Loop l = net_.loop(piece);
-        double longest = 0.0;
-        Loop best;
-        int best_cell = -1;
-        for (std::size_t k = 0; k < l.size(); ++k) {
-            const int u = l.corners[k], v = l.corners[l.next(k)];
-            const double length = distance(net_.place(u), net_.place(v));
-            if (l.traces[k] >= 0 || length <= longest) continue;
-            for (const int cell : net_.around(u)) {
-                if (cell == piece || !net_.around(v).contains(cell)) continue;
-                Loop both = CellNet::together(l, net_.loop(cell));
-                if (both.size() < 3 || !net_.convex(both)) continue;
-                best = std::move(both);
-                best_cell = cell;
-                longest = length;
-            }
-        }
-        if (best_cell < 0) return -1;
-        best.centre = net_.loop(best_cell).centre;
-        net_.replace(best_cell, std::move(best));
-        net_.replace(piece, {});
-        ++joined_;
-        return best_cell;
     }
     TracedCells result() {
         TracedCells made;
@@ -472,9 +443,11 @@ class CellCutter {
     const TraceGraph& graph_;
     std::vector<std::size_t> cut_by_;
     Patience& patience_;
-    double spacing_, least_area_, near_;
+    double spacing_, least_area_;
+    bool divided_again_;
+    double near_;
     CellNet net_;
-    std::map<int, std::vector<std::size_t>> of_trace_;  // edges of the graph
+    std::map<int, std::vector<std::size_t>> of_trace_;  // indices of the graph's edges for each trace
     std::vector<Line> lines_;
     Squares nodes_at_;
     std::set<int> pieces_;
@@ -485,8 +458,9 @@ class CellCutter {
 }  // namespace
 
 TracedCells cut_cells(const TracedCells& whole, const Rectangle& domain, const TraceGraph& graph,
-                      std::span<const std::size_t> cut_by, double spacing, double least_share, Patience& patience) {
-    return CellCutter(whole, domain, graph, cut_by, spacing, least_share, patience).make();
+                      std::span<const std::size_t> cut_by, double spacing, SmallPieces small_pieces,
+                      Patience& patience) {
+    return CellCutter(whole, domain, graph, cut_by, spacing, small_pieces, patience).make();
 }
 
 }  // namespace crackle

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Inset of a convex polygon: the intersection of its half-planes, each moved inwards by the depth d.
-// A corner between unit edge directions t1, t2 moves by d·(t2 - t1)/(t1 × t2). If every edge keeps a positive length
-// that is the result; if not, the edges that vanish are found by clipping the outline by one half-plane after another.
+// Inset of a convex polygon: the intersection of its half-planes, each moved inwards by a depth d. A corner between
+// edges with unit directions t1, t2 moves by d·(t2 - t1)/(t1 × t2). If all edges keep a positive length, this is the
+// result. Otherwise the outline is clipped by one half-plane after another, and edges may vanish.
 
 #include "mesher/inset.hpp"
 
@@ -11,12 +11,13 @@
 namespace crackle {
 namespace {
 
-// Edges below this share of the perimeter are dropped from an inset: they are corners to any force, and far above
-// rounding.
+// Edges shorter than this fraction of the perimeter are removed from an inset. The limit is negligible for the shape
+// but far above round-off.
 constexpr double shortest_share = 1e-12;
-// A corner turning by less than this sine is no corner: its edges' offsets meet nowhere in particular.
+// Corners whose turning angle has a smaller sine are dropped, since the offset lines of their edges have no
+// well-defined intersection.
 constexpr double flattest_turn = 1e-12;
-// An inset with less than this share of the outline's area is the rounding of an empty one.
+// An inset whose area is a smaller fraction of the outline's area counts as empty; it is only round-off.
 constexpr double smallest_area_share = 1e-12;
 
 }  // namespace
@@ -43,7 +44,8 @@ void Inset::measure_edges() {
     }
 }
 
-// A corner within rounding of the line between its neighbours, or turning the wrong way by rounding.
+// Removes corners that lie, up to round-off, on the line between their neighbours, or that turn the wrong way because
+// of round-off.
 void Inset::drop_flat_corners(std::vector<Point>& polygon, std::vector<char>& kept) const {
     bool changed = true;
     while (changed && polygon.size() >= 3) {
@@ -68,14 +70,14 @@ void Inset::drop_flat_corners(std::vector<Point>& polygon, std::vector<char>& ke
     }
 }
 
-// @return false if an edge vanishes, or the outline has corners that are none.
+// Moves all edges without clipping. @return false if an edge vanishes or the outline has flat corners
 bool Inset::straightforward() {
     const std::size_t count = outline_.size();
     result_.resize(count);
     double perimeter = 0.0;
     for (const double length : length_) perimeter += length;
     const double shortest = std::max(shortest_share * perimeter, 16.0 * relative_rounding * scale_);
-    // An edge loses d·tan(turn/2) at each end, tan(turn/2) = (1 - cos)/sin = sin/(1 + cos).
+    // An edge loses d·tan(turn/2) at each end, where tan(turn/2) = (1 - cos)/sin = sin/(1 + cos).
     double lost_before = 0.0, lost_at_first = 0.0;
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t before = k == 0 ? count - 1 : k - 1;
@@ -88,7 +90,7 @@ bool Inset::straightforward() {
         if (flat && !stays) return false;
         Point move;
         double lost;
-        if (cosine > 0.0) {  // (t2 - t1)/sine = (n1 + n2)/(1 + cosine), n the inward normals: no small difference
+        if (cosine > 0.0) {  // (t2 - t1)/sine = (n1 + n2)/(1 + cosine), n inward normals; this form avoids cancellation
             const double share = depth_ / (1.0 + cosine);
             move = {-share * (t1.y + t2.y), share * (t1.x + t2.x)};
             lost = share * sine;
@@ -150,7 +152,7 @@ double inscribed_radius(std::span<const Point> outline, double coordinate_scale)
         const Point a = outline[k], b = outline[k + 1 == outline.size() ? 0 : k + 1];
         perimeter += distance(a, b);
     }
-    // A disc of radius r inside leaves each edge a triangle of height r at least: A >= rP/2.
+    // For a disc of radius r inside, the triangle on each edge has a height of at least r: A >= rP/2.
     double low = 0.0, high = 2.0 * polygon_area(outline) / perimeter;
     for (int halving = 0; halving < 50; ++halving) {
         const double middle = 0.5 * (low + high);
@@ -169,7 +171,8 @@ void clip(std::vector<Point>& polygon, double nx, double ny, double offset, std:
         const double height_b = nx * b.x + ny * b.y - offset;
         if (height_a >= 0.0) scratch.push_back(a);
         if ((height_a < 0.0 && height_b > 0.0) || (height_a > 0.0 && height_b < 0.0)) {
-            // From the outer end, whichever way round the edge is walked, so that neighbours get the same point.
+            // Interpolated from the outer end, whatever the direction of the edge, so that neighbours get the same
+            // point.
             const Point& outer = height_a < 0.0 ? a : b;
             const Point& inner = height_a < 0.0 ? b : a;
             const double low = std::min(height_a, height_b);

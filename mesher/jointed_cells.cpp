@@ -14,25 +14,29 @@
 namespace crackle {
 namespace {
 
-// Each time that cells do not cover a trace, those along it become narrower by that factor, down to that share.
+// If cells do not cover a trace, the rows along it are made narrower by shrink_factor, repeatedly if necessary, but not
+// below least_shrink.
 constexpr double shrink_factor = 0.6, least_shrink = 0.2;
-constexpr double shortest_edge_share = 0.1;  // of the spacing: between two nodes of a trace
-// Of the largest coordinate: an edge of a cell lies on a trace by its seeds, to the rounding of circumcentres.
+constexpr double shortest_edge_share =
+    0.1;  // trace edges shorter than this, relative to the spacing, get no rows and cut cells instead
+// Tolerance for an edge to lie on a trace, relative to the largest coordinate. Mirrored seeds place an edge on the
+// trace up to the round-off of circumcentres.
 constexpr double on_trace_share = 1e-12;
-// Of the mean cell: pieces as small stay where nothing else gives a mesh, at a time step some twenty times shorter.
+// Smallest area of a piece, relative to the mean cell area, that is accepted if there is no mesh without such small
+// pieces. The time step is then about 20 times smaller.
 constexpr double tolerated_piece_share = 0.002;
-constexpr double covered_share = 1e-9;  // of an edge's length that may be missing
+constexpr double covered_share = 1e-9;  // fraction of an edge's length that may remain uncovered
 
 class JointedPartition {
   public:
     JointedPartition(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
-                     double spacing, double least_piece_share, Patience& patience)
+                     double spacing, SmallPieces small_pieces, Patience& patience)
         : centres_(centres),
           domain_(domain),
           graph_(graph),
           patience_(patience),
           spacing_(spacing),
-          least_piece_share_(least_piece_share),
+          small_pieces_(small_pieces),
           near_(on_trace_share * coordinate_scale(domain)),
           grid_(segments(), 0.5 * spacing),
           shrink_(graph.edges.size(), 1.0),
@@ -74,7 +78,7 @@ class JointedPartition {
 
     bool has_rows(std::size_t e) const { return graph_.edges[e].trace >= 0 && cuts_[e] == 0; }
 
-    /// Along the edges that do not cut.
+    /// Seeds, with rows along all edges of the graph that do not cut cells.
     SeedSet seeds_of_rows() const {
         TraceGraph rows = graph_;
         rows.edges.clear();
@@ -87,7 +91,8 @@ class JointedPartition {
         return mirrored_seeds(centres_, domain_, rows, spacing_, shrink);
     }
 
-    /// Rows of cells narrower than a piece may be make the time step small: the traces there cut, where that is better.
+    /// Rows with cells below the smallest allowed size require a small time step. This function removes such rows and
+    /// lets the traces cut cells instead, unless the pieces would be even smaller.
     JointedCells without_small_cells(JointedCells made) {
         const std::set<std::size_t> small = edges_of_small_cells(made);
         if (small.empty()) return with_cuts(std::move(made));
@@ -95,11 +100,11 @@ class JointedPartition {
         for (const std::size_t e : small) cutting.cuts_[e] = 1;
         try {
             return cutting.make();
-        } catch (const MeshError&) {  // of pieces smaller still
+        } catch (const MeshError&) {  // cutting would give even smaller pieces
             return with_cuts(std::move(made));
         }
     }
-    /// On whose rows cells are smaller than a piece may be.
+    /// Edges of the graph whose rows have cells below the smallest allowed size.
     std::set<std::size_t> edges_of_small_cells(const JointedCells& made) const {
         std::set<std::size_t> edges;
         const VoronoiCells& cells = made.traced.cells;
@@ -120,11 +125,11 @@ class JointedPartition {
         for (std::size_t e = 0; e < cuts_.size(); ++e)
             if (cuts_[e] != 0) cut_by.push_back(e);
         if (cut_by.empty()) return made;
-        made.traced = cut_cells(made.traced, domain_, graph_, cut_by, spacing_, least_piece_share_, patience_);
+        made.traced = cut_cells(made.traced, domain_, graph_, cut_by, spacing_, small_pieces_, patience_);
         number_pieces(made);
         return made;
     }
-    /// So many cuts of a cell that its pieces are smaller than asked.
+    /// Refuses traces that are so crowded that pieces of cut cells would be too small.
     void refuse_crowds() const {
         Squares squares(spacing_);
         for (std::size_t e = 0; e < cuts_.size(); ++e) {
@@ -137,7 +142,7 @@ class JointedPartition {
             if (crowd > 1.0 / smallest_piece_share) refuse(e);
         }
     }
-    /// A seed a cell, in the order of the seeds that they grew from.
+    /// Gives each cell its own seed. Cells are sorted by original seed.
     static void number_pieces(JointedCells& made) {
         auto& cells = made.traced.cells.cells;
         std::vector<std::size_t> order(cells.size());
@@ -156,7 +161,7 @@ class JointedPartition {
         made.seeds = std::move(numbered);
     }
 
-    /// Calls use(edge of the graph, length) where the edge between two corners lies on a trace.
+    /// Calls use(edge of the graph, length) for each edge of the graph on which the cell edge from a to b lies.
     template <class Use>
     void each_trace_under(Point a, Point b, Use use) const {
         grid_.each_near({0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, [&](std::size_t e) {
@@ -167,7 +172,8 @@ class JointedPartition {
         const Segment& s = grid_.segments()[e];
         return !off_line(s, p) && distance_to(s, p) <= near_;
     }
-    /// Surely, as most corners are: cheaper than the distance.
+    /// Whether a point is certainly not on the line. This is cheaper than computing the distance, and true for most
+    /// corners.
     bool off_line(const Segment& s, Point p) const {
         const Point d{s.b.x - s.a.x, s.b.y - s.a.y};
         const double off = cross(d, {p.x - s.a.x, p.y - s.a.y});
@@ -178,7 +184,7 @@ class JointedPartition {
         return std::abs(covered - length) <= covered_share * length + 4.0 * near_;
     }
 
-    /// @return edges of the graph that cells do not cover
+    /// Marks the cell edges that lie on traces. @return edges of the graph that are not covered by cell edges
     std::set<std::size_t> mark_traces(JointedCells& made) const {
         const VoronoiCells& cells = made.traced.cells;
         made.traced.traces.assign(cells.corners.size(), -1);
@@ -186,7 +192,7 @@ class JointedPartition {
         for (const VoronoiCells::Range& cell : cells.cells) {
             if (made.seeds.added[static_cast<std::size_t>(cell.centre)] == 0) continue;
             const auto outline = cells.outline(cell);
-            // An edge on a trace has both ends there: what is near every other corner is enough.
+            // An edge on a trace has both ends on it, so it is sufficient to check every other corner.
             for (std::size_t corner = 1; corner <= outline.size(); corner += 2) {
                 const std::size_t at = std::min(corner, outline.size() - 1);
                 grid_.each_near(outline[at], [&](std::size_t e) {
@@ -206,7 +212,7 @@ class JointedPartition {
         return failing;
     }
 
-    /// Edges near the seeds that an error names, where one of these belongs to a trace.
+    /// Edges of the graph near the seeds that an error names, if one of these seeds was added for a trace.
     std::set<std::size_t> edges_at(const SeedSet& seeds, const MeshError& error) const {
         std::set<std::size_t> failing;
         for (const int seed : error.centres) {
@@ -258,9 +264,8 @@ class JointedPartition {
         std::vector<int> named{trace};
         named.insert(named.end(), others.begin(), others.end());
         throw MeshError(
-            fmt::format("mesh: found trace {} from ({:.9g}, {:.9g}) to ({:.9g}, {:.9g}) with {} other trace{} "
-                        "within {:.3g}, expected one that cells can follow; remove one, move it, or make the "
-                        "particles smaller",
+            fmt::format("mesh: found trace {} from ({:.9g}, {:.9g}) to ({:.9g}, {:.9g}) with {} other trace{} within "
+                        "{:.3g}, expected one that cells can follow; remove one, move it, or use smaller particles",
                         trace, s.a.x, s.a.y, s.b.x, s.b.y, others.size(), others.size() == 1 ? "" : "s",
                         0.5 * spacing_),
             {}, std::move(named));
@@ -270,21 +275,29 @@ class JointedPartition {
     Rectangle domain_;
     const TraceGraph& graph_;
     Patience& patience_;
-    double spacing_, least_piece_share_, near_;
+    double spacing_;
+    SmallPieces small_pieces_;
+    double near_;
     SegmentGrid grid_;
-    std::vector<double> shrink_;  // by edge
-    std::vector<char> cuts_;      // whether an edge has no rows and cuts
+    std::vector<double> shrink_;  // for each edge of the graph, factor on the width of its rows
+    std::vector<char> cuts_;      // for each edge of the graph, whether it has no rows and cuts cells instead
 };
 
 }  // namespace
 
 JointedCells jointed_cells(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
                            double spacing, Patience& patience) {
-    try {
-        return JointedPartition(centres, domain, graph, spacing, smallest_piece_share, patience).make();
-    } catch (const MeshError&) {  // small pieces are better than none: they cost time steps
-        return JointedPartition(centres, domain, graph, spacing, tolerated_piece_share, patience).make();
+    const auto make = [&](SmallPieces small_pieces) {
+        return JointedPartition(centres, domain, graph, spacing, small_pieces, patience).make();
+    };
+    // Small pieces are accepted if there is no other mesh; they only require a smaller time step.
+    for (const SmallPieces small_pieces : {SmallPieces{smallest_piece_share, false}, {tolerated_piece_share, false}}) {
+        try {
+            return make(small_pieces);
+        } catch (const MeshError&) {  // the next attempt accepts more
+        }
     }
+    return make({tolerated_piece_share, true});
 }
 
 }  // namespace crackle

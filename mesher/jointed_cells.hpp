@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Voronoi cells of a rectangle whose edges follow traces: seeds along traces (mirrored_seeds.hpp), smaller where the
-// edges of the cells do not yet cover a trace, until they do. Where cells as small as a fifth of the spacing do not
-// fit, or would be smaller than pieces may be, the trace has no seeds of its own and cuts the cells that it meets
-// (cut_cells.hpp).
-// Tested by tests/mesher/jointed_voronoi_test.cpp.
+// Voronoi cells of a rectangle with edges that follow traces. Seeds are placed in rows along traces
+// (mirrored_seeds.hpp), more densely if cell edges do not cover a trace. Some traces get no rows, because cells of a
+// fifth of the spacing do not fit or would be below the smallest allowed size. These traces cut the cells they cross
+// (cut_cells.hpp). Tested by tests/mesher/jointed_voronoi_test.cpp.
 #pragma once
 
 #include <span>
@@ -17,11 +16,12 @@
 namespace crackle {
 
 struct JointedCells {
-    SeedSet seeds;       ///< pieces of cut cells have one each
-    TracedCells traced;  ///< of the seeds, by their number
+    SeedSet seeds;       ///< seed of each cell; each piece of a cut cell has its own entry
+    TracedCells traced;  ///< the cells, in seed order
 };
 
-/// @throws MeshError naming traces that cells cannot follow, and as voronoi_cells() does
+/// Makes the cells. @throws MeshError that names the traces, if cells cannot follow them; also the errors of
+/// voronoi_cells()
 JointedCells jointed_cells(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
                            double spacing, Patience& patience);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A destroyed triangle is a sliver: its longest edge is nearly as long as the other two, and the quadrangle it forms
-// with the triangle beyond is as a rule convex.
+// A destroyed triangle is usually a sliver whose longest edge is nearly as long as the other two together. With the
+// triangle across that edge it usually forms a convex quadrilateral.
 
 #include "mesher/merge.hpp"
 
@@ -19,14 +19,15 @@
 namespace crackle {
 namespace {
 
-// Edge from a corner to the next one of the polygon; the triangle it belongs to leads to the neighbour beyond.
+// An edge from a corner to the next one of the polygon, and the triangle it belongs to, through which the neighbour
+// across the edge is found.
 struct Side {
     int corner;
     int triangle;
 };
 using Polygon = std::vector<Side>;
 
-// Sine below which a corner counts as straight: the wall faces' own points lie on one line exactly.
+// A corner whose sine is smaller counts as straight; points added on a wall lie exactly on one line.
 constexpr double straight = 1e-12;
 
 class Joiner {
@@ -47,12 +48,14 @@ class Joiner {
 
     const Triangles& mesh_;
     Inset inset_;
-    std::map<int, Polygon> polygons_;  // by lowest triangle: those made so far
-    std::map<int, int> parent_;        // joined triangle -> one nearer to the key of its polygon, which leads to itself
+    std::map<int, Polygon> polygons_;  // the polygons made so far, by their lowest triangle index (key)
+    // For each merged triangle, another triangle of the same polygon that is closer to the polygon's key. The key is
+    // its own parent.
+    std::map<int, int> parent_;
 };
 
-// @return key of its polygon, itself if not joined. Ways are halved as they are gone, so that joining n triangles takes
-// O(n log n) steps.
+// Key of the triangle's polygon, or the triangle itself if it has not been merged. Paths are halved during the search,
+// so that merging n triangles takes O(n log n) steps.
 int Joiner::owner(int triangle) {
     for (auto found = parent_.find(triangle); found != parent_.end() && found->second != triangle;
          found = parent_.find(triangle)) {
@@ -69,13 +72,13 @@ Polygon Joiner::polygon_of(int key) const {
     return {{c[0], key}, {c[1], key}, {c[2], key}};
 }
 
-// @return which corner of its triangle a side has opposite.
+// Index (0 to 2) of the triangle's corner opposite the side.
 std::size_t Joiner::opposite(const Side& side) const {
     const auto& corners = mesh_.corners[static_cast<std::size_t>(side.triangle)];
     return corners[1] == side.corner ? 0 : corners[2] == side.corner ? 1 : 2;
 }
 
-// @return triangle on the other side of an edge, -1 at the end of the mesh and at a trace, which stays one.
+// Triangle on the other side of an edge; -1 at the boundary of the mesh, and at a trace, which must remain an edge.
 int Joiner::beyond(const Polygon& polygon, std::size_t side) const {
     const auto triangle = static_cast<std::size_t>(polygon[side].triangle);
     const std::size_t k = opposite(polygon[side]);
@@ -108,7 +111,7 @@ void Joiner::join(const std::vector<int>& destroyed) {
         const int key = owner(waiting.front());
         waiting.pop_front();
         const Polygon polygon = polygon_of(key);
-        if (survives(polygon)) continue;  // joined by a neighbour meanwhile
+        if (survives(polygon)) continue;  // the triangle has been merged with another in the meantime
         std::vector<std::size_t> sides(polygon.size());
         for (std::size_t k = 0; k < sides.size(); ++k) sides[k] = k;
         const auto length = [&](std::size_t k) {
@@ -141,8 +144,8 @@ void Joiner::join(const std::vector<int>& destroyed) {
             const Point at = mesh_.points[static_cast<std::size_t>(c[0])];
             std::vector<int> traces = traces_about(mesh_, static_cast<std::size_t>(key));
             const std::string text = fmt::format(
-                "mesh: found triangle {} at ({:.9g}, {:.9g}){} destroyed by the inset and convex with none "
-                "of its neighbours, expected one to merge it with",
+                "mesh: found triangle {} at ({:.9g}, {:.9g}){} destroyed by the inset and not convex with any "
+                "of its neighbours, expected a neighbour with a convex union",
                 key, at.x, at.y, in_words(traces));
             throw MeshError(text, {}, std::move(traces));
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Joining of triangles that the inset would destroy with neighbours.
+// Merges triangles that the inset would destroy with their neighbours.
 #pragma once
 
 #include <cstddef>
@@ -10,29 +10,30 @@
 
 namespace crackle {
 
-/// A polygon of joined triangles: corner numbers (into Triangles::points), counter-clockwise. The rest stay as they
-/// are.
+/// Polygons that replace merged triangles. Corners are indices into Triangles::points, counter-clockwise. All other
+/// triangles are unchanged.
 struct JoinedTriangles {
-    std::vector<bool> joined;  // by triangle: its place is taken by one of the outlines
+    std::vector<bool> joined;  // for each triangle, whether one of the outlines replaces it
     struct Outline {
-        int triangle;  // the lowest of its triangles
+        int triangle;  // lowest index of the merged triangles
         std::vector<int> corners;
-        std::vector<int> traces;  // on the edge from each corner to the next, -1: none; empty of a mesh without traces
+        // For each corner, the trace on the edge to the next corner, or -1. Empty in a mesh without traces.
+        std::vector<int> traces;
     };
-    std::vector<Outline> outlines;  // in the order of their triangles
+    std::vector<Outline> outlines;  // sorted by Outline::triangle
 };
 
-/// Joins each destroyed triangle to the neighbour across its longest edge with which it is convex and survives the
-/// inset; where no such neighbour survives, to the one across the longest edge with which it is convex, and goes on
-/// from there.
-/// @param destroyed  triangles that the inset leaves nothing of
-/// @throws MeshError if a destroyed triangle is convex with none of its neighbours
+/// Merges each destroyed triangle with a neighbour. Among neighbours whose union with it is convex and survives the
+/// inset, the one across the longest edge is chosen. If no union survives, the longest edge with a convex union is
+/// used, and the process continues from this union.
+/// @param destroyed triangles that vanish in the inset
+/// @throws MeshError if a destroyed triangle does not form a convex polygon with any neighbour
 JoinedTriangles join_destroyed(const Triangles& mesh, const std::vector<int>& destroyed, double depth,
                                double coordinate_scale);
 
-/// Traces on a triangle's edges and on those of its neighbours; none of a mesh without.
+/// Traces on the edges of a triangle and of its neighbours; empty in a mesh without traces.
 std::vector<int> traces_about(const Triangles& mesh, std::size_t triangle);
-/// " by traces 3, 5"; empty of none.
+/// The traces as text, for example " by traces 3, 5", or empty.
 std::string in_words(const std::vector<int>& traces);
 
 }  // namespace crackle

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// make_mesh(): checks the input, partitions the domain, insets the cells, and deals with those that the inset destroys.
+// make_mesh(): checks the input, partitions the domain, insets the cells, and merges or refuses cells that the inset
+// destroys.
 // Tested by tests/mesher/voronoi_test.cpp.
 
 #include <fmt/format.h>
@@ -24,7 +25,7 @@
 namespace crackle {
 namespace {
 
-// Squares of lengths must neither overflow nor vanish.
+// Limits that prevent overflow and underflow of squared lengths.
 constexpr double longest_length = 1e100, shortest_length = 1e-100;
 
 void check_request(const Rectangle& domain, const MeshRequest& request) {
@@ -52,7 +53,8 @@ void check_request(const Rectangle& domain, const MeshRequest& request) {
 
 void check_centres(std::span<const CellCentre> centres, const Rectangle& domain) {
     if (centres.empty()) throw MeshError("mesh: found no centres, expected at least one");
-    // Triangles are about twice as many and are numbered by int; their corners by 32 bits.
+    // There are about twice as many triangles as centres. Centres are indexed by int, and corners of triangles by 32
+    // bits.
     constexpr std::size_t most = std::numeric_limits<int>::max() / 4;
     if (centres.size() > most)
         throw MeshError(fmt::format("mesh: found {} centres, expected at most {}", centres.size(), most));
@@ -75,7 +77,7 @@ void check_centres(std::span<const CellCentre> centres, const Rectangle& domain)
 
 double twice_area_of(Point a, Point b, Point p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
 
-/// Distance of a point inside a convex outline from it.
+/// Distance between a convex outline and a point inside it, m.
 double depth_within(std::span<const Point> outline, Point p) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < outline.size(); ++k) {
@@ -94,7 +96,7 @@ void check_outline(std::span<const CellCentre> centres, const MeshRequest& reque
                  twice_area_of(outline[k], outline[(k + 1) % outline.size()], outline[(k + 2) % outline.size()]) > 0.0;
     if (!convex)
         throw MeshError(
-            fmt::format("mesh: outline: found {} corners that turn to the right somewhere, expected a convex "
+            fmt::format("mesh: outline: found {} corners with a right turn, expected a convex "
                         "polygon, counter-clockwise",
                         outline.size()));
     for (std::size_t k = 0; k < centres.size(); ++k) {
@@ -114,8 +116,8 @@ void check_traces(const Rectangle& domain, const MeshRequest& request) {
     }
     if (request.kind == MeshKind::voronoi && request.merge_destroyed)
         throw MeshError(
-            "mesh: found traces with Voronoi cells to be merged, expected no merging; seeds along traces "
-            "belong together");
+            "mesh: found traces with Voronoi cells to be merged, expected no merging; it would separate "
+            "pairs of seeds along traces");
     for (std::size_t t = 0; t < request.traces.size(); ++t) {
         const std::vector<Point>& trace = request.traces[t];
         if (trace.size() < 2)
@@ -132,7 +134,7 @@ void check_traces(const Rectangle& domain, const MeshRequest& request) {
     }
 }
 
-/// What of a cell lies within the outline.
+/// Clips cells to an outline.
 class Cutter {
   public:
     explicit Cutter(std::span<const Point> outline) : outline_(outline) {}
@@ -155,10 +157,10 @@ class Cutter {
 
 std::string place(Point p) { return fmt::format("({:.9g}, {:.9g})", p.x, p.y); }
 
-/// Cells that the inset destroys, before anything is advised.
+/// Cells that the inset destroys, as an error to which advice is added.
 struct DestroyedCells {
-    std::string found;    // the worst of them, in words
-    double least_radius;  // m, of the discs inside them
+    std::string found;    // description of the worst cell
+    double least_radius;  // m, smallest inscribed radius of these cells
     std::vector<int> centres, traces;
 };
 
@@ -170,7 +172,8 @@ struct DestroyedCells {
                          radius, std::move(centres), std::move(traces)};
 }
 
-// Twice the area over the perimeter: grows with the inscribed radius, and finds the cell to be named quickly.
+// Twice the area divided by the perimeter. It grows with the inscribed radius, and is a fast way to find the worst
+// cell.
 double slenderness(std::span<const Point> outline) {
     double perimeter = 0.0;
     for (std::size_t k = 0; k < outline.size(); ++k) {
@@ -180,8 +183,8 @@ double slenderness(std::span<const Point> outline) {
     return 2.0 * polygon_area(outline) / perimeter;
 }
 
-// Of the destroyed cells, some that do not touch each other: where two do, leaving out one may be enough.
-// @param destroyed  in the order of their centres  @return centres
+// Selects destroyed cells that do not touch each other; if two touch, it may be sufficient to omit one of them.
+// @param destroyed destroyed cells, in the order of their centres @return indices of the centres of the selected cells
 std::vector<int> apart(const VoronoiCells& voronoi, const std::vector<VoronoiCells::Range>& destroyed) {
     std::set<std::pair<double, double>> taken;
     std::vector<int> chosen;
@@ -194,8 +197,8 @@ std::vector<int> apart(const VoronoiCells& voronoi, const std::vector<VoronoiCel
     return chosen;
 }
 
-// A loop of its own: the memory that it jumps to is waited for once, not cell by cell between insets.
-// @param cells  one a centre that is left  @param centre_of  by number among those left
+// Sorts cells by centre. This is a separate loop, because its random memory access would slow down the insets.
+// @param cells cells of the remaining centres @param centre_of original index of each remaining centre
 std::vector<Cell> in_order_of_centres(const std::vector<Cell>& cells, const std::vector<int>& centre_of) {
     std::vector<Cell> ordered(cells.size());
     for (const Cell& cell : cells) ordered[static_cast<std::size_t>(cell.centre)] = cell;
@@ -257,11 +260,12 @@ Mesh mesh_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, 
     }
 }
 
-/// Triangles that fill a convex outline. Far walls, so that nothing is mirrored into the neighbourhood.
+/// Triangles that fill a convex outline. The walls are placed far away, so that there are no mirror images near the
+/// outline.
 Triangles triangles_within(std::span<const CellCentre> centres, const Rectangle& domain, std::span<const Point> outline,
                            Patience& patience) {
-    constexpr double wall_distance = 10.0;        // over the domain's size
-    constexpr double left_out_share = 1.0 / 3.0;  // of the mean spacing
+    constexpr double wall_distance = 10.0;        // relative to the size of the domain
+    constexpr double left_out_share = 1.0 / 3.0;  // relative to the mean spacing
     const double spacing = std::sqrt(polygon_area(outline) / static_cast<double>(centres.size()));
     std::vector<CellCentre> points;
     std::vector<int> number;
@@ -294,7 +298,7 @@ TraceGraph graph_of(std::span<const CellCentre> centres, const Rectangle& domain
     return trace_graph(domain, request.traces, trace_reach_share * mean_spacing(centres, domain));
 }
 
-/// What traces cost a mesh.
+/// Reports the effects of traces on a mesh.
 void report_traces(MeshReport& report, const TraceGraph& graph, std::size_t left_out, std::size_t added) {
     report.ends_moved = static_cast<std::int64_t>(graph.moved.size());
     for (const TraceGraph::MovedEnd& end : graph.moved)
@@ -304,7 +308,7 @@ void report_traces(MeshReport& report, const TraceGraph& graph, std::size_t left
     report.points_added = static_cast<std::int64_t>(added);
 }
 
-/// Corners between edges of which one lies on a trace and the other does not, or on another.
+/// Flags the corners at which a trace ends: their two edges lie on different traces, or only one edge lies on a trace.
 std::span<const char> ends_of_traces(std::span<const int> traces, std::vector<char>& kept) {
     kept.resize(traces.size());
     for (std::size_t k = 0; k < traces.size(); ++k)
@@ -357,7 +361,7 @@ Mesh mesh_jointed_voronoi(std::span<const CellCentre> centres, const Rectangle& 
     return mesh;
 }
 
-/// On the edge from each corner of a triangle to the next.
+/// For each corner of a triangle, the trace on the edge to the next corner.
 std::array<int, 3> traces_along(const Triangles& triangles, std::size_t t) {
     const std::array<int, 3>& opposite = triangles.traces[t];
     return {opposite[2], opposite[0], opposite[1]};
@@ -396,7 +400,8 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
             numbers[k] = triangles.centre_of[static_cast<std::size_t>(triangles.corners[t][k])];
         return numbers;
     };
-    // Inset twice, to find the destroyed and to keep the rest: keeping outlines until all are known costs more.
+    // Outlines are inset twice: first to find the destroyed ones, then to add the others. This is faster than storing
+    // them.
     std::vector<int> destroyed;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
         patience.piece();
@@ -480,14 +485,14 @@ bool can_be_meshed(std::span<const CellCentre> centres, const Rectangle& domain,
     }
 }
 
-/// Two digits, not more than the value.
+/// Rounds a value down to two significant digits.
 double rounded_down(double value) {
     const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
     return unit * std::floor(value / unit);
 }
 
-/// What else would give a mesh: each is tried.
-/// @param least_radius  m, of the cells that the inset destroys
+/// Advice on changed requests that would give a mesh. Each request is tried first.
+/// @param least_radius smallest inscribed radius of the cells that the inset destroys, m
 std::string advice(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
                    std::optional<double> least_radius) {
     std::vector<std::string> helps;
@@ -495,7 +500,7 @@ std::string advice(std::span<const CellCentre> centres, const Rectangle& domain,
         if (can_be_meshed(centres, domain, other)) helps.push_back(words);
     };
     const bool voronoi = request.kind == MeshKind::voronoi, traced = !request.traces.empty();
-    constexpr double least_share = 1e-6;  // of the inset asked for: what is less is no advice
+    constexpr double least_share = 1e-6;  // relative to the requested inset; smaller values are not useful as advice
     if (least_radius && *least_radius > least_share * request.inset.value_or(0.5 * request.mesh_gap)) {
         MeshRequest thinner = request;
         const double depth = rounded_down(0.99 * *least_radius);
@@ -515,7 +520,7 @@ std::string advice(std::span<const CellCentre> centres, const Rectangle& domain,
     if (request.boundary == Boundary::domain && !(traced && !voronoi && request.merge_destroyed)) {
         MeshRequest other = request;
         other.kind = voronoi ? MeshKind::delaunay : MeshKind::voronoi;
-        attempt(other, voronoi ? "take Delaunay triangles" : "take Voronoi cells");
+        attempt(other, voronoi ? "use Delaunay triangles" : "use Voronoi cells");
     }
     if (helps.empty()) return "";
     std::string text = "; ";

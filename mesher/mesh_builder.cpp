@@ -38,8 +38,8 @@ Cell& MeshBuilder::add(std::span<const Point> before, std::span<const Point> aft
 
 namespace {
 
-/// Which edge of the outline without inset one of the inset outline is: the one that runs in its direction, for a
-/// convex outline has one of each; flat corners aside, where the nearer one is it.
+/// Index of the edge of the original outline from which an edge of the inset outline comes. A convex outline has only
+/// one edge in that direction; with flat corners there may be several, of which the nearest is chosen.
 std::size_t edge_of(std::span<const Point> before, Point a, Point b) {
     std::size_t best = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -49,7 +49,8 @@ std::size_t edge_of(std::span<const Point> before, Point a, Point b) {
         const double along = distance(p, q), x = (q.x - p.x) / along, y = (q.y - p.y) / along;
         const double turn = std::abs(x * (b.y - a.y) - y * (b.x - a.x)) / length;
         if (x * (b.x - a.x) + y * (b.y - a.y) <= 0.0) continue;
-        // Off its span, as a share of a turn: of two edges on one line the one beside counts.
+        // The distance beyond the edge's ends is added to the deviation in direction, so that the nearest of several
+        // collinear edges is chosen.
         const double middle = x * (0.5 * (a.x + b.x) - p.x) + y * (0.5 * (a.y + b.y) - p.y);
         const double off = std::max({0.0, -middle, middle - along}) / (along + length);
         if (turn + 1e-9 * off >= least) continue;
@@ -63,7 +64,8 @@ std::size_t edge_of(std::span<const Point> before, Point a, Point b) {
 
 Cell& MeshBuilder::add(std::span<const Point> before, std::span<const Point> after, std::span<const int> traces,
                        bool edges_kept) {
-    mesh_.edge_traces.reserve(mesh_.corners.capacity());  // once
+    mesh_.edge_traces.reserve(
+        mesh_.corners.capacity());  // there is one entry per corner, so no further allocation is needed
     if (std::ranges::all_of(traces, [](int trace) { return trace < 0; })) {
         mesh_.edge_traces.insert(mesh_.edge_traces.end(), after.size(), -1);
         return add(before, after);
@@ -78,8 +80,8 @@ Cell& MeshBuilder::add(std::span<const Point> before, std::span<const Point> aft
     return add(before, after);
 }
 
-// Angles are compared by a measure that grows with them and needs no arc function: sin up to 90 degrees, 2 - sin
-// beyond.
+// Angles are compared by a monotonic function that needs no inverse trigonometric functions: sin up to 90 degrees, 2 -
+// sin above.
 void MeshBuilder::measure_edges(std::span<const Point> outline) {
     const Point last = outline.back();
     Point in{outline.front().x - last.x, outline.front().y - last.y};
@@ -106,7 +108,7 @@ Mesh MeshBuilder::finish() {
     report.shortest_edge = shortest_edge_;
     const bool acute = smallest_corner_ <= 1.0;
     const double quarter = std::asin(std::clamp(acute ? smallest_corner_ : 2.0 - smallest_corner_, -1.0, 1.0));
-    // asin() rounds its last digit by the processor; nobody needs more than nine decimals of a degree.
+    // The last digit of asin() depends on the processor; nine decimal places, in degrees, are sufficient.
     report.smallest_angle =
         1e-9 * std::round(1e9 * (acute ? quarter : std::numbers::pi - quarter) * 180.0 / std::numbers::pi);
     return std::move(mesh_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Adds cells one by one to a mesh and measures them while they are at hand.
+// Adds cells to a mesh one by one and measures each of them.
 // Tested by tests/mesher/voronoi_test.cpp.
 #pragma once
 
@@ -14,23 +14,26 @@ namespace crackle {
 
 class MeshBuilder {
   public:
-    /// @param cells, corners  about as many as will come: memory for them is set aside
+    /// An empty mesh. @param cells, corners expected numbers of cells and corners, for which memory is reserved
     MeshBuilder(const Rectangle& domain, std::size_t cells, std::size_t corners);
 
-    /// Adds the next cell in the order of space. @param before, after  its outline without and with the inset,
+    /// Adds the next cell in spatial order. @param before, after outlines of the cell before and after the inset,
     /// counter-clockwise
-    /// @return the cell, of no centre yet; valid until the next call
+    /// @return the cell, whose centre is not set yet; valid until the next call
     Cell& add(std::span<const Point> before, std::span<const Point> after);
-    /// The same of a mesh with traces. @param traces  of the edge from each corner of `before`; -1: none
-    /// @param edges_kept  by the inset
+    /// Adds a cell of a mesh with traces. @param traces for each corner of `before`, the trace on the edge to the next
+    /// corner, or -1
+    /// @param edges_kept whether all edges remain after the inset
     Cell& add(std::span<const Point> before, std::span<const Point> after, std::span<const int> traces,
               bool edges_kept);
 
-    /// The cells in the order in which they came, and the report on them. The builder is empty afterwards.
+    /// Returns the mesh with its report; cells are in the order in which they were added. Afterwards the builder is
+    /// empty.
     Mesh finish();
 
   private:
-    // Neumaier's compensated sum: a million equal areas would lose the last five digits otherwise.
+    // Neumaier's compensated sum. With plain addition, the sum of a million equal areas would lose the last five
+    // digits.
     class Sum {
       public:
         void add(double value);
@@ -46,7 +49,7 @@ class MeshBuilder {
     Mesh mesh_;
     Sum area_before_, area_after_, trace_length_;
     double shortest_edge_ = std::numeric_limits<double>::infinity();
-    double smallest_corner_ = 2.0;  // a measure of the angle, see measure_edges()
+    double smallest_corner_ = 2.0;  // a monotonic function of the angle, see measure_edges()
 };
 
 }  // namespace crackle

@@ -14,34 +14,42 @@ namespace crackle {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-// Shares of the spacing: seeds of a pair lie a spacing apart; a given centre is kept as far off as one is from another.
+// Half the distance between the seeds of a pair, and the distance from other seeds above which a given centre is kept,
+// both relative to the spacing.
 constexpr double half_width_share = 0.5, kept_share = 0.55;
-// Rows narrower than that share of a full one are not made: they do not cover the trace, which is then refused.
+// Rows are not made narrower than this fraction of the full width. If rows of this width do not cover the trace, the
+// trace is refused.
 constexpr double narrowest_strip_share = 0.1;
-// Half a row's width over the distance to another trace: two rows d wide between them, and circles of radius √2 d about
-// places on the traces, which must not reach the other's seeds; to one that meets it at a node seeds lie by the ring's
-// angle; a wall mirrors the row itself.
+// Largest half-width of a row, relative to the distance from another edge. passage_share: between two traces there are
+// two rows of width d, and circles of radius √2 d around points on the traces must not reach the other trace's seeds.
+// fork_share: where two traces meet at a node, the ring's angle determines the positions of the seeds. wall_share: at a
+// wall, the row is its own mirror image.
 constexpr double passage_share = 0.4, fork_share = 0.5, wall_share = 0.7;
-constexpr double widest_half_angle = pi / 3.0;  // of a pair on a ring: three seeds about a tip
-// Where no other edge is as near, the packing's own seeds of one side are mirrored; none lies nearer to the trace, and
-// no place on it further from one.
+constexpr double widest_half_angle =
+    pi / 3.0;  // of a pair of seeds on a ring; with it, the end of a trace has three seeds
+// These distances are relative to the spacing. If no other edge is closer than clear_share, the packing's own seeds on
+// one side are mirrored. The mirrored seeds are at least least_offset_share from the trace, and no point on the trace
+// is farther than bare_share from the nearest seed.
 constexpr double clear_share = 2.0, least_offset_share = 0.3, bare_share = 0.95;
-constexpr double shortest_own_share = 2.0;  // of a stretch with own seeds
-constexpr double beside_step_share = 1.0;   // between the places along an edge from which others are looked for
+constexpr double shortest_own_share =
+    2.0;  // shortest part of an edge along which the packing's own seeds are used, relative to the spacing
+// Distance between the points along an edge at which nearby edges are searched for, relative to the spacing.
+constexpr double beside_step_share = 1.0;
 
 struct Arm {
-    double angle;  // rad, away from the node
-    int edge;      // of the graph
+    double angle;  // rad, direction away from the node
+    int edge;      // index of the edge in the graph
     bool trace;
 };
 
-/// Directions on a ring about a node, each at the same angle from every arm beside it.
+/// Directions of seeds on a ring around a node. Each arm has a seed on either side, at the same angle for all arms.
 struct Ring {
-    double half_angle = 0.0;     // between a seed and an arm
-    std::vector<double> angles;  // rad, of all seeds
+    double half_angle = 0.0;     // rad, between a seed and an arm
+    std::vector<double> angles;  // rad, directions of all seeds
 };
 
-/// Seeds of a sector of that width besides those at its arms, evenly: so many gaps.
+/// Number of equal gaps between the seeds inside a sector. @param rest angle between the seeds next to the sector's two
+/// arms, rad
 int gaps_of(double rest, double half_angle) {
     return std::max(1, static_cast<int>(std::lround(rest / std::max(2.0 * half_angle, pi / 3.0))));
 }
@@ -108,14 +116,14 @@ class SeedPlacing {
     }
     bool inside(Point p) const { return p.x > domain_.x1 && p.x < domain_.x2 && p.y > domain_.y1 && p.y < domain_.y2; }
 
-    /// An edge of the graph as a line with distances along it, and to its left.
+    /// An edge of the graph as a line, with coordinates along it and to its left.
     struct Line {
         Point start, along;
         double length;
         Point at(double s, double off = 0.0) const {
             return {start.x + s * along.x - off * along.y, start.y + s * along.y + off * along.x};
         }
-        /// Distances along it and to its left.
+        /// Coordinates of a point: along the line, and to its left.
         Point seen(Point p) const {
             const Point d{p.x - start.x, p.y - start.y};
             return {d.x * along.x + d.y * along.y, d.y * along.x - d.x * along.y};
@@ -127,14 +135,14 @@ class SeedPlacing {
         return {a, {(b.x - a.x) / length, (b.y - a.y) / length}, length};
     }
 
-    /// A part of a line, empty where it ends before it begins.
+    /// A range of positions along a line; empty if from > to.
     struct Stretch {
         double from = std::numeric_limits<double>::infinity(), to = -from;
         bool holds(double s) const { return s >= from && s <= to; }
     };
-    /// Where a segment may be as near to a line as that.
+    /// Part of a line that may be within `reach` of a segment.
     static Stretch stretch_within(const Line& line, const Segment& segment, double reach) {
-        const double room = 1.001 * reach;  // rounding
+        const double room = 1.001 * reach;  // includes a margin for round-off
         const Point a = line.seen(segment.a), b = line.seen(segment.b);
         if (std::min(a.y, b.y) > room || std::max(a.y, b.y) < -room) return {};
         const auto at_height = [&](Point end, Point other) {
@@ -145,13 +153,16 @@ class SeedPlacing {
         return {from - room, to + room};
     }
 
-    /// An edge beside another, with the share of its distance that half a row's width may have.
+    /// Another edge near a given edge, and the largest half-width of a row relative to the distance from this other
+    /// edge.
     struct Beside {
         Segment segment;
         double share;
-        Stretch near, narrow;  // where it may be within clear_share, and where rows may be narrower for it
+        Stretch near, narrow;  // ranges in which the other edge may be closer than clear_share, and in which it may
+                               // limit the row's width
     };
-    /// All that lies within clear_share of an edge, but for the edge itself and ones that go on from it straight.
+    /// All edges closer than clear_share to an edge, except the edge itself and edges that continue it in a straight
+    /// line.
     std::vector<Beside> edges_beside(std::size_t edge, const Line& line) {
         std::vector<Beside> beside;
         const auto look_at = [&](std::size_t other) {
@@ -176,7 +187,7 @@ class SeedPlacing {
         return beside;
     }
     double full_half_width(std::size_t edge) const { return half_width_share * spacing_ * shrink_[edge]; }
-    /// Half the width of a row there.
+    /// Half the width of a row at position s.
     double half_width(std::size_t edge, const std::vector<Beside>& beside, const Line& line, double s) const {
         double least = full_half_width(edge);
         for (const Beside& other : beside)
@@ -202,7 +213,7 @@ class SeedPlacing {
         std::sort(arms.begin(), arms.end(), [](const Arm& a, const Arm& b) { return a.angle < b.angle; });
         const Point at = graph_.nodes[n];
         std::vector<double> sectors;
-        std::vector<char> within;  // the domain
+        std::vector<char> within;  // for each seed, whether it lies inside the domain
         double shortest = std::numeric_limits<double>::infinity(), factor = 1.0;
         for (std::size_t k = 0; k < arms.size(); ++k) {
             const double next = k + 1 < arms.size() ? arms[k + 1].angle : arms[0].angle + 2.0 * pi;
@@ -225,7 +236,7 @@ class SeedPlacing {
                 half_angle = std::min(candidate, widest_half_angle);
             }
         }
-        // As wide as a row, but no longer than a spacing, and not half an arm long.
+        // The radius matches the width of a row, but is at most one spacing and less than half the length of any arm.
         const double sine = direction_at(half_angle).y;
         double radius = std::min({half_width_share * spacing_ * factor / sine, spacing_ * factor, 0.4 * shortest});
         radius = std::min(radius, 0.5 * room_about(n));
@@ -242,7 +253,7 @@ class SeedPlacing {
         }
     }
 
-    /// To the nearest edge that does not end at the node.
+    /// Distance between a node and the nearest edge that does not end at it.
     double room_about(std::size_t n) const {
         double least = 2.0 * spacing_;
         edges_.each_near(graph_.nodes[n], [&](std::size_t e) {
@@ -260,7 +271,8 @@ class SeedPlacing {
         double from, to;
     };
 
-    /// Between the first pairs of both ends' rings: even rows where other edges are near.
+    /// Places evenly spaced rows between the rings at both ends of an edge, in the parts of the edge with other edges
+    /// nearby.
     void place_rows(std::size_t e, std::vector<OwnStretch>& own) {
         const TraceGraph::Edge& edge = graph_.edges[e];
         const NodeRing &first = rings_[static_cast<std::size_t>(edge.from)],
@@ -291,7 +303,7 @@ class SeedPlacing {
         }
         if (from < to) place_even(e, line, beside, from, to);
     }
-    /// No other edge is near, but what goes straight on.
+    /// Whether no other edge is near position s, apart from edges that continue this edge in a straight line.
     bool is_clear(std::size_t edge, const std::vector<Beside>& beside, const Line& line, double s) const {
         return shrink_[edge] >= 1.0 && std::ranges::none_of(beside, [&](const Beside& other) {
                    return other.near.holds(s) && distance_to(other.segment, line.at(s)) < clear_share * spacing_;
@@ -299,14 +311,15 @@ class SeedPlacing {
     }
 
     void place_even(std::size_t e, const Line& line, const std::vector<Beside>& beside, double from, double to) {
-        // Steps of a tenth of the spacing; a pair after each whole count of widths, which are made to fit.
+        // Integrates 1/width in steps of a twentieth of the spacing. The integral is scaled to end on an integer, and a
+        // pair is placed wherever it reaches one.
         const auto steps = static_cast<std::size_t>(std::ceil(std::max(1.0, 20.0 * (to - from) / spacing_)));
         std::vector<double> count{0.0};
         const double step = (to - from) / static_cast<double>(steps);
         for (std::size_t k = 0; k < steps; ++k)
             count.push_back(count.back() +
                             step / (2.0 * half_width(e, beside, line, from + (static_cast<double>(k) + 0.5) * step)));
-        const auto pairs = std::max(1L, std::lround(count.back()));  // gaps between them
+        const auto pairs = std::max(1L, std::lround(count.back()));  // number of gaps between the pairs
         std::size_t k = 0;
         for (long pair = 1; pair < pairs; ++pair) {
             const double wanted = count.back() * static_cast<double>(pair) / static_cast<double>(pairs);
@@ -320,8 +333,9 @@ class SeedPlacing {
         add(line.at(s, -off));
     }
 
-    /// Seeds to the left of each stretch and their images; what lies too near to the line is moved off it, and where
-    /// the line is bare a pair is put in. Whatever the seeds, nearest to each place on the line are two mirrored ones.
+    /// Mirrors the seeds on the left of each range. Seeds too close to the line are moved away from it, and pairs are
+    /// added where seeds are missing. As a result, the two seeds nearest to any point on the line are always mirror
+    /// images of each other.
     void mirror_own(const std::vector<OwnStretch>& own) {
         if (own.empty()) return;
         std::vector<Segment> stretches;
@@ -402,8 +416,8 @@ class SeedPlacing {
     double spacing_;
     std::span<const double> shrink_;
     SegmentGrid edges_;
-    std::vector<std::size_t> seen_from_;  // by edge: the last whose neighbours were looked for
-    std::vector<std::vector<Arm>> arms_;  // by node
+    std::vector<std::size_t> seen_from_;  // for each edge, index of the edge whose search last visited it
+    std::vector<std::vector<Arm>> arms_;  // arms of each node
     std::vector<NodeRing> rings_;
     std::vector<Point> added_;
 };

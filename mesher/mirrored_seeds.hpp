@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Seeds whose Voronoi cells have edges along traces: pairs mirrored across a trace, and rings about its nodes.
+// Seeds whose Voronoi cells have edges along traces: pairs mirrored across a trace, and rings around the nodes of
+// traces.
 //
-// The Voronoi edge of two mirrored seeds lies on the trace. Four seeds of two neighbouring pairs lie on a circle about
-// a place on the trace; where it holds no other seed, both edges end there, so that a row of pairs makes a chain
-// of edges. The pairs are the packing's own seeds of one side and their images; even rows where other traces or walls
-// are near. About a node (a tip, a bend, a crossing, an end on a wall) the seeds lie on a circle, the same angle on
-// either side of every trace: the chains end there exactly (as Abdelkader et al., ACM Trans. Graph. 39, 2020, in the
-// plane).
+// The Voronoi edge between two mirrored seeds lies on the trace. The four seeds of two neighbouring pairs lie on a
+// circle around a point on the trace. If this circle contains no other seed, both edges end at that point, so that a
+// row of pairs gives a chain of edges. The pairs are the packing's own seeds on one side with their mirror images; near
+// other traces or walls they are evenly spaced rows. Around a node (an end, a bend, a crossing, an end on a wall) the
+// seeds lie on a circle, at equal angles on either side of every trace. The chains then end exactly at the node (as in
+// Abdelkader et al., ACM Trans. Graph. 39, 2020, in the plane).
 // Tested by tests/mesher/jointed_voronoi_test.cpp.
 #pragma once
 
@@ -21,13 +22,14 @@ namespace crackle {
 
 struct SeedSet {
     std::vector<CellCentre> places;
-    std::vector<int> centre;   ///< given centre at the place, or for an added seed the one nearest to it
-    std::vector<char> added;   ///< whether it belongs to a trace
-    std::size_t left_out = 0;  ///< centres that made way
+    std::vector<int> centre;   ///< for each seed, index of its centre, or of the nearest centre for an added seed
+    std::vector<char> added;   ///< for each seed, whether it was added for a trace
+    std::size_t left_out = 0;  ///< number of centres that were omitted
 };
 
-/// @param spacing  m, mean of the centres: rows of pairs are as wide, and less where traces come closer
-/// @param shrink  by edge of the graph: factor on the width there
+/// Places the seeds. @param spacing mean spacing of the centres, m. It is the width of the rows of pairs, which is
+/// reduced where traces are close together
+/// @param shrink for each edge of the graph, factor on the width along that edge
 SeedSet mirrored_seeds(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
                        double spacing, std::span<const double> shrink);
 

@@ -2,14 +2,14 @@
 // Delaunay triangulation and its dual Voronoi partition of a rectangle, by CGAL (exact predicates, inexact
 // constructions).
 //
-// A centre whose cell would cross a wall is mirrored across it, which makes the wall an edge of the partition: beyond a
-// wall every mirror image is nearer than its centre. Images are added until every centre that meets an image across a
-// wall has its own there and no circumcentre of centres lies outside, which is the partition that mirroring all centres
-// would give. What is on a wall is then known from the triangulation, not from coordinates: a face of centres and
-// images across a wall has its circumcentre exactly on that wall (two walls: in the corner). So positions are put
-// there, and cell areas sum to the domain's whatever the rounding. Four guards far away close the cells of outermost
-// centres from the start; they are further from every point of the domain than any centre is. A centre exactly on a
-// wall is its own image; its cell is cut at the wall.
+// A centre whose cell would cross a wall is mirrored across it. The wall then becomes an edge of the partition, since
+// beyond it every mirror image is nearer than its centre. Images are added until every centre next to an image across a
+// wall has its own image there, and no circumcentre of centres lies outside. The result equals the partition with all
+// centres mirrored. What lies on a wall is then determined by the triangulation instead of coordinates. A face between
+// centres and images across a wall has its circumcentre exactly on that wall (in the corner for two walls). Positions
+// are therefore set exactly there, so that cell areas sum to that of the domain despite round-off. Four distant guard
+// points close the cells of the outermost centres from the start; they are farther from every point of the domain than
+// any centre. A centre exactly on a wall is its own image; its cell is clipped at the wall.
 
 #include "mesher/partition.hpp"
 
@@ -36,20 +36,21 @@ namespace {
 
 enum class Origin : std::uint8_t { centre, image, guard, added };
 
-// All that is known of a centre is kept here, not in arrays by centre: neighbours in space are neighbours in memory.
+// All data of a centre are stored in the vertex rather than in per-centre arrays, so that neighbours in space are also
+// neighbours in memory.
 struct VertexInfo {
-    int index = -1;  // centre (also an image's); once triangles are numbered, the point
+    int index = -1;  // index of the centre (for an image, of its original); after numbering, index of the point
     Origin origin = Origin::guard;
-    // Sets of SideBit.
-    std::uint8_t walls = 0;    // a centre: those it lies on; an image: the one it was mirrored across
-    std::uint8_t settled = 0;  // a centre: those it is mirrored across or lies on
-    std::uint8_t pending = 0;  // a centre: those to be mirrored across in the present round
+    // Set of SideBits. For a centre: walls on which it lies; for an image: the wall across which it was mirrored.
+    std::uint8_t walls = 0;
+    std::uint8_t settled = 0;  // for a centre: walls on which it lies or across which it has been mirrored
+    std::uint8_t pending = 0;  // for a centre: walls across which it is to be mirrored in this round
 };
 
 struct FaceInfo {
-    Point dual;            // circumcentre, where the Voronoi cells of the corners meet
-    int index = -1;        // triangle, or member of a cluster of equal duals
-    bool outside = false;  // beyond a wall on which all of the face's centres lie
+    Point dual;            // circumcentre, where the Voronoi cells of the three corners meet
+    int index = -1;        // index of the triangle, or of a member of a cluster of coincident duals
+    bool outside = false;  // whether the dual is beyond a wall on which all centres of the face lie
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -62,20 +63,22 @@ using VertexHandle = Triangulation::Vertex_handle;
 using FaceHandle = Triangulation::Face_handle;
 
 constexpr std::array<std::uint8_t, 4> all_sides{side_left, side_right, side_bottom, side_top};
-// Edges shorter than this share of their circumradius are taken for the zero-length edges of co-circular centres: the
-// rounding of a circumcentre is some relative_rounding of the radius, and 1e-10 leaves room for badly shaped triangles.
+// Edges shorter than this fraction of their circumradius count as zero-length edges of co-circular centres. The
+// round-off of a circumcentre is a few relative_rounding times the radius; 1e-10 leaves a margin for badly shaped
+// triangles.
 constexpr double zero_edge_share = 1e-10;
-// Centres nearer than this share of the mean spacing have a bisector, and cells, made of rounding errors.
+// Relative to the mean spacing. Below this distance, the bisector and the cells of two centres are dominated by
+// round-off.
 constexpr double coincidence_share = 1e-9;
-// Distance of the guards from the middle, in diagonals of the domain: none of its points is as far from its nearest
-// centre.
+// Distance of the guard points from the middle of the domain, in units of the domain's diagonal. Every point of the
+// domain is closer to its nearest centre.
 constexpr double guard_distance = 4.0;
 
 double squared_distance(Point a, Point b) { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y); }
 
 Point position(VertexHandle v) { return {v->point().x(), v->point().y()}; }
 
-// Relative to one corner, so that the size of the coordinates does not enter before the last addition.
+// Computed relative to one corner, so that large coordinates cause round-off only in the last addition.
 Point circumcentre(FaceHandle face) {
     const Point a = position(face->vertex(0)), b = position(face->vertex(1)), c = position(face->vertex(2));
     const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
@@ -84,10 +87,10 @@ Point circumcentre(FaceHandle face) {
     return {a.x + (cy * b2 - by * c2) / twice, a.y + (bx * c2 - cx * b2) / twice};
 }
 
-// What the corners of a face have to do with walls: sets of SideBit.
+// Relation of a face's corners to the walls, as sets of SideBits.
 struct WallsOfFace {
-    unsigned images = 0;    // those across which a corner is an image
-    unsigned on_all = ~0U;  // those on which all corners lie that are centres
+    unsigned images = 0;    // walls across which at least one corner is an image
+    unsigned on_all = ~0U;  // walls on which all corners that are centres lie
     bool any_centre = false;
 };
 
@@ -113,7 +116,7 @@ class Partition {
 
     VoronoiCells cells();
     Triangles triangles(Boundary boundary);
-    /// Those of the triangles that fill the domain, which are not made.
+    /// Only the points of the triangles that fill the domain.
     Triangles points_with_flat_faces() const;
 
   private:
@@ -121,7 +124,7 @@ class Partition {
         VertexHandle vertex, centre;
         std::uint8_t wall;
     };
-    /// Of a cell that has an edge on a wall.
+    /// Projection of a centre onto a wall on which its cell has an edge.
     struct Foot {
         Point place;
         VertexHandle beside;
@@ -168,9 +171,10 @@ void Partition::insert_guards() {
     }
 }
 
-// Along a space-filling curve, each located from the one before; the centre's number travels in the vertex.
+// Inserts centres along a space-filling curve, so that each is located quickly from the previous one. The index of the
+// centre is stored in the vertex.
 void Partition::insert_centres() {
-    using Placed = std::pair<CgalPoint, int>;  // sorted itself: sorting numbers of places would wait for memory
+    using Placed = std::pair<CgalPoint, int>;  // sorted directly, since sorting indices would access memory at random
     std::vector<Placed> order;
     order.reserve(centres_.size());
     for (const CellCentre& centre : centres_)
@@ -194,9 +198,9 @@ unsigned Partition::walls_beyond(Point p) const {
            side_if(p.y < domain_.y1, side_bottom) | side_if(p.y > domain_.y2, side_top);
 }
 
-// Where the bisector of the face's corners meets the wall: (p - wall)² + (y - s)² equal for two of them, an image
-// standing for its centre. The pair that is furthest apart along the wall is taken; no difference of nearly equal
-// squares enters.
+// Point where the bisector of the face's corners meets the wall: (p - wall)² + (y - s)² is equal for any two corners,
+// with an image replaced by its centre. The pair farthest apart along the wall is used, which avoids differences of
+// nearly equal squares.
 Point Partition::on_wall(FaceHandle face, std::uint8_t wall) const {
     const bool upright = wall == side_left || wall == side_right;
     const double level = wall == side_left     ? domain_.x1
@@ -214,14 +218,15 @@ Point Partition::on_wall(FaceHandle face, std::uint8_t wall) const {
     std::size_t i = 0, j = 1;
     if (std::abs(along[1] - along[2]) > std::abs(along[i] - along[j])) i = 1, j = 2;
     if (std::abs(along[0] - along[2]) > std::abs(along[i] - along[j])) i = 0, j = 2;
-    if (along[i] > along[j]) std::swap(i, j);  // the faces on both sides of a pair and its images get the same bits
+    // Ensures that the faces on both sides of a pair and its images get identical values.
+    if (along[i] > along[j]) std::swap(i, j);
     const double apart = along[j] - along[i];
     const double place = along[i] + 0.5 * apart + 0.5 * ((off[j] - off[i]) / apart) * (off[j] + off[i]);
     return upright ? Point{level, place} : Point{place, level};
 }
 
-// The face's circumcentre. It is known to lie on the walls across which the face has an image, but for those on which
-// all of its centres lie.
+// Circumcentre of the face. It is placed on the walls across which the face has an image, except walls on which all of
+// its centres lie.
 Point Partition::dual(FaceHandle face, const WallsOfFace& walls) const {
     const unsigned snapped = walls.images & ~walls.on_all;
     switch (snapped) {
@@ -238,12 +243,12 @@ Point Partition::dual(FaceHandle face, const WallsOfFace& walls) const {
             return {domain_.x1, domain_.y2};
         case side_right | side_top:
             return {domain_.x2, domain_.y2};
-        default:  // no wall, or opposite walls while images are still missing
+        default:  // no wall, or two opposite walls while images are still missing
             return circumcentre(face);
     }
 }
 
-// Puts the face's dual in its place, and notes the walls across which its centres must still be mirrored.
+// Stores the dual of the face, and records the walls across which its centres still have to be mirrored.
 void Partition::place_dual(FaceHandle face, std::vector<VertexHandle>& to_mirror) {
     const WallsOfFace walls = walls_of(face);
     if (!walls.any_centre) return;
@@ -252,7 +257,8 @@ void Partition::place_dual(FaceHandle face, std::vector<VertexHandle>& to_mirror
     FaceInfo& placed = face->info();
     placed.dual = p;
     placed.outside = (beyond & walls.on_all) != 0;
-    if (beyond != 0 && !placed.outside) {  // by rounding, if the face is still there once its centres are mirrored
+    if (beyond != 0 && !placed.outside) {  // if its centres have been mirrored and the face still exists, the dual is
+                                           // outside only by round-off
         placed.dual = {std::clamp(p.x, domain_.x1, domain_.x2), std::clamp(p.y, domain_.y1, domain_.y2)};
     }
     const unsigned needs = walls.images | beyond;
@@ -307,8 +313,8 @@ void Partition::mirror_where_needed() {
         refuse_near_coincident(face, too_close);
         place_dual(face, to_mirror);
     }
-    // A cell that crosses a wall has a corner beyond it, so one round is all but for rounding. Only faces around new
-    // images and their centres can have changed.
+    // A cell that crosses a wall has a corner beyond it, so apart from round-off one round is sufficient. Only faces
+    // around new images and their centres can have changed.
     const auto number = [](VertexHandle v) { return v->info().index; };
     while (!to_mirror.empty()) {
         touched.clear();
@@ -331,7 +337,7 @@ double Partition::zero_edge(Point dual_point, Point centre) const {
     return std::max(rounding * rounding, zero_edge_share * zero_edge_share * squared_distance(dual_point, centre));
 }
 
-// @return false if a cell has a zero-length edge, unless they are allowed.
+// Collects the cells. @return false if a cell has a zero-length edge and such edges are not allowed
 bool Partition::collect_cells(VoronoiCells& out, bool allow_zero_edges) const {
     out.corners.clear();
     out.corners.reserve(6 * centres_.size() + 16);
@@ -363,7 +369,7 @@ bool Partition::collect_cells(VoronoiCells& out, bool allow_zero_edges) const {
     return true;
 }
 
-// The cell of a centre on a wall reaches beyond it.
+// Clips the cell of a centre on a wall, which extends beyond that wall.
 void Partition::cut_at_walls(std::vector<Point>& polygon, std::vector<Point>& scratch) const {
     clip(polygon, 1.0, 0.0, domain_.x1, scratch);
     clip(polygon, -1.0, 0.0, -domain_.x2, scratch);
@@ -379,7 +385,7 @@ void Partition::cut_at_walls(std::vector<Point>& polygon, std::vector<Point>& sc
     while (polygon.size() > 1 && near(polygon.front(), polygon.back())) polygon.pop_back();
 }
 
-// Joins circumcentres that differ by rounding alone, for all cells alike, so that the areas still add up.
+// Merges circumcentres that differ only by round-off, consistently for all cells, so that the areas still add up.
 void Partition::contract_zero_edges() {
     std::vector<FaceHandle> members;
     std::vector<std::size_t> parent;
@@ -395,15 +401,15 @@ void Partition::contract_zero_edges() {
         }
         return static_cast<std::size_t>(face->info().index);
     };
-    // No dual is further from a centre of its face than that.
+    // Upper bound on `zero` below: no dual is farther from a centre of its face than the domain's diagonal.
     const double longest_zero = 4.0 * zero_edge({domain_.x1, domain_.y1}, {domain_.x2, domain_.y2});
     for (const FaceHandle f : triangulation_.finite_face_handles()) {
         for (int k = 0; k < 3; ++k) {
             const FaceHandle g = f->neighbor(k);
             const Point p = f->info().dual, q = g->info().dual;
             const double length = squared_distance(p, q);
-            if (length >= longest_zero) continue;  // first, for nearly all are
-            if (g < f) continue;                   // the edge is met from there
+            if (length >= longest_zero) continue;  // checked first, because it is true for nearly all edges
+            if (g < f) continue;                   // the edge is handled from the other face
             const VertexHandle a = f->vertex(Triangulation::ccw(k)), b = f->vertex(Triangulation::cw(k));
             if (!is_centre(a) && !is_centre(b)) continue;
             if (f->info().outside || g->info().outside) continue;
@@ -411,7 +417,8 @@ void Partition::contract_zero_edges() {
             if (length < zero) parent[root(member(f))] = root(member(g));
         }
     }
-    // A point on walls stands for those beside it; the order decides among equals, whatever the numbering of faces.
+    // All members of a cluster get the point that lies on the largest number of walls; ties are resolved by
+    // coordinates, independent of the numbering of faces.
     const auto walls = [this](Point p) {
         return (p.x == domain_.x1 || p.x == domain_.x2 ? 1 : 0) + (p.y == domain_.y1 || p.y == domain_.y2 ? 1 : 0);
     };
@@ -440,7 +447,7 @@ VoronoiCells Partition::cells() {
     return out;
 }
 
-// The cell of the image's centre has an edge on the wall, not just a co-circular touch.
+// Whether the cell of the image's centre has an edge on the wall, and not merely a co-circular contact.
 bool Partition::meets_wall(const Image& image) const {
     FaceHandle face;
     int k = 0;
@@ -474,7 +481,7 @@ void Partition::close_with_flat_faces() {
     images_.clear();
     const auto add = [&](Point p, FaceHandle hint) {
         const VertexHandle v = triangulation_.insert(CgalPoint(p.x, p.y), hint);
-        if (v->info().origin != Origin::guard) return;  // a centre, or another foot, is there already
+        if (v->info().origin != Origin::guard) return;  // a centre or another projection is already there
         v->info() = {-1, Origin::added};
     };
     for (const Point corner : corners()) add(corner, guards_.front()->face());
@@ -482,8 +489,8 @@ void Partition::close_with_flat_faces() {
     for (const Foot& foot : on_walls) add(foot.place, foot.beside->face());
 }
 
-// In the order in which the triangulation would have them: a new vertex goes where one was removed last, and behind all
-// others where none is left.
+// The points in the order in which the triangulation would store them: a new vertex takes the place of the vertex
+// removed last, or comes after all others.
 Triangles Partition::points_with_flat_faces() const {
     Triangles out;
     const auto add = [&out](Point p, int centre) {
@@ -497,7 +504,7 @@ Triangles Partition::points_with_flat_faces() const {
         centres.push_back(v);
         if (v->info().walls != 0) taken.insert({v->point().x(), v->point().y()});
     }
-    std::vector<std::optional<Point>> added(guards_.size() + images_.size());  // images come behind the centres
+    std::vector<std::optional<Point>> added(guards_.size() + images_.size());  // images are numbered after the centres
     std::vector<std::size_t> removed;
     const auto put = [&](Point p) {
         if (!taken.insert({p.x, p.y}).second) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Partitions of a rectangle before the inset. partition.cpp knows CGAL, and conforming.cpp, where there are traces.
+// Partitions of a rectangle before the inset. Only partition.cpp and, for traces, conforming.cpp use CGAL.
 // Tested by tests/mesher/voronoi_test.cpp.
 #pragma once
 
@@ -15,14 +15,15 @@
 
 namespace crackle {
 
-/// Voronoi cells of the domain; neighbours share their corners bit for bit (a centre on the boundary: to rounding).
+/// Voronoi cells of the domain. Neighbours have identical coordinates at shared corners (equal up to round-off if a
+/// centre lies on the boundary).
 struct VoronoiCells {
     struct Range {
-        std::uint32_t first = 0, count = 0;  // into corners, counter-clockwise
+        std::uint32_t first = 0, count = 0;  // range in `corners`, counter-clockwise
         int centre = -1;
     };
     std::vector<Point> corners;
-    std::vector<Range> cells;  // along space, as are their corners: whoever walks them does not wait for memory
+    std::vector<Range> cells;  // cells and their corners are in spatial order, so that iterating over them is fast
 
     std::span<const Point> outline(const Range& cell) const {
         return std::span(corners).subspan(cell.first, cell.count);
@@ -31,27 +32,29 @@ struct VoronoiCells {
 
 /// Delaunay triangles, counter-clockwise.
 struct Triangles {
-    std::vector<Point> points;                   // centres, and points added on the domain's faces; along space
-    std::vector<int> centre_of;                  // by point; -1: added
-    std::vector<std::array<int, 3>> corners;     // into points
-    std::vector<std::array<int, 3>> neighbours;  // across the edge opposite to corner k; -1: none
-    std::vector<std::array<int, 3>> traces;      // on that edge, -1: none; empty of a mesh without traces
+    std::vector<Point> points;   // centres, and points added on the boundary of the domain, in spatial order
+    std::vector<int> centre_of;  // index of each point's centre; -1 for an added point
+    std::vector<std::array<int, 3>> corners;     // indices into `points`
+    std::vector<std::array<int, 3>> neighbours;  // neighbour across the edge opposite corner k, or -1
+    std::vector<std::array<int, 3>>
+        traces;  // trace on the edge opposite corner k, or -1; empty in a mesh without traces
 };
 
-/// @throws MeshError on coincident centres. The centres are finite and inside the domain.
+/// Voronoi cells of centres, which must be finite and inside the domain. @throws MeshError if centres coincide
 VoronoiCells voronoi_cells(std::span<const CellCentre> centres, const Rectangle& domain, Patience& patience);
 
-/// @throws MeshError on coincident centres. The centres are finite and inside the domain.
+/// Delaunay triangles of centres, which must be finite and inside the domain. @throws MeshError if centres coincide
 Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangle& domain, Boundary boundary,
                              Patience& patience);
 
-/// Of the triangles that fill the domain the points alone, with their centres. @throws MeshError as above
+/// The points of delaunay_triangles() for Boundary::domain, with the indices of their centres, but no triangles.
+/// @throws MeshError if centres coincide
 Triangles delaunay_points(std::span<const CellCentre> centres, const Rectangle& domain, Patience& patience);
 
-/// What two centres at one place are refused with.
+/// Error for two coincident centres.
 MeshError coincident_centres(std::span<const CellCentre> centres, int a, int b);
 
-/// Largest coordinate of the domain: rounding errors of positions are a few relative_rounding of it.
+/// Largest coordinate of the domain; position errors are a few relative_rounding times this value.
 double coordinate_scale(const Rectangle& domain);
 
 }  // namespace crackle

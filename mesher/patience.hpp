@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether a mesh is still wanted: its maker counts pieces of work, and asks once in a thousand.
+// Checks whether meshing was cancelled. The mesher counts units of work, and every 1024 units the callback is called.
 // Tested by tests/mesher/interrupt_test.cpp.
 #pragma once
 
@@ -12,14 +12,14 @@ namespace crackle {
 
 class Patience {
   public:
-    /// @param interrupted  as MeshRequest has it; kept by reference
+    /// @param interrupted as in MeshRequest; must outlive this object
     explicit Patience(const std::function<bool()>& interrupted) : interrupted_(interrupted) {}
 
-    /// Before a piece of work, that of one centre or cell, say. @throws MeshInterrupted
+    /// Call this before each unit of work, for example for one centre or cell. @throws MeshInterrupted
     void piece() {
         if (++pieces_ % pieces_a_question == 0) ask();
     }
-    /// Before work that takes long. @throws MeshInterrupted
+    /// Checks immediately; call this before work that takes long. @throws MeshInterrupted
     void ask() const {
         if (interrupted_ && interrupted_()) throw MeshInterrupted();
     }

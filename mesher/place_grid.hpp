@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What lies near a place: straight segments, and places, by the squares of a grid.
+// Grids for finding straight segments, or points, near a given point.
 // Tested by tests/mesher/place_grid_test.cpp.
 #pragma once
 
@@ -16,31 +16,39 @@
 
 namespace crackle {
 
+/// A straight segment between two points, m.
 struct Segment {
     Point a, b;
 };
 
-/// Whether its box is further away than that, as most are: cheaper than the distance.
+/// Whether the segment's bounding box is farther from p than `reach`. This test is cheaper than computing the distance,
+/// and excludes most segments.
 inline bool surely_beyond(const Segment& s, Point p, double reach) {
-    const double room = 1.001 * reach;  // rounding
+    const double room = 1.001 * reach;  // includes a margin for round-off
     return p.x + room < std::min(s.a.x, s.b.x) || p.x - room > std::max(s.a.x, s.b.x) ||
            p.y + room < std::min(s.a.y, s.b.y) || p.y - room > std::max(s.a.y, s.b.y);
 }
+/// Squared distance of a point from a segment, m2.
 inline double squared_distance_to(const Segment& s, Point p) {
     const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
     const double share = std::clamp(((p.x - s.a.x) * dx + (p.y - s.a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
     const Point off{s.a.x + share * dx - p.x, s.a.y + share * dy - p.y};
     return dot(off, off);
 }
+/// Distance of a point from a segment, m.
 inline double distance_to(const Segment& s, Point p) { return std::sqrt(squared_distance_to(s, p)); }
 
-/// A square of a grid. Those 2^32 apart are one: what is taken for near by that is measured anyway.
+/// A square of a grid. Indices are taken modulo 2^32; this is harmless, since the distances of candidates are checked
+/// anyway.
 struct Square {
+    /// The square in this column and row of a grid.
     Square(std::int64_t column, std::int64_t row)
         : i(static_cast<std::uint32_t>(column)), j(static_cast<std::uint32_t>(row)) {}
+    /// Whether column and row are the same.
     bool operator==(const Square&) const = default;
-    /// Of a table of so many, a power of two from 64 on. Eight by eight squares lie together, for what is looked at one
-    /// after another is near each other; and as many of these in a square as the table has room for share no bucket.
+    /// Bucket in a table of `buckets`, which must be a power of two and at least 64. Blocks of eight by eight squares
+    /// are stored together, since consecutive look-ups are close to each other. Within a square region that fits into
+    /// the table, no two blocks share a bucket.
     std::size_t bucket(std::size_t buckets) const {
         const int across = (std::countr_zero(buckets) - 6) / 2, high = 3 + across;
         const std::uint32_t within = (1U << across) - 1;
@@ -52,26 +60,29 @@ struct Square {
     std::uint32_t i, j;
 };
 
-/// Numbers by the squares of a grid, in one table: a list a bucket, each in the order of adding.
+/// Numbers stored by grid square, in one hash table. Each bucket is a list in insertion order.
 class Squares {
   public:
+    /// An empty grid. @param size side length of the squares, m, > 0
     explicit Squares(double size) : size_(size), lists_(64) {}
+    /// Index of the column or row in which a coordinate lies. @param x coordinate, m
     std::int64_t index(double x) const {
         const double exactly = x / size_;
         const auto truncated = static_cast<std::int64_t>(exactly);
         return truncated - (exactly < static_cast<double>(truncated) ? 1 : 0);
     }
-    /// For so many numbers.
+    /// Reserves memory for `count` numbers.
     void reserve(std::size_t count) {
         entries_.reserve(count);
         while (lists_.size() < count) grow();
     }
+    /// Adds a number to the list of the square in column i and row j.
     void add(std::int64_t i, std::int64_t j, std::size_t number) {
         if (entries_.size() == lists_.size()) grow();
         entries_.push_back({{i, j}, static_cast<std::uint32_t>(number), none});
         append(static_cast<std::uint32_t>(entries_.size() - 1));
     }
-    /// Calls use(number).
+    /// Calls use(number) for the numbers stored in a square.
     template <class Use>
     void each_at(std::int64_t i, std::int64_t j, Use use) const {
         any_at(i, j, [&](std::size_t number) {
@@ -79,7 +90,7 @@ class Squares {
             return false;
         });
     }
-    /// Whether test(number) holds of one.
+    /// Whether test(number) is true for any number stored in a square.
     template <class Test>
     bool any_at(std::int64_t i, std::int64_t j, Test test) const {
         const Square square(i, j);
@@ -115,17 +126,18 @@ class Squares {
 
     double size_;
     std::vector<Entry> entries_;
-    std::vector<List> lists_;  // a power of two
+    std::vector<List> lists_;  // the size is a power of two
 };
 
-/// Segments that may come within a reach of a place.
+/// Finds the segments that may be within a given reach of a point.
 class SegmentGrid {
   public:
     SegmentGrid(std::vector<Segment> segments, double reach) : segments_(std::move(segments)), squares_(reach) {
         std::vector<Entry> entries;
-        entries.reserve(12 * segments_.size());  // of segments as long as the reach
+        entries.reserve(12 * segments_.size());  // sufficient for segments as long as the reach
         for (std::size_t k = 0; k < segments_.size(); ++k) {
-            // Along the segment from column to column: a long one does not fill the box about it.
+            // Segments are entered column by column, so that a long oblique segment does not occupy its whole bounding
+            // box.
             const auto [x1, x2] = std::minmax(segments_[k].a.x, segments_[k].b.x);
             const std::int64_t last = squares_.index(x2 + reach);
             for (std::int64_t i = squares_.index(x1 - reach); i <= last; ++i) {
@@ -139,12 +151,13 @@ class SegmentGrid {
         sort_into_buckets(entries);
     }
 
+    /// All segments, in their original order.
     const std::vector<Segment>& segments() const { return segments_; }
-    /// Whether the same ones are taken for near.
+    /// Whether two points have the same candidate segments.
     bool same_near(Point p, Point q) const {
         return squares_.index(p.x) == squares_.index(q.x) && squares_.index(p.y) == squares_.index(q.y);
     }
-    /// Calls use(number): all within the reach, some beyond.
+    /// Calls use(number) for all segments within the reach, and for some farther away.
     template <class Use>
     void each_near(Point p, Use use) const {
         any_near(p, [&](std::size_t number) {
@@ -152,7 +165,7 @@ class SegmentGrid {
             return false;
         });
     }
-    /// Whether test(number) holds of one of these.
+    /// Whether test(number) is true for any segment within the reach; some segments farther away are tested, too.
     template <class Test>
     bool any_near(Point p, Test test) const {
         const Square square(squares_.index(p.x), squares_.index(p.y));
@@ -167,7 +180,7 @@ class SegmentGrid {
         Square square;
         std::uint32_t number;
     };
-    /// Each bucket's in the order in which they are.
+    /// Sorts entries into buckets, keeping their order within each bucket.
     void sort_into_buckets(const std::vector<Entry>& entries) {
         std::size_t buckets = 64;
         while (buckets < entries.size()) buckets *= 2;
@@ -179,10 +192,10 @@ class SegmentGrid {
         std::partial_sum(next.begin(), next.end(), next.begin());
         entries_.assign(entries.size(), {{0, 0}, 0});
         for (std::size_t e = 0; e < entries.size(); ++e) entries_[next[bucket_of[e]]++] = entries[e];
-        next.pop_back();  // what is left has become each bucket's end
+        next.pop_back();  // the remaining values are the ends of the buckets
         ends_ = std::move(next);
     }
-    /// Of the part of a segment between two x.
+    /// Range of y of the part of a segment between two values of x.
     static std::pair<double, double> heights(const Segment& s, double low, double high) {
         if (s.a.x == s.b.x) return std::minmax(s.a.y, s.b.y);
         const auto at = [&](double x) {
@@ -195,30 +208,33 @@ class SegmentGrid {
     std::vector<Segment> segments_;
     Squares squares_;
     std::vector<Entry> entries_;
-    std::vector<std::uint32_t> ends_;  // by bucket, of its entries
+    std::vector<std::uint32_t> ends_;  // end of the entries of each bucket
 };
 
-/// Places that lie near another.
+/// Finds points near a given point.
 class PlaceGrid {
   public:
+    /// An empty grid. @param size side length of the squares, m, > 0
     explicit PlaceGrid(double size) : squares_(size), size_(size) {}
+    /// Reserves memory for `count` points.
     void reserve(std::size_t count) {
         squares_.reserve(count);
         places_.reserve(count);
     }
+    /// Adds a point, m.
     void add(Point p) {
         squares_.add(squares_.index(p.x), squares_.index(p.y), places_.size());
         places_.push_back(p);
     }
-    /// @param reach at most the grid's size; the smaller, the fewer squares are looked at
+    /// Whether any point of the grid is within `reach` of p. @param reach distance, m; the time needed grows with it
     bool any_within(Point p, double reach) const {
-        const double room = 1.001 * reach;  // rounding
+        const double room = 1.001 * reach;  // includes a margin for round-off
         for (std::int64_t u = squares_.index(p.x - room); u <= squares_.index(p.x + room); ++u)
             for (std::int64_t v = squares_.index(p.y - room); v <= squares_.index(p.y + room); ++v)
                 if (squares_.any_at(u, v, [&](std::size_t k) { return distance(p, places_[k]) < reach; })) return true;
         return false;
     }
-    /// Number of the nearest place; there is one.
+    /// Index of the nearest point; the grid must not be empty.
     int nearest(Point p) const {
         for (std::int64_t rings = 1;; rings *= 2) {
             const auto [number, away] = nearest_of_squares(p, rings);
@@ -227,7 +243,8 @@ class PlaceGrid {
     }
 
   private:
-    /// Of equally near ones that of the first square; the own square comes first only to spare most others.
+    /// Nearest point within `rings` rings of squares; among equally near points, the one in the first square in order.
+    /// The point's own square is searched first, only because this excludes most of the others.
     std::pair<int, double> nearest_of_squares(Point p, std::int64_t rings) const {
         int best = -1;
         double least = std::numeric_limits<double>::infinity();
@@ -236,7 +253,7 @@ class PlaceGrid {
         const auto look_at = [&](std::int64_t u, std::int64_t v) {
             squares_.each_at(u, v, [&](std::size_t k) {
                 const Point d{places_[k].x - p.x, places_[k].y - p.y};
-                if (dot(d, d) > 1.001 * least * least) return;  // spares the root
+                if (dot(d, d) > 1.001 * least * least) return;  // avoids the square root for most points
                 const double away = distance(p, places_[k]);
                 if (away > least || (away == least && std::pair{u, v} >= of)) return;
                 least = away;
@@ -244,7 +261,7 @@ class PlaceGrid {
                 of = {u, v};
             });
         };
-        // From a place to the squares before and after it in a row of them.
+        // Distance along one axis from x to the square with index `other`.
         const auto gap = [&](double x, std::int64_t own, std::int64_t other) {
             return other == own  ? 0.0
                    : other < own ? x - static_cast<double>(other + 1) * size_

@@ -20,8 +20,8 @@
 namespace crackle {
 namespace {
 
-// Places nearer than this share of the largest coordinate are one: crossings of three lines at a point differ by some
-// rounding errors.
+// Points closer than this fraction of the largest coordinate count as the same. Crossings of three lines at one point
+// differ by a few rounding errors.
 constexpr double same_place_share = 1e-13;
 constexpr std::size_t most_pairs = 5'000'000;
 
@@ -29,15 +29,15 @@ Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 Point along(Point a, Point b, double share) { return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}; }
 
 struct Piece : Segment {
-    int trace;            // -1: a wall
-    bool ends_a, ends_b;  // of the trace
+    int trace;            // -1 for a wall
+    bool ends_a, ends_b;  // whether a and b are ends of the whole trace
 };
 
-/// Of p along the line from a to b, 0 to 1 between them.
+/// Position of p along the line through a and b: 0 at a, 1 at b.
 double share_at(const Piece& s, Point p) { return dot(p - s.a, s.b - s.a) / dot(s.b - s.a, s.b - s.a); }
 double off_line(const Piece& s, Point p) { return std::abs(cross(s.b - s.a, p - s.a)) / distance(s.a, s.b); }
 
-/// Where the lines of two pieces meet, as shares of both; nothing of parallel ones.
+/// Intersection of the lines of two pieces, as positions along both (see share_at()); empty for parallel lines.
 std::optional<std::pair<double, double>> lines_meet(const Piece& s, const Piece& t) {
     const Point d = s.b - s.a, e = t.b - t.a;
     const double sine = cross(d, e);
@@ -46,7 +46,7 @@ std::optional<std::pair<double, double>> lines_meet(const Piece& s, const Piece&
     return std::pair{cross(between, e) / sine, cross(between, d) / sine};
 }
 
-/// A lower bound of the distance of two segments: that of their extents along the normal of either.
+/// Whether two segments are certainly farther apart than `reach`, judged by their extents along the normal of either.
 bool lie_apart(const Segment& s, const Segment& t, double reach) {
     const auto beside = [reach](const Segment& line, const Segment& other) {
         const Point d = line.b - line.a;
@@ -57,7 +57,8 @@ bool lie_apart(const Segment& s, const Segment& t, double reach) {
     return beside(s, t) || beside(t, s);
 }
 
-/// The direction square to the mean one of the segments, by length: parallel ones are narrow along it.
+/// Direction perpendicular to the mean direction of the segments (weighted by length), along which parallel segments
+/// are narrow.
 Point across_most(std::span<const Segment> segments) {
     double cosine = 0.0, sine = 0.0;
     for (const Segment& s : segments) {
@@ -97,7 +98,7 @@ class GraphMaker {
     }
 
   private:
-    /// Calls use(i, j), i < j.
+    /// Calls use(i, j) with i < j for each pair of pieces that are close to each other.
     template <class Use>
     void each_near_pair(double reach, Use use) const {
         const std::vector<Segment> segments(pieces_.begin(), pieces_.end());
@@ -105,12 +106,13 @@ class GraphMaker {
     }
 
     struct Join {
-        double by = std::numeric_limits<double>::infinity();  // along the piece's own line, outwards
+        // m, displacement along the piece's own line, positive outwards.
+        double by = std::numeric_limits<double>::infinity();
         Point place;
         int onto = -1;
     };
 
-    /// The nearest place on piece t to which the end of piece s can go along its line.
+    /// Updates `best` if the end of piece s can be moved along its line to piece t by a shorter distance.
     void look_for_join(const Piece& s, bool at_a, const Piece& t, Join& best) const {
         if (s.trace == t.trace) return;
         const Point end = at_a ? s.a : s.b;
@@ -120,12 +122,12 @@ class GraphMaker {
         const auto meet = lines_meet(s, t);
         if (!meet || meet->second < 0.0 || meet->second > 1.0) return;
         const double by = (at_a ? -meet->first : meet->first - 1.0) * distance(s.a, s.b);
-        // Not so far back that little is left, and not to where it is anyway.
+        // An end must not be moved back by more than half the length of its piece.
         if (std::abs(by) > 2.0 * reach_ || by < -0.5 * distance(s.a, s.b) || std::abs(by) >= std::abs(best.by)) return;
         best = {by, on_wall(along(t.a, t.b, meet->second), t), t.trace};
     }
 
-    /// A place on a wall lies there exactly.
+    /// If t is a wall, moves the point p exactly onto it.
     Point on_wall(Point p, const Piece& t) const {
         if (t.trace >= 0) return p;
         if (t.a.x == t.b.x) p.x = t.a.x;
@@ -159,7 +161,7 @@ class GraphMaker {
         each_near_pair(same_place_, [&](std::size_t i, std::size_t j) { cut(i, j); });
     }
 
-    /// @return whether an end of piece j lies on piece i, which is cut there then
+    /// Cuts piece i at the ends of piece j that lie on it. @return whether there are any
     bool cut_at_ends(std::size_t i, std::size_t j) {
         bool any = false;
         const Piece& s = pieces_[i];
@@ -175,12 +177,12 @@ class GraphMaker {
 
     void cut(std::size_t i, std::size_t j) {
         const bool on_first = cut_at_ends(i, j), on_second = cut_at_ends(j, i);
-        if (on_first || on_second) return;  // two straight pieces meet at no other place, or all along
+        if (on_first || on_second) return;  // two straight pieces meet at no other point, unless they coincide
         const auto meet = lines_meet(pieces_[i], pieces_[j]);
         if (!meet) return;
         const auto [s, t] = *meet;
         if (s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0) return;
-        // Of the longer one the place is the more exact.
+        // The position along the longer piece is more accurate.
         const bool first =
             pieces_[i].trace < 0 || distance(pieces_[i].a, pieces_[i].b) >= distance(pieces_[j].a, pieces_[j].b);
         const std::size_t own = first ? i : j;
@@ -210,7 +212,7 @@ class GraphMaker {
         return static_cast<std::uint64_t>(i) * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(j);
     }
 
-    /// Walls come first: what is near a wall takes the wall's place.
+    /// Numbers the nodes and creates the edges. Walls come first, so that points near a wall are placed on it.
     void number_nodes() {
         std::map<std::pair<int, int>, std::size_t> edge_of;
         std::map<std::pair<int, int>, double> coincident;
@@ -237,12 +239,13 @@ class GraphMaker {
     Rectangle box_;
     double reach_, same_place_;
     std::vector<Piece> pieces_;
-    std::vector<std::vector<std::pair<double, Point>>> cuts_;  // by piece: share along it, place
-    std::unordered_multimap<std::uint64_t, int> buckets_;      // nodes, by their place
+    std::vector<std::vector<std::pair<double, Point>>>
+        cuts_;  // for each piece, position along it (see share_at()), and coordinates
+    std::unordered_multimap<std::uint64_t, int> buckets_;  // nodes by position
     TraceGraph graph_;
 };
 
-/// Walks round the parts of a graph, each part to the left.
+/// Follows the boundaries of the parts into which a graph divides the box, keeping each part on the left.
 class PartWalk {
   public:
     explicit PartWalk(const TraceGraph& graph) : graph_(graph), around_(graph.nodes.size()) {
@@ -258,7 +261,7 @@ class PartWalk {
     struct Round {
         std::vector<Point> corners;
         int component;
-        double area;  // negative: round a component from outside
+        double area;  // m2; negative for the boundary around the outside of a component
     };
     std::vector<Round> rounds() {
         const std::vector<int> component = components();
@@ -279,7 +282,7 @@ class PartWalk {
     }
 
   private:
-    // Half-edge 2e leaves edge e's first node, 2e + 1 its second.
+    // Half-edge 2e starts at the first node of edge e, half-edge 2e + 1 at its second.
     std::size_t node(std::size_t half) const {
         const TraceGraph::Edge& edge = graph_.edges[half / 2];
         return static_cast<std::size_t>(half % 2 == 0 ? edge.from : edge.to);
@@ -292,7 +295,8 @@ class PartWalk {
         if (lower(u) != lower(v)) return lower(v);
         return cross(u, v) > 0.0;
     }
-    /// At its far end the first one to the right of the way back.
+    /// Next half-edge of the boundary: of those that start at the far node of `half`, the first clockwise from its
+    /// reverse.
     std::size_t next(std::size_t half) const {
         const std::vector<std::size_t>& leaving = around_[node(half ^ 1U)];
         const auto back = std::find(leaving.begin(), leaving.end(), half ^ 1U);
@@ -321,7 +325,7 @@ class PartWalk {
     }
 
     const TraceGraph& graph_;
-    std::vector<std::vector<std::size_t>> around_;  // by node: half-edges that leave it, counter-clockwise
+    std::vector<std::vector<std::size_t>> around_;  // for each node, half-edges that start there, counter-clockwise
 };
 
 bool holds(const std::vector<Point>& corners, Point p) {
@@ -366,11 +370,11 @@ std::vector<std::pair<std::size_t, std::size_t>> near_pairs(std::span<const Segm
     std::vector<std::uint32_t> place(segments.size());
     for (std::uint32_t k = 0; k < from_left.size(); ++k) place[from_left[k]] = k;
 
-    const double room = 1.001 * reach;  // rounding keeps no pair out
+    const double room = 1.001 * reach;  // includes a margin, so that round-off excludes no pair
     const std::vector<Extent> oblique = extents_along(across_most(segments));
     const std::vector<Extent>& swept = sum_of(oblique) < sum_of(by_x) ? oblique : by_x;
     const std::vector<std::uint32_t> order = order_of(swept);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> by_places;  // from the left
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> by_places;  // sorted from the left
     const auto apart = [room](Extent s, Extent t) { return s.high + room < t.low || t.high + room < s.low; };
     for (std::size_t a = 0; a < order.size(); ++a) {
         const std::uint32_t i = order[a];
@@ -381,7 +385,7 @@ std::vector<std::pair<std::size_t, std::size_t>> near_pairs(std::span<const Segm
             if (by_places.size() == most_pairs)
                 throw MeshError(
                     fmt::format("found more than {} places where traces meet or come within {:.3g} m of each other, "
-                                "expected fewer; lower their amount",
+                                "expected fewer; reduce the number of traces",
                                 most_pairs, reach));
             by_places.emplace_back(std::minmax(place[i], place[j]));
         }
@@ -401,7 +405,8 @@ std::vector<double> parted_areas(const TraceGraph& graph) {
     const std::vector<PartWalk::Round> rounds = PartWalk(graph).rounds();
     double whole = 0.0;
     for (const auto& round : rounds) whole = std::max(whole, round.area);
-    const double none = 1e-12 * whole;  // of a tree of traces, walked there and back
+    // A boundary with at most this area encloses nothing: it follows a tree of traces back and forth.
+    const double none = 1e-12 * whole;
     std::vector<double> areas;
     std::vector<std::size_t> parts;
     for (std::size_t k = 0; k < rounds.size(); ++k) {
@@ -409,7 +414,8 @@ std::vector<double> parted_areas(const TraceGraph& graph) {
         parts.push_back(k);
         areas.push_back(rounds[k].area);
     }
-    // What lies like an island in a part is none of it. The walls are the first component, and in no part.
+    // The area of a part excludes components of the graph that lie inside it (islands). The walls are the first
+    // component and lie inside no part.
     for (const auto& island : rounds) {
         if (island.area >= -none || island.component == 0) continue;
         std::size_t within = parts.size();

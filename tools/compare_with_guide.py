@@ -1,15 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Prints what DEMseg's guide states of its rock beside what six virtual tests of it measured.
+"""Compares what DEMseg's guide states about its example rock with the results of six virtual tests.
 
   tools/compare_with_guide.py FOLDER
 
-FOLDER holds circles_tension, circles_compression, delaunay_..., voronoi_..., each as `crackle test -o` left it; only their
-summary.json is read. Where it holds the same tests on several packings, FOLDER/campaign (specimens/plans/guide_rock.toml), their
-means and standard deviations stand beside. The guide's words are about one packing, and ratios vary with the packing: they are
-shown, not judged. Judged is whether every test ended in failure of its specimen.
+FOLDER contains the output folders of `crackle test`: circles_tension, circles_compression, delaunay_..., voronoi_...; only
+their summary.json is read. If FOLDER/campaign has the same tests on several packings (specimens/plans/guide_rock.toml), means
+and standard deviations are printed as well. The guide describes a single packing, and ratios vary with the packing. They are
+therefore printed without a verdict; the exit code states only whether all specimens failed.
 
-Exit codes: 0 all six have failed, 1 some have not (named), 2 a summary is missing or lacks a key.
+Exit codes: 0 all six specimens failed, 1 some did not (they are named), 2 a summary is missing or lacks a key.
 """
 import json
 import math
@@ -21,18 +21,18 @@ from pathlib import Path
 SPECIMENS = ("circles", "delaunay", "voronoi")
 LOADINGS = ("tension", "compression")
 
-# The guide's limit values of the circle specimen, which its sentences refer to.
+# Limit values of the circle specimen in the guide, to which its statements refer.
 LIMIT_STRESS = 19.4e3  # N/m: mean back-tension over mean diameter, 0.774 kN / 4 cm
 LIMIT_STRAIN = 0.0019
 LIMIT_STIFFNESS = LIMIT_STRESS / LIMIT_STRAIN  # N/m
 
 
 class BadInput(Exception):
-    """What was found, what was expected, what to do."""
+    """An error whose message states what was found, what was expected, and a remedy."""
 
 
 class Figures:
-    """Of one test, by the names of summary.json. Units: N, m; stresses and moduli N/m."""
+    """Values from the summary.json of one test, by key. Units: N, m; stresses and moduli N/m."""
 
     def __init__(self, place, keys):
         self.place, self.keys = place, keys
@@ -62,7 +62,7 @@ def read_summary(file):
 
 
 def read_packings(file):
-    """The tests of each packing of a campaign that has all six of it done; none where there is no campaign."""
+    """Tests of each packing whose six tests are all finished; empty if there is no campaign."""
     if not file.is_file():
         return []
     with sqlite3.connect(f"file:{file}?mode=ro", uri=True) as ledger:
@@ -76,9 +76,9 @@ def read_packings(file):
 
 
 def rows_of(tests):
-    """Rows (what, the guide's word, value, digits behind the point, unit, what it is made of) of six tests."""
+    """Table rows for six tests: name, statement of the guide, value, number of decimals, unit, values it is computed from."""
     def strength(specimen, loading):
-        """The guide's is the largest stress, whatever came before."""
+        """The strength as the guide defines it: the largest stress of the test."""
         return tests[specimen, loading].number("largest_stress")
 
     def over_tension(specimen):
@@ -137,7 +137,7 @@ def read_tests(folder):
 
 
 def table_of(rows, of_packings):
-    """Lines of the table. of_packings: the rows of each packing."""
+    """Lines of the printed table. of_packings: a list of rows for each packing."""
     lines = [["", "the guide", "measured"] + ([f"{len(of_packings)} packings"] if of_packings else [])]
     for k, row in enumerate(rows):
         if len(row) == 1:
@@ -174,10 +174,10 @@ def main(arguments):
 
     whole = [name for packing in packings for name, test in packing.items() if not test.failed]
     if whole:
-        print(f"Of the packings {len(whole)} tests did not fail: of these the values are the largest so far.")
+        print(f"On the packings, {len(whole)} tests did not fail; their values are the largest so far.")
     intact = [f"{specimen}_{loading}" for (specimen, loading), test in tests.items() if not test.failed]
     if intact:
-        print(f"Not failed: {', '.join(intact)} (of these the values above are the largest so far)")
+        print(f"Not failed: {', '.join(intact)} (their values above are the largest so far)")
         return 1
     print("All six specimens have failed.")
     return 0

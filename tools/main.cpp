@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle COMMAND ...`.
+// Entry point of the program `crackle`.
 // Tested by tests/tools/commands/command_line_test.cpp.
 
 #include "tools/command_line/program.hpp"

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Parts of a long check, for .ci/run and tools/test to source. Each part is timed, and one that fails does not keep the others
-# from running.
+# Functions for long checks in several parts, sourced by .ci/run and tools/test. Each part is timed; if one fails, the others
+# still run.
 #   part TITLE COMMAND...    runs a part
-#   all_parts_passed         prints how each ended and what it took; fails where one failed
+#   all_parts_passed         prints the outcome and duration of each part; fails if any part failed
 parts=() times=() outcomes=() failed=0
 part() {
     local title=$1 started=$SECONDS code=0
@@ -23,6 +23,6 @@ all_parts_passed() {
     local k
     echo
     for k in "${!parts[@]}"; do printf '%-12s %-12s %5d s\n' "${parts[k]}" "${outcomes[k]}" "${times[k]}"; done
-    printf '%-12s %-12s %5d s\n\n' together '' "$SECONDS"
+    printf '%-12s %-12s %5d s\n\n' total '' "$SECONDS"
     [ "$failed" -eq 0 ]
 }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Arrays of a world, on large pages where they are large: a step runs through a dozen of them side by side, and pages
-// of 4 KB have the processor look up an address every few points and stop fetching ahead there (a sixth of the step of
-// a million circles).
-// Tested by tests/solver/base/array_test.cpp.
+// The array type of a world's state. Large arrays use memory pages of 2 MiB. A step reads a dozen arrays in parallel.
+// With pages of 4 KiB, the processor must translate an address every few points, and prefetching stops at the end of a
+// page. For a million circles, this would take a sixth of the time of a step.
 #pragma once
 
 #if defined(__linux__)
@@ -15,6 +14,7 @@
 
 namespace crackle {
 
+/// Allocator that requests pages of 2 MiB from the operating system for arrays that fill at least two of them.
 template <class T>
 struct LargePages {
     using value_type = T;
@@ -22,18 +22,22 @@ struct LargePages {
     static constexpr std::size_t page = std::size_t{2} << 20, fewest_pages = 2;
 
     LargePages() = default;
+    /// Converts from the allocator of another element type; allocators have no state.
     template <class Other>
     constexpr LargePages(const LargePages<Other>& /*other*/) {}
 
+    /// Allocates memory for `count` elements. @throws std::bad_array_new_length, std::bad_alloc
     T* allocate(std::size_t count) {
         if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
         void* const room = ::operator new(count * sizeof(T), alignment(count));
 #if defined(__linux__)
-        // Whole pages alone: the rest of the last one would be memory for nothing. A refusal costs time, no more.
+        // Only whole large pages are requested, since one for the remainder would waste memory. If the operating system
+        // refuses the request, only speed is lost.
         if (is_large(count)) static_cast<void>(madvise(room, count * sizeof(T) / page * page, MADV_HUGEPAGE));
 #endif
         return static_cast<T*>(room);
     }
+    /// Frees memory obtained from allocate(). @param count number of elements passed to allocate()
     void deallocate(T* room, std::size_t count) { ::operator delete(room, alignment(count)); }
 
     friend bool operator==(const LargePages& /*a*/, const LargePages& /*b*/) { return true; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads what cereal::BinaryOutputArchive wrote and trusts none of it: a length that the rest of the stream cannot
-// hold, or a flag that is neither 0 nor 1, is an error before memory is taken for it or anybody looks at it.
+// Reads the output of cereal::BinaryOutputArchive without trusting it. A length that exceeds the rest of the stream is
+// an error, detected before memory is allocated. A flag other than 0 or 1 is an error, detected before it is used.
 // Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
@@ -18,18 +18,22 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 
 namespace crackle {
 
+/// A cereal archive that refuses lengths greater than the rest of the stream.
 class CheckedInput : public cereal::InputArchive<CheckedInput, cereal::AllowEmptyClassElision> {
   public:
-    /// From where the stream stands up to `end`. @param refusal whole text of the InputError
+    /// Reads from the current position of the stream to `end`. @param refusal complete message of the InputError
     CheckedInput(std::istream& in, std::streamoff end, std::string refusal)
         : InputArchive(this),
           in_(in),
           left_(in ? std::max<std::streamoff>(0, end - in.tellg()) : 0),
           refusal_(std::move(refusal)) {}
 
+    /// Reads `bytes` bytes from the stream. @throws InputError with the message `refusal` if fewer are left;
+    /// SystemFailure if reading fails
     template <class T>
     void read(T* to, std::size_t bytes) {
         errno = 0;
@@ -47,15 +51,15 @@ class CheckedInput : public cereal::InputArchive<CheckedInput, cereal::AllowEmpt
         left_ -= count;
     }
 
-    /// A length, of things of at least a byte each.
+    /// Checks that `count` items of at least one byte fit into the rest of the stream. @throws InputError
     void expect(std::uint64_t count) const {
         errno = 0;
         if (count > static_cast<std::uint64_t>(left_)) refuse();
     }
 
-    /// With the system's reason where there is one.
+    /// Throws the InputError, with the reason that the operating system gave, if any.
     [[noreturn]] void refuse() const {
-        throw InputError(errno == 0 ? refusal_ : refusal_ + " (" + std::strerror(errno) + ')');
+        fail_reading(errno, errno == 0 ? refusal_ : refusal_ + " (" + std::strerror(errno) + ')');
     }
 
   private:
@@ -64,20 +68,24 @@ class CheckedInput : public cereal::InputArchive<CheckedInput, cereal::AllowEmpt
     std::string refusal_;
 };
 
-// What cereal calls, found by the namespace of the archive.
+// cereal finds the following functions by argument-dependent lookup, so they are in the archive's namespace.
+/// Reads one number or flag; called by cereal. @throws InputError with the message given to CheckedInput
 template <class T>
 std::enable_if_t<std::is_arithmetic_v<T>> load(CheckedInput& in, T& value) {
     in.read(&value, sizeof value);
 }
+/// Reads the value of a name-value pair; the stream does not contain the name.
 template <class T>
 void serialize(CheckedInput& in, cereal::NameValuePair<T>& named) {
     in(named.value);
 }
+/// Reads a length. @throws InputError if the rest of the stream cannot hold that many elements
 template <class T>
 void serialize(CheckedInput& in, cereal::SizeTag<T>& length) {
     in(length.size);
     in.expect(length.size);
 }
+/// Reads a block of bytes.
 template <class T>
 void load(CheckedInput& in, cereal::BinaryData<T>& data) {
     in.read(static_cast<std::decay_t<T>>(data.data), static_cast<std::size_t>(data.size));
@@ -85,7 +93,7 @@ void load(CheckedInput& in, cereal::BinaryData<T>& data) {
 
 }  // namespace crackle
 
-// Cereal asks for it where enumerations are read.
+// cereal requires this to read enumerations
 template <>
 struct cereal::traits::detail::get_output_from_input<crackle::CheckedInput> {
     using type = BinaryOutputArchive;

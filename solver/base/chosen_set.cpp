@@ -10,7 +10,7 @@
 namespace crackle {
 namespace {
 
-/// "x86-64-v2, x86-64-v3".
+/// Names of the sets for which `wanted` holds, for example "x86-64-v2, x86-64-v3".
 template <class Wanted>
 std::string names_of_sets(Wanted wanted) {
     std::string names;
@@ -25,19 +25,20 @@ std::string names_of_sets(Wanted wanted) {
 std::size_t widest_that_runs() {
     for (std::size_t k = sets_of_this_program.size(); k-- > 0;)
         if (runs_here(sets_of_this_program[k])) return k;
-    throw InputError("this processor runs none of the instruction sets that this program was built for (" +
+    throw InputError("this processor supports none of the instruction sets that this program was built for (" +
                      names_of_sets([](InstructionSet) { return true; }) +
-                     "); build it with -DCRACKLE_SETS=NATIVE or use a newer machine");
+                     "); build the program with -DCRACKLE_SETS=NATIVE or use a newer machine");
 }
 
 std::size_t find_place() {
     const char* const asked = std::getenv("CRACKLE_ISA");
     if (asked == nullptr || *asked == '\0') return widest_that_runs();
-    const auto place = std::ranges::find_if(
-        sets_of_this_program, [&](InstructionSet set) { return name_of(set) == asked && runs_here(set); });
+    const auto place = std::ranges::find_if(sets_of_this_program, [&](InstructionSet set) {
+        return from_name<InstructionSet>(asked) == set && runs_here(set);
+    });
     if (place == sets_of_this_program.end()) {
         throw InputError("CRACKLE_ISA: found '" + std::string(asked) + "', expected one of " +
-                         names_of_sets(runs_here) + " on this machine; unset it to take the widest");
+                         names_of_sets(runs_here) + " on this machine; unset CRACKLE_ISA to use the widest");
     }
     return static_cast<std::size_t>(place - sets_of_this_program.begin());
 }

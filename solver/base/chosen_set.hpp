@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calls the kernels of the instruction set that this program has chosen. Included by those few sources alone that call
-// kernels, for they are compiled again with each set that a build adds.
+// Calls the kernels compiled for the instruction set that was chosen at start-up. Include this header only in the few
+// sources that call kernels.
 // Tested by tests/solver/base/instruction_set_test.cpp.
 #pragma once
 
@@ -13,10 +13,10 @@
 
 namespace crackle {
 
-/// Place of chosen_set() among built_in_sets().
+/// Index of chosen_set() in built_in_sets().
 std::size_t chosen_place();
 
-/// call.operator()<S>() of the chosen set S.
+/// Returns call.operator()<S>() for the chosen set S.
 template <class Call>
 auto of_chosen_set(Call call) {
     using Result = decltype(call.template operator()<sets_of_this_program[0]>());

@@ -9,7 +9,7 @@
 namespace crackle::correctly_rounded {
 namespace {
 
-/// What MPFR keeps of π and the like, each thread its own, goes with the thread.
+/// Frees MPFR's per-thread cache of constants such as π when the thread ends.
 struct CacheOfThread {
     CacheOfThread() = default;
     CacheOfThread(const CacheOfThread&) = delete;
@@ -19,11 +19,11 @@ struct CacheOfThread {
 };
 const thread_local CacheOfThread cache_of_thread;
 
-/// Number of MPFR, of a double's precision: what its functions put there is rounded to nearest, once.
+/// An MPFR number, by default with the precision of a double. MPFR functions compute exactly and round to nearest once.
 class Number {
   public:
     explicit Number(mpfr_prec_t bits = 53) {
-        cache_of_thread.use();  // made by its first use
+        cache_of_thread.use();  // creates the cache when first used in a thread
         mpfr_init2(value_, bits);
     }
     explicit Number(double x, mpfr_prec_t bits = 53) : Number(bits) { mpfr_set_d(value_, x, MPFR_RNDN); }
@@ -38,8 +38,9 @@ class Number {
     mpfr_t value_;
 };
 
-/// @param close within a few units of its last place: glibc's manual names at most 5 for these functions, of 2^-63
-/// @param exact called where that leaves open which double is nearest
+/// Returns the double nearest to the true value. @param close approximation to within a few units in the last place
+/// (relative 2^-63); the glibc manual states errors of at most 5 units for these functions @param exact function that
+/// returns the exactly rounded value; called if `close` does not determine which double is nearest
 template <class Exact>
 double nearest(long double close, Exact exact) {
     const long double margin = 0x1p-59L * std::abs(close);
@@ -61,7 +62,7 @@ double exactly(OfTwo f, double x, double y) {
     return result.rounded();
 }
 
-/// One step of Newton's method with 200 bits: the error of 60 bits becomes one of 120.
+/// One Newton step in 200-bit arithmetic. It squares the relative error, so 60 correct bits become 120.
 double exact_quantile(long double close, double p) {
     constexpr mpfr_prec_t bits = 200;
     Number z(bits), share(bits), density(bits), scale(bits);
@@ -126,14 +127,15 @@ double erfc(double x) {
     return nearest(std::erfc(static_cast<long double>(x)), [x] { return exactly(&mpfr_erfc, x); });
 }
 
-// Called a few times a specimen; close to its zeros long double's lgamma() is far off.
+// These functions always use MPFR: they are called only a few times per specimen, and the long double lgamma() is
+// inaccurate near its zeros.
 double tgamma(double x) { return exactly(&mpfr_gamma, x); }
 double lgamma(double x) { return exactly(&mpfr_lngamma, x); }
 
 double normal_share_below(double z) { return 0.5 * erfc(-z / std::sqrt(2.0)); }
 
 double normal_quantile(double p) {
-    // 2p and 1 - 2p are exact in a long double.
+    // In long double, 2p and 1 - 2p are exact.
     const long double close = -std::sqrt(2.0L) * boost::math::erfc_inv(2.0L * static_cast<long double>(p));
     return nearest(close, [close, p] { return exact_quantile(close, p); });
 }

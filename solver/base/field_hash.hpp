@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The hash (XXH3) of any value made of numbers and of structs that list their fields (fields.hpp): of members, not of
-// padding.
+// XXH3 hash of any value made of numbers and of structs that list their fields (fields.hpp). It covers members and
+// excludes padding.
 // Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
@@ -17,10 +17,12 @@
 
 namespace crackle {
 
+/// Hash of a sequence of values.
 class FieldHasher {
   public:
     FieldHasher() : state_(XXH3_createState(), &XXH3_freeState) { XXH3_64bits_reset(state_.get()); }
 
+    /// Adds a number, an enumerator, or the fields of a struct.
     template <class T>
     void add(const T& value) {
         if constexpr (HasFields<T>) {
@@ -31,6 +33,7 @@ class FieldHasher {
             XXH3_64bits_update(state_.get(), &value, sizeof value);
         }
     }
+    /// Adds the length of a vector and its elements.
     template <class T, class Room>
     void add(const std::vector<T, Room>& values) {
         add(values.size());
@@ -40,26 +43,31 @@ class FieldHasher {
             for (const T& value : values) add(value);
         }
     }
+    /// Adds the elements of an array. Its length is part of the type and is not hashed.
     template <class T, std::size_t N>
     void add(const std::array<T, N>& values) {
         for (const T& value : values) add(value);
     }
+    /// Adds the elements of a built-in array.
     template <class T, std::size_t N>
     void add(const T (&values)[N]) {
         for (const T& value : values) add(value);
     }
+    /// Adds a flag for whether there is a value, and then the value, if any.
     template <class T>
     void add(const std::optional<T>& value) {
         add(value.has_value());
         if (value) add(*value);
     }
 
+    /// Hash of all values added so far.
     std::uint64_t digest() const { return XXH3_64bits_digest(state_.get()); }
 
   private:
     std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
 };
 
+/// Hash of one value.
 template <class T>
 std::uint64_t hash_of_field(const T& field) {
     FieldHasher hash;

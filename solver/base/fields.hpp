@@ -1,18 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fields of a struct, listed once beside their declaration, for all that must treat every one of them alike:
-// checkpoints, hashes, what a new neighbour list carries over.
-//
-//     struct Place {
-//         double x, y;
-//         template <class Self, class Visit>
-//         static void fields(Self& self, Visit&& visit) {
-//             visit("x", self.x);
-//             visit("y", self.y);
-//         }
-//     };
-//
-// A visitor that wants to know more of a field receives it as a third argument (world/points.hpp). A list that lacks a
-// field does not compile where it is walked: lists_all_fields().
+// Lists the fields of a struct once, next to their declaration, for code that must visit every field: checkpoints,
+// hashes, and values carried over to a new neighbour list.
 #pragma once
 
 #include <array>
@@ -20,11 +8,32 @@
 #include <type_traits>
 #include <utility>
 
+// A macro cannot call itself, so each round of expansion handles one more argument. The rounds suffice for 256
+// arguments.
+#define CRACKLE_PARENTHESES ()
+#define CRACKLE_ROUNDS_4(...) __VA_ARGS__
+#define CRACKLE_ROUNDS_16(...) CRACKLE_ROUNDS_4(CRACKLE_ROUNDS_4(CRACKLE_ROUNDS_4(CRACKLE_ROUNDS_4(__VA_ARGS__))))
+#define CRACKLE_ROUNDS_64(...) CRACKLE_ROUNDS_16(CRACKLE_ROUNDS_16(CRACKLE_ROUNDS_16(CRACKLE_ROUNDS_16(__VA_ARGS__))))
+#define CRACKLE_ROUNDS(...) CRACKLE_ROUNDS_64(CRACKLE_ROUNDS_64(CRACKLE_ROUNDS_64(CRACKLE_ROUNDS_64(__VA_ARGS__))))
+#define CRACKLE_VISIT_EACH(field, ...) \
+    visit(#field, s.field);            \
+    __VA_OPT__(CRACKLE_VISIT_AGAIN CRACKLE_PARENTHESES(__VA_ARGS__))
+#define CRACKLE_VISIT_AGAIN() CRACKLE_VISIT_EACH
+
+/// Defines a function NAME(self, visit) that calls `visit("x", self.x)` for each listed member, in order.
+#define CRACKLE_MEMBERS(NAME, ...)                       \
+    template <class Self, class Visit>                   \
+    static constexpr void NAME(Self& s, Visit&& visit) { \
+        CRACKLE_ROUNDS(CRACKLE_VISIT_EACH(__VA_ARGS__))  \
+    }                                                    \
+    static_assert(true)
+#define CRACKLE_FIELDS(...) CRACKLE_MEMBERS(fields, __VA_ARGS__)
+
 namespace crackle {
 
 namespace detail {
 
-/// Converts to whatever a member is.
+/// Converts to the type of any member.
 struct AnyField {
     template <class T>
     operator T() const;
@@ -35,7 +44,7 @@ constexpr bool takes(std::index_sequence<N...>) {
     return requires { T{(static_cast<void>(N), AnyField{})...}; };
 }
 
-/// Whether `count` initialisers are all that the aggregate T takes, an array's elements one by one: fewer always do.
+/// Whether the aggregate T accepts `Count` initialisers but not one more; each array element counts as one.
 template <class T, std::size_t Count>
 constexpr bool takes_at_most() {
     return takes<T>(std::make_index_sequence<Count>{}) && !takes<T>(std::make_index_sequence<Count + 1>{});
@@ -45,7 +54,7 @@ struct AnyVisitor {
     void operator()(auto&&...) const {}
 };
 
-/// Counts initialisers of fields that are not listed yet.
+/// Visitor that counts the initialisers needed for the listed fields. A field that is listed twice counts once.
 struct FieldCounter {
     std::size_t count = 0, seen = 0;
     std::array<const void*, 64> places{};
@@ -62,7 +71,8 @@ struct FieldCounter {
     }
 };
 
-/// Room for a T that is never made, since not every T can be made in a constant expression: its members have addresses.
+/// Storage for a T that is never constructed; it only provides addresses for members. Not every T can be constructed in
+/// a constant expression.
 template <class T>
 union RoomFor {
     char nothing;
@@ -93,6 +103,13 @@ concept HasFields = detail::has_fields<T>();
 template <HasFields T>
 constexpr bool lists_all_fields() {
     return detail::takes_at_most<T, detail::listed_fields<T>()>();
+}
+
+/// Serialises any struct that lists its fields with cereal, member by member, since padding has no defined value.
+template <class Archive, HasFields T>
+void serialize(Archive& archive, T& value) {
+    static_assert(lists_all_fields<T>(), "a member is missing in the struct's fields()");
+    T::fields(value, [&](const char* /*name*/, auto& field, const auto&... /*more*/) { archive(field); });
 }
 
 }  // namespace crackle

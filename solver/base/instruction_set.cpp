@@ -3,23 +3,10 @@
 
 namespace crackle {
 
-std::string_view name_of(InstructionSet set) {
-    switch (set) {
-        case InstructionSet::x86_64_v2:
-            return "x86-64-v2";
-        case InstructionSet::x86_64_v3:
-            return "x86-64-v3";
-        case InstructionSet::x86_64_v4:
-            return "x86-64-v4";
-        case InstructionSet::aarch64:
-            return "aarch64";
-    }
-    return "unknown";
-}
-
 bool runs_here(InstructionSet set) {
 #if defined(__x86_64__)
-    // What tells a level from the one below; the compiler's function also asks whether the system saves the registers.
+    // Features that each level adds to the one below. __builtin_cpu_supports() also checks that the operating system
+    // saves the vector registers.
     const bool v2 =
         __builtin_cpu_supports("ssse3") && __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt");
     const bool v3 = v2 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&

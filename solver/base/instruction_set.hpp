@@ -1,41 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Kernels are compiled once for each instruction set, into one program; which of them run is chosen at its start.
-//
-// A source of kernels (crackle_kernels() in CMakeLists.txt) defines functions of InstructionSet::CRACKLE_SET, which
-// callers reach by of_chosen_set() of chosen_set.hpp. All else is compiled for what every processor of the family has.
-// Any set gives the same bytes: lanes are IEEE arithmetic in the order of the source (solver/base/lanes.hpp).
-// Tested by tests/solver/base/instruction_set_test.cpp.
+// The program contains kernels compiled for several instruction sets and chooses one of them at start-up.
 #pragma once
 
 #include <cstdint>
 #include <span>
-#include <string_view>
+
+#include "solver/base/names.hpp"
 
 namespace crackle {
 
-/// Levels of the x86-64 psABI: v2 has SSE4.2, v3 AVX2, v4 AVX-512 (F, BW, CD, DQ, VL); aarch64 as of Armv8.0 with NEON.
+/// Levels of the x86-64 psABI: v2 with SSE4.2, v3 with AVX2, v4 with AVX-512 (F, BW, CD, DQ, VL); aarch64: Armv8.0 with
+/// NEON.
 enum class InstructionSet : std::uint8_t { x86_64_v2, x86_64_v3, x86_64_v4, aarch64 };
+/// Names accepted in the environment variable CRACKLE_ISA and printed by `crackle doctor`.
+constexpr auto list_names(InstructionSet) { return in_order("x86-64-v2", "x86-64-v3", "x86-64-v4", "aarch64"); }
 
-/// As CRACKLE_ISA and `crackle doctor` have it: "x86-64-v3".
-std::string_view name_of(InstructionSet set);
-
-/// Doubles side by side in the kernels (solver/base/lanes.hpp).
+/// Number of doubles that the kernels process at once (solver/base/lanes.hpp).
 constexpr int lanes_of(InstructionSet set) {
     return set == InstructionSet::x86_64_v4 ? 8 : set == InstructionSet::x86_64_v3 ? 4 : 2;
 }
 inline constexpr int most_lanes = 8;
 
-/// Whether this processor, and its system, can run it.
+/// Whether this processor and its operating system support an instruction set.
 bool runs_here(InstructionSet set);
 
-/// Whether its vector registers are wider than those of v2 (clear_upper_halves() of lanes.hpp).
+/// Whether this processor has wider vector registers than the 128 bits of x86-64-v2 (see clear_upper_halves() in
+/// lanes.hpp).
 bool has_wider_registers();
 
-/// Those that kernels are compiled for, narrowest first.
+/// Instruction sets for which kernels were compiled, narrowest first.
 std::span<const InstructionSet> built_in_sets();
 
-/// The widest of them that runs here, or the one that the environment variable CRACKLE_ISA names; found once.
-/// @throws InputError where that is unknown, not compiled in or does not run here, or no set does
+/// The set given by the environment variable CRACKLE_ISA, or else the widest built-in set that this machine supports.
+/// It is determined only once.
 InstructionSet chosen_set();
 
 }  // namespace crackle

@@ -1,14 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers side by side, one a contact point, and the turning of records into such lanes and back.
-//
-// The contact law is written once, for a Number that is a double (one point) or Lanes (several): select(), root(),
-// magnitude(), with_sign(), any() and none_of() below are there for both.
-//
-// Kernels load records two numbers at a time and turn them in registers: hardware gathers are slower than that on the
-// machines we know (tests/benchmarks/results/README.md). Eight lanes where the target has AVX-512, four where it has
-// AVX, else two. All is IEEE arithmetic in the order of the source, so that any number of lanes gives the bytes of the
-// scalar code. How many there are is a matter of the source's target: only sources of kernels (instruction_set.hpp) use
-// lanes, and hand nothing of lane_count on.
+// SIMD vectors with one number (lane) per contact point, and conversions between records and lanes.
 #pragma once
 
 #if defined(__SSE2__)
@@ -27,8 +18,8 @@
 
 namespace crackle {
 
-// As many as a register holds: compilers split wider ones badly. CRACKLE_LANES is for tests of a form that the machine
-// may not have.
+// Number of lanes: as many as a register holds, since compilers generate poor code for wider vectors. Tests set
+// CRACKLE_LANES to try widths that the machine may not support.
 #if defined(CRACKLE_LANES)
 inline constexpr int lane_count = CRACKLE_LANES;
 #elif defined(__AVX512F__)
@@ -40,25 +31,26 @@ inline constexpr int lane_count = 2;
 #endif
 
 using Lanes = double __attribute__((vector_size(8 * lane_count)));
-using LaneBits = decltype(Lanes{} < Lanes{});  // of a condition: 0 or -1 each
+using LaneBits = decltype(Lanes{} < Lanes{});  // result of comparing Lanes: 0 or -1 in each lane
 using LaneBit = std::remove_cvref_t<decltype(LaneBits{}[0])>;
 using Eight = double __attribute__((vector_size(64)));
 using Quad = double __attribute__((vector_size(32)));
 using Pair = double __attribute__((vector_size(16)));
 
-/// Where kernels without AVX begin: once a library has left something in the upper halves of the vector registers,
-/// every instruction of theirs waits for it (three times slower, seen on Zen).
+/// Call this at the entry of kernels compiled without AVX. If a library has left values in the upper halves of the
+/// vector registers, every vector instruction of such a kernel depends on them (three times slower on Zen).
 CRACKLE_INLINE void clear_upper_halves() {
 #if defined(__SSE2__) && !defined(__AVX__)
     if (has_wider_registers()) asm volatile("vzeroupper");
 #endif
 }
 
-/// Outcome of comparing two Numbers: bool, or LaneBits.
+/// Result type of comparing two Numbers: bool or LaneBits.
 template <class Number>
 using Condition = decltype(Number{} < Number{});
 
-/// Eight-byte numbers wherever they lie, whatever their type. Not memcpy(): g++ does not fold its loads into shuffles.
+/// Loads a vector of eight-byte numbers from any address. memcpy() is not used, because g++ does not merge its loads
+/// into shuffles.
 template <class V>
 CRACKLE_INLINE V load_as(const void* from) {
     typedef V Loose __attribute__((aligned(8), may_alias));
@@ -70,25 +62,39 @@ CRACKLE_INLINE void store_as(void* to, const V& v) {
     *static_cast<Loose*>(to) = v;
 }
 
-/// Floats as lanes, and lanes rounded to floats.
-CRACKLE_INLINE Lanes load_floats(const float* from) {
-    typedef float Floats __attribute__((vector_size(4 * lane_count)));
-    typedef Floats Loose __attribute__((aligned(4), may_alias));
-    return __builtin_convertvector(*reinterpret_cast<const Loose*>(from), Lanes);
+/// Loads one float or one in each lane, and stores numbers rounded to floats.
+template <class Number>
+CRACKLE_INLINE Number load_floats(const float* from) {
+    if constexpr (std::is_same_v<Number, double>) {
+        return *from;
+    } else {
+        typedef float Floats __attribute__((vector_size(4 * lane_count)));
+        typedef Floats Loose __attribute__((aligned(4), may_alias));
+        return __builtin_convertvector(*reinterpret_cast<const Loose*>(from), Lanes);
+    }
 }
+CRACKLE_INLINE void store_floats(float* to, double v) { *to = static_cast<float>(v); }
 CRACKLE_INLINE void store_floats(float* to, const Lanes& v) {
     typedef float Floats __attribute__((vector_size(4 * lane_count)));
     typedef Floats Loose __attribute__((aligned(4), may_alias));
     *reinterpret_cast<Loose*>(to) = __builtin_convertvector(v, Floats);
 }
 
-/// A Number that is `value` in every lane.
+/// A Number with `value` in every lane.
 template <class Number>
 CRACKLE_INLINE Number all_of(double value) {
     return value - Number{};
 }
 
-/// a where the condition holds, else b.
+/// Whether a condition does not hold.
+CRACKLE_INLINE bool opposite(bool condition) { return !condition; }
+CRACKLE_INLINE LaneBits opposite(const LaneBits& condition) { return ~condition; }
+
+/// Whether at least one of two conditions holds.
+CRACKLE_INLINE bool either(bool a, bool b) { return a || b; }
+CRACKLE_INLINE LaneBits either(const LaneBits& a, const LaneBits& b) { return a | b; }
+
+/// Returns a where the condition holds, otherwise b.
 CRACKLE_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }
 CRACKLE_INLINE Lanes select(const LaneBits& condition, const Lanes& a, const Lanes& b) { return condition ? a : b; }
 
@@ -98,7 +104,7 @@ CRACKLE_INLINE Lanes root(const Lanes& v) {
     const char* from = reinterpret_cast<const char*>(&v);
     char* to = reinterpret_cast<char*>(&result);
 #if defined(__AVX512F__)
-    // Not _mm512_sqrt_pd(): g++ 12 warns of an uninitialised value within it.
+    // _mm512_sqrt_pd() is not used, because g++ 12 warns of an uninitialised value in it.
     store_as(to, _mm512_maskz_sqrt_pd(0xff, load_as<__m512d>(from)));
 #elif defined(__AVX__)
     for (std::size_t k = 0; k < sizeof v; k += 32) store_as(to + k, _mm256_sqrt_pd(load_as<__m256d>(from + k)));
@@ -113,7 +119,7 @@ CRACKLE_INLINE Lanes root(const Lanes& v) {
 CRACKLE_INLINE LaneBits bits_of(const Lanes& v) { return load_as<LaneBits>(&v); }
 CRACKLE_INLINE Lanes lanes_of(const LaneBits& v) { return load_as<Lanes>(&v); }
 
-/// Four-byte numbers that lie side by side, whatever their type, as eight-byte ones.
+/// Loads consecutive four-byte integers of any type and widens them to eight bytes.
 CRACKLE_INLINE LaneBits widened(const void* from) {
     typedef std::uint32_t Words __attribute__((vector_size(4 * lane_count)));
     typedef Words Loose __attribute__((aligned(4), may_alias));
@@ -127,13 +133,12 @@ CRACKLE_INLINE double with_sign(double size, double sign) { return std::copysign
 CRACKLE_INLINE Lanes with_sign(const Lanes& size, const Lanes& sign) {
     LaneBits bit = LaneBits{} + sign_bit;
 #if defined(__clang__) && defined(__AVX512F__)
-    asm(""
-        : "+v"(bit));  // clang 14 miscompiles what it knows to be a copysign under a mask: the number becomes 2^-1022
+    asm("" : "+v"(bit));  // hides the value from clang 14, which miscompiles a masked copysign (to 2^-1022)
 #endif
     return lanes_of((bits_of(size) & ~bit) | (bits_of(sign) & bit));
 }
 
-/// One bit a lane of a condition.
+/// A condition as a bit mask, one bit per lane.
 CRACKLE_INLINE unsigned mask_of(const LaneBits& v) {
     const char* from = reinterpret_cast<const char*>(&v);
 #if defined(__AVX512F__)
@@ -153,11 +158,17 @@ CRACKLE_INLINE unsigned mask_of(const LaneBits& v) {
 #endif
 }
 
-/// Whether a condition holds in some lane.
+/// Number of points for which a condition holds.
+CRACKLE_INLINE std::uint32_t count_of(bool condition) { return condition ? 1 : 0; }
+CRACKLE_INLINE std::uint32_t count_of(const LaneBits& v) {
+    return static_cast<std::uint32_t>(__builtin_popcount(mask_of(v)));
+}
+
+/// Whether the condition holds in any lane.
 CRACKLE_INLINE bool any(bool condition) { return condition; }
 CRACKLE_INLINE bool any(const LaneBits& condition) { return mask_of(condition) != 0; }
 
-/// Of each lane the number that its index names. @param table of eight numbers
+/// Looks up a table entry for each lane. @param table eight numbers
 CRACKLE_INLINE Lanes looked_up(const double* table, const LaneBits& index) {
 #if defined(__AVX512F__)
     const __m512d found = _mm512_maskz_permutexvar_pd(0xff, load_as<__m512i>(&index), load_as<__m512d>(table));
@@ -169,7 +180,7 @@ CRACKLE_INLINE Lanes looked_up(const double* table, const LaneBits& index) {
 #endif
 }
 
-/// Whether every bit of every lane is 0.
+/// Whether all bits of all lanes are 0.
 CRACKLE_INLINE bool none_of(bool condition) { return !condition; }
 CRACKLE_INLINE bool none_of(const LaneBits& v) {
 #if defined(__AVX512F__)
@@ -195,10 +206,10 @@ CRACKLE_INLINE bool none_of(const LaneBits& v) {
 #endif
 }
 
-/// Two pairs, anywhere.
+/// Loads two pairs of numbers and joins them into one vector.
 CRACKLE_INLINE Quad join(const double* a, const double* b) {
 #if defined(__AVX__)
-    // g++ does not fold the load of the second half into a shuffle of its own.
+    // An intrinsic is used, because g++ does not merge the load of the second half into a shuffle.
     return (Quad)_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(a)), _mm_loadu_pd(b), 1);
 #else
     return __builtin_shufflevector(load_as<Pair>(a), load_as<Pair>(b), 0, 1, 2, 3);
@@ -209,13 +220,13 @@ CRACKLE_INLINE Eight join(const double* a, const double* b, const double* c, con
     return __builtin_shufflevector(join(a, b), join(c, d), 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-/// Each number in as many lanes as points lie together: four, or all.
+/// Repeats each number in four lanes, or in all lanes if there are fewer.
 CRACKLE_INLINE Lanes lanes_of_fours(const double (&numbers)[1]) { return all_of<Lanes>(numbers[0]); }
 CRACKLE_INLINE Eight lanes_of_fours(const double (&numbers)[2]) {
     return __builtin_shufflevector(all_of<Quad>(numbers[0]), all_of<Quad>(numbers[1]), 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-/// The two numbers at each of the addresses. Pairs meet on their way from memory, which spares shuffles.
+/// Loads two adjacent numbers from each address. Pairs are combined while loading, which saves shuffles.
 CRACKLE_INLINE void gather_pairs(const double* const (&at)[2], Pair& first, Pair& second) {
     const Pair a = load_as<Pair>(at[0]), b = load_as<Pair>(at[1]);
     first = __builtin_shufflevector(a, b, 0, 2);
@@ -232,7 +243,7 @@ CRACKLE_INLINE void gather_pairs(const double* const (&at)[8], Eight& first, Eig
     second = __builtin_shufflevector(even, odd, 1, 9, 3, 11, 5, 13, 7, 15);
 }
 
-/// Records of four numbers that lie one behind the other.
+/// Stores records of four numbers consecutively, one record per lane.
 CRACKLE_INLINE void store_quads(void* to, const Pair& a, const Pair& b, const Pair& c, const Pair& d) {
     char* out = static_cast<char*>(to);
     store_as(out, __builtin_shufflevector(a, b, 0, 2));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a file of results names: a column, an array or a key, declared once where it is written. The file's header,
-// the `units` and `columns` of summary.json and the page specimens/results/FILES.md come from the declarations.
-// Tested by tests/tools/readme_test.py.
+// A named quantity in a results file (column, array or key), declared once in the code that writes it. The file's
+// header, `units` and `columns` in summary.json, and the page specimens/results/FILES.md are generated from the
+// declarations. Tested by tests/tools/readme_test.py.
 #pragma once
 
 #include <span>
@@ -11,27 +11,30 @@
 
 namespace crackle {
 
+/// Name, unit and meaning of a column, key or array.
 struct Quantity {
     const char* name;
-    const char* unit;       ///< "-" for a pure number, "" for what is none
-    const char* meaning;    ///< with the sign; summary.json states it behind the unit
-    const char* more = "";  ///< printed in FILES.md only
+    const char* unit;       ///< "-" for a dimensionless number, "" for a value that is not a number
+    const char* meaning;    ///< includes the sign convention; summary.json prints it after the unit
+    const char* more = "";  ///< additional text, printed only in FILES.md
 };
 
-/// As summary.json states it: "N/m, mean of both platens".
+/// Unit and meaning as printed in summary.json: "N/m, mean of both platens".
 inline std::string stated(const Quantity& q) {
     const std::string unit = q.unit, meaning = q.meaning;
     return unit.empty() || meaning.empty() ? unit + meaning : unit + ", " + meaning;
 }
 
-/// @throws std::logic_error if nothing of that name is declared: what is written must be
+/// Finds the declaration of a name. @throws std::logic_error if it is missing, since everything written must be
+/// declared
 inline const Quantity& declared(std::span<const Quantity> quantities, std::string_view name) {
     for (const Quantity& q : quantities)
         if (name == q.name) return q;
     throw std::logic_error("results: " + std::string(name) + " is written but not declared");
 }
 
-/// A line of comma-separated values, with line end: text_of() of each column that is wanted.
+/// One line of comma-separated values, with a newline at the end. It has text_of(column) for each column for which
+/// wanted(column) holds.
 template <class Columns, class Wanted, class TextOf>
 std::string table_line(const Columns& columns, const Wanted& wanted, const TextOf& text_of) {
     std::string line;

@@ -1,35 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plane vectors. Axes: x to the right, y up, angles counter-clockwise in rad.
+// Plane vectors. Axes: x to the right, y upwards; angles counter-clockwise, in rad.
 // Tested by tests/solver/geometry/geometry_test.cpp.
 #pragma once
 
 #include <cmath>
 
+#include "solver/base/fields.hpp"
+
 namespace crackle {
 
+/// A vector in the plane, in the unit of the quantity that it represents.
 struct Vec2 {
     double x = 0.0;
     double y = 0.0;
 
     friend bool operator==(const Vec2&, const Vec2&) = default;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("x", s.x);
-        visit("y", s.y);
-    }
+    CRACKLE_FIELDS(x, y);
 };
 
+/// Sum.
 inline Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
+/// Difference.
 inline Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+/// Negative of a vector.
 inline Vec2 operator-(Vec2 a) { return {-a.x, -a.y}; }
+/// Multiple.
 inline Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
+/// Multiple.
 inline Vec2 operator*(Vec2 a, double s) { return s * a; }
+/// Scalar product.
 inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }
-/// z component of a × b: positive when b lies counter-clockwise of a.
+/// z component of a × b; positive if b is counter-clockwise from a.
 inline double cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
+/// Length.
 inline double norm(Vec2 a) { return std::sqrt(dot(a, a)); }
-/// a turned by +90 degrees.
+/// The vector a rotated by +90 degrees.
 inline Vec2 perpendicular(Vec2 a) { return {-a.y, a.x}; }
 
 }  // namespace crackle

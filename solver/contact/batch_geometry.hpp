@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the bodies of several contact points meet, and how they move there: records turned into lanes.
+// Geometry and relative motion of several contact points at once: loads the states of the bodies into vector lanes.
 // Tested by tests/solver/contact/batch_test.cpp.
 #pragma once
 
@@ -9,14 +9,14 @@
 #include <type_traits>
 
 #include "solver/base/lanes.hpp"
+#include "solver/contact/pass_view.hpp"
 #include "solver/geometry/flat_faces.hpp"
 #include "solver/geometry/geometry.hpp"
 #include "solver/geometry/relative_motion.hpp"
-#include "solver/world/world.hpp"
 
 namespace crackle {
 
-/// Geometry of the points of a batch and how i moves against j there.
+/// Geometry of the points in a batch, and the motion of body i relative to body j at each point.
 template <class Contact>
 struct BatchGeometry {
     Contact contact;
@@ -30,14 +30,14 @@ struct FaceBatch : BatchGeometry<FlatFaceGeometry<Lanes>> {
 
 using BatchBodies = const BodyState* [lane_count];
 
-/// Two numbers that lie side by side, of each body of a batch. @param first of them
+/// Loads two adjacent numbers from the state of each body in a batch. @param first the first of the two numbers
 CRACKLE_INLINE void load_pairs(const BatchBodies& bodies, double BodyState::*first, Lanes& a, Lanes& b) {
     const double* at[lane_count];
     for (int l = 0; l < lane_count; ++l) at[l] = &(bodies[l]->*first);
     gather_pairs(at, a, b);
 }
 
-/// Of two single circles each.
+/// Geometry of a batch of contacts between single circles.
 CRACKLE_INLINE void circle_batch(const BatchBodies& i, const BatchBodies& j, CircleBatch& g) {
     static_assert(offsetof(BodyState, shape) == offsetof(BodyState, omega) + sizeof(double));
     Lanes ix, iy, jx, jy, ivx, ivy, jvx, jvy, spin_i, spin_j, radius_i, radius_j;
@@ -51,16 +51,16 @@ CRACKLE_INLINE void circle_batch(const BatchBodies& i, const BatchBodies& j, Cir
     g.motion = relative_motion<Lanes>(g.contact, {ivx - jvx, ivy - jvy, spin_i, spin_j});
 }
 
-/// The two bodies of each point of element_outline.
+/// Relative position and motion, and orientations, of the two bodies at each element_outline point in a batch.
 struct PairLanes {
-    Lanes dx, dy;  // m, of i from j
+    Lanes dx, dy;  // m, position of i relative to j
     PairMotion<Lanes> motion;
     Lanes cosine_i, sine_i, cosine_j, sine_j;
 };
 
-CRACKLE_INLINE PairLanes load_any_pairs(const World& world, const BodyPair* points) {
+CRACKLE_INLINE PairLanes load_any_pairs(const PassView& view, const BodyPair* points) {
     static_assert(offsetof(BodyState, angle) == offsetof(BodyState, shape) + 2 * sizeof(double));
-    const BodyState* const bodies = world.bodies.state.data();
+    const BodyState* const bodies = view.bodies.state;
     BatchBodies i, j;
     for (int l = 0; l < lane_count; ++l) {
         i[l] = &bodies[points[l].body_i];
@@ -83,7 +83,7 @@ CRACKLE_INLINE PairLanes load_any_pairs(const World& world, const BodyPair* poin
     return pair;
 }
 
-/// Of points that lie in fours, those whose body_i is not that of the first of them here.
+/// Mask of the lanes whose body_i differs from that of the first point in their group of four.
 CRACKLE_INLINE LaneBits swapped_lanes(const BodyPair* points) {
     typedef std::int32_t Words __attribute__((vector_size(4 * lane_count)));
     Words owners, firsts;
@@ -94,16 +94,18 @@ CRACKLE_INLINE LaneBits swapped_lanes(const BodyPair* points) {
     return __builtin_convertvector(owners != firsts, LaneBits);
 }
 
-/// The same where the points lie in fours between two bodies each, which are loaded once.
-CRACKLE_INLINE PairLanes load_fours(const World& world, const BodyPair* points) {
-    constexpr std::size_t fours = std::max(1, lane_count / 4);  // or half of one
+/// Loads the bodies of points stored in groups of four. All points of a group lie between the same two bodies, so each
+/// body is loaded only once per group.
+CRACKLE_INLINE PairLanes load_fours(const PassView& view, const BodyPair* points) {
+    // Number of groups in a batch; with two lanes, a batch is half a group, which counts as one.
+    constexpr std::size_t fours = std::max(1, lane_count / 4);
     const BodyState *a[fours], *b[fours];
     for (std::size_t f = 0; f < fours; ++f) {
         const BodyPair* const four = points + 4 * f;
-        a[f] = &world.bodies.state[four->body_i];
-        b[f] = &world.bodies.state[four->body_j];
+        a[f] = &view.bodies.state[four->body_i];
+        b[f] = &view.bodies.state[four->body_j];
     }
-    const LaneBits swapped = swapped_lanes(points);  // i is the second of the two
+    const LaneBits swapped = swapped_lanes(points);  // lanes in which body i is the second body of the group
     const LaneBits sign = swapped & sign_bit;
     const auto of_fours = [](const auto& number) {
         double numbers[fours];
@@ -128,52 +130,56 @@ CRACKLE_INLINE PairLanes load_fours(const World& world, const BodyPair* points) 
     return pair;
 }
 
-/// What is known of points of element_outline before the roots: kernels do this for many batches, then the roots for
-/// all of these, for one batch is a chain of calculations that the processor would wait for.
+/// Values of element_outline points before any square root is taken. Kernels compute these for many batches first and
+/// then take all roots. If they completed one batch at a time, the processor would wait for each result in a chain of
+/// dependent operations.
 struct OutlineStage {
     FacingElement<Lanes> element;
-    Lanes across, over;  // m, as in BeforeEdge, of the edge faced
-    Lanes tx, ty;        // direction of the edge, body frame of j
+    Lanes across, over;  // m, distance in front of the edge and distance beyond its end, as in BeforeEdge
+    Lanes tx, ty;        // unit direction of the edge in the body frame of j
     PairMotion<Lanes> motion;
 };
 
-/// What points that come later look at. In a mesh beyond the caches it comes from memory, from places that only the
-/// points name: a sixth of the step of 50,000 cells.
-CRACKLE_INLINE void prefetch_outlines(const World& world, const BodyPair* points, const PointParts* parts) {
+/// Prefetches the bodies and edges of later points. In a mesh larger than the caches, they are read from memory at
+/// addresses that the processor cannot predict. Without prefetching, waiting for them takes a sixth of a step with
+/// 50,000 cells.
+CRACKLE_INLINE void prefetch_outlines(const PassView& view, const BodyPair* points, const PointParts* parts) {
     constexpr std::ptrdiff_t points_ahead = 128;
-    if (world.points.contact.pairs.data() + world.points.fours_end - points < points_ahead + lane_count) return;
+    if (view.pairs + view.fours_end - points < points_ahead + lane_count) return;
     const BodyPair* const later = points + points_ahead;
     const PointParts* const later_parts = parts + points_ahead;
-    for (int l = 0; l < lane_count; ++l) __builtin_prefetch(&world.bodies.edges[later_parts[l].feature_j]);
-    for (int l = 0; l < lane_count; l += 2) __builtin_prefetch(&world.bodies.elements[later_parts[l].element_i]);
+    for (int l = 0; l < lane_count; ++l) __builtin_prefetch(&view.bodies.edges[later_parts[l].feature_j]);
+    for (int l = 0; l < lane_count; l += 2) __builtin_prefetch(&view.bodies.elements[later_parts[l].element_i]);
     for (int l = 0; l < lane_count; l += 4) {
-        __builtin_prefetch(&world.bodies.state[later[l].body_i]);
-        __builtin_prefetch(&world.bodies.state[later[l].body_j]);
+        __builtin_prefetch(&view.bodies.state[later[l].body_i]);
+        __builtin_prefetch(&view.bodies.state[later[l].body_j]);
     }
 }
 
-/// Points beyond which a scene is taken to be larger than the caches: some 8 MB.
+/// Number of points above which a scene is assumed to exceed the caches (about 8 MB).
 inline constexpr std::size_t points_in_cache = 50'000;
 
-/// Bodies that the points of circles name later on. Beyond the caches this spares a twentieth of a step; the points'
-/// own arrays come by themselves.
-CRACKLE_INLINE void prefetch_circles(const World& world, PointIndex k, PointIndex count) {
+/// Prefetches the bodies of later circle contacts and the list of body pairs. In scenes larger than the caches this
+/// saves 5 % of a step. The processor itself prefetches the other arrays of points.
+CRACKLE_INLINE void prefetch_circles(const PassView& view, PointIndex k, PointIndex count) {
     constexpr PointIndex bodies_ahead = 128, points_ahead = 256, points_in_line = 64 / sizeof(BodyPair);
-    if (k + count + points_ahead > world.points.kind_begin[1]) return;
-    const BodyPair* const points = world.points.contact.pairs.data() + k;
+    if (k + count + points_ahead > view.circle_points) return;
+    const BodyPair* const points = view.pairs + k;
     for (PointIndex l = 0; l < count; l += points_in_line) __builtin_prefetch(points + points_ahead + l);
     for (PointIndex l = 0; l < count; ++l) {
-        const BodyIndex j = points[bodies_ahead + l].body_j;  // i has been some other's j
-        __builtin_prefetch(&world.bodies.state[j]);
-        __builtin_prefetch(&world.bodies.force[j]);
+        const BodyIndex j =
+            points[bodies_ahead + l].body_j;  // body_i is not prefetched, because it was body_j of an earlier point
+        __builtin_prefetch(&view.bodies.state[j]);
+        __builtin_prefetch(&view.force[j]);
     }
 }
 
-/// The edge faced last and its corners are tried for all points; the search is left to geometry.hpp where one
-/// has got beyond them or the outline is not one convex piece. @tparam Fours all elements are corners of a mesh
+/// Computes the OutlineStage of a batch from the edge that each point faced last. If a point has moved beyond this edge
+/// and its corners, or if the outline is not one convex piece, face_outline() searches for the edge. @tparam Fours
+/// whether all elements are corners of a mesh
 template <bool Fours>
-CRACKLE_INLINE void outline_stage(const World& world, const BodyPair* points, PointParts* parts, const PairLanes& pair,
-                                  OutlineStage& stage) {
+CRACKLE_INLINE void outline_stage(const PassView& view, const BodyPair* points, PointParts* parts,
+                                  const PairLanes& pair, OutlineStage& stage) {
     static_assert(offsetof(Edge, cone) == offsetof(Edge, length) + sizeof(double));
     const double *elements[lane_count], *element_reaches[lane_count], *edges[lane_count], *edge_directions[lane_count],
         *edge_lengths[lane_count], *edge_ends[lane_count];
@@ -183,12 +189,12 @@ CRACKLE_INLINE void outline_stage(const World& world, const BodyPair* points, Po
     for (int l = 0; l < lane_count; ++l) {
         const Element* element = nullptr;
         if constexpr (Fours) {
-            element = &world.bodies.elements[parts[l].element_i];
+            element = &view.bodies.elements[parts[l].element_i];
         } else {
-            circles[l] = element_of(world, points[l].body_i, parts[l].element_i);
+            circles[l] = element_of(view.bodies, points[l].body_i, parts[l].element_i);
             element = &circles[l];
         }
-        const Edge& faced = world.bodies.edges[parts[l].feature_j];
+        const Edge& faced = view.bodies.edges[parts[l].feature_j];
         elements[l] = &element->x;
         element_reaches[l] = &element->radius;
         edges[l] = &faced.x;
@@ -216,16 +222,16 @@ CRACKLE_INLINE void outline_stage(const World& world, const BodyPair* points, Po
     stage.over = place.over;
     stage.tx = edge.tx, stage.ty = edge.ty;
     stage.motion = pair.motion;
-    // Whether the edge faced last is of an outline whose edges are all there is to face.
-    if (!world.bodies.convex_outlines) {
+    // The edge faced last can be used only if it belongs to an outline of body_j that is one convex piece.
+    if (!view.bodies.convex_outlines) {
         for (int l = 0; l < lane_count; ++l)
-            if (world.bodies.edges[parts[l].feature_j].outline_of != points[l].body_j) settled[l] = 0;
+            if (view.bodies.edges[parts[l].feature_j].outline_of != points[l].body_j) settled[l] = 0;
     }
     if (const unsigned search = mask_of(~settled); search != 0) {
         for (int l = 0; l < lane_count; ++l) {
             if ((search >> l & 1) == 0) continue;
             const OutlineFacing facing =
-                face_outline(world, world.bodies.info(points[l].body_j), parts[l].feature_j, px[l], py[l]);
+                face_outline(view.bodies, view.bodies.shape_of(points[l].body_j), parts[l].feature_j, px[l], py[l]);
             parts[l].feature_j = facing.edge;
             stage.across[l] = facing.distance;
             stage.over[l] = 0.0;
@@ -241,8 +247,8 @@ CRACKLE_INLINE void outline_batch(const OutlineStage& stage, double drift, Outli
     g.motion = relative_motion(g.contact, stage.motion, drift);
 }
 
-/// Of two single circles' flat faces each.
-CRACKLE_INLINE void face_batch(const World& world, const BodyPair* points, const PointParts* parts, FaceBatch& g) {
+/// Geometry of a batch of contacts between flat faces of single circles.
+CRACKLE_INLINE void face_batch(const PassView& view, const BodyPair* points, const PointParts* parts, FaceBatch& g) {
     static_assert(offsetof(FlatFace, to) == offsetof(FlatFace, from) + sizeof(double));
     static_assert(offsetof(FlatFace, along_y) == offsetof(FlatFace, along_x) + sizeof(double));
     BatchBodies i, j;
@@ -250,10 +256,9 @@ CRACKLE_INLINE void face_batch(const World& world, const BodyPair* points, const
         *directions[lane_count];
     Lanes sense;
     for (int l = 0; l < lane_count; ++l) {
-        i[l] = &world.bodies.state[points[l].body_i];
-        j[l] = &world.bodies.state[points[l].body_j];
-        const FlatFace &a = world.bodies.flat_faces[parts[l].element_i],
-                       &b = world.bodies.flat_faces[parts[l].feature_j];
+        i[l] = &view.bodies.state[points[l].body_i];
+        j[l] = &view.bodies.state[points[l].body_j];
+        const FlatFace &a = view.bodies.flat_faces[parts[l].element_i], &b = view.bodies.flat_faces[parts[l].feature_j];
         ends_i[l] = &a.from, ends_j[l] = &b.from;
         heights_i[l] = &a.height, heights_j[l] = &b.height;
         directions[l] = &a.along_x;
@@ -274,20 +279,22 @@ CRACKLE_INLINE void face_batch(const World& world, const BodyPair* points, const
     g.pair.vx = ix - jx, g.pair.vy = iy - jy;
     load_pairs(i, &BodyState::omega, g.pair.spin_i, unused);
     load_pairs(j, &BodyState::omega, g.pair.spin_j, unused);
-    g.motion = relative_motion<Lanes>(g.contact, g.pair, world.stepping.drift);
+    g.motion = relative_motion<Lanes>(g.contact, g.pair, view.drift);
 }
 
-/// What the forces of batches of a kind need to know of their bodies.
+/// Geometry type for batches of one kind of point.
 template <PointKind K>
 using BatchOf = std::conditional_t<K == PointKind::circle_circle, CircleBatch,
                                    std::conditional_t<K == PointKind::face_face, FaceBatch, OutlineBatch>>;
 
-/// Fills the geometry of batches that begin with point k. @tparam Fours they lie before Points::fours_end
+/// Computes the geometry of consecutive batches, starting at point k. @tparam Fours whether the points lie before
+/// Points::fours_end
 template <PointKind K, bool Fours, PointIndex Most>
-CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batches, BatchOf<K> (&geometry)[Most]) {
-    const BodyPair* points = world.points.contact.pairs.data() + k;
+CRACKLE_INLINE void geometry_batches(const PassView& view, PointIndex k, PointIndex batches,
+                                     BatchOf<K> (&geometry)[Most]) {
+    const BodyPair* points = view.pairs + k;
     if constexpr (K == PointKind::circle_circle) {
-        const BodyState* const bodies = world.bodies.state.data();
+        const BodyState* const bodies = view.bodies.state;
         for (std::size_t n = 0; n < batches; ++n, points += lane_count) {
             BatchBodies i, j;
             for (int l = 0; l < lane_count; ++l) {
@@ -297,21 +304,40 @@ CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batc
             circle_batch(i, j, geometry[n]);
         }
     } else if constexpr (K == PointKind::face_face) {
-        const PointParts* parts = world.points.contact.parts.data() + (k - world.points.kind_begin[1]);
+        const PointParts* parts = view.parts + (k - view.circle_points);
         for (std::size_t n = 0; n < batches; ++n, points += lane_count, parts += lane_count)
-            face_batch(world, points, parts, geometry[n]);
+            face_batch(view, points, parts, geometry[n]);
     } else {
         static_assert(K == PointKind::element_outline);
         OutlineStage stages[Most];
-        const bool in_memory = world.points.size() > points_in_cache;
-        PointParts* parts = world.points.contact.parts.data() + (k - world.points.kind_begin[1]);
+        const bool in_memory = view.points > points_in_cache;
+        PointParts* parts = view.parts + (k - view.circle_points);
         for (std::size_t n = 0; n < batches; ++n, points += lane_count, parts += lane_count) {
-            if (Fours && in_memory) prefetch_outlines(world, points, parts);
-            outline_stage<Fours>(world, points, parts,
-                                 Fours ? load_fours(world, points) : load_any_pairs(world, points), stages[n]);
+            if (Fours && in_memory) prefetch_outlines(view, points, parts);
+            outline_stage<Fours>(view, points, parts, Fours ? load_fours(view, points) : load_any_pairs(view, points),
+                                 stages[n]);
         }
-        for (PointIndex n = 0; n < batches; ++n) outline_batch(stages[n], world.stepping.drift, geometry[n]);
+        for (PointIndex n = 0; n < batches; ++n) outline_batch(stages[n], view.drift, geometry[n]);
     }
+}
+
+/// Number of batches whose geometry is computed first, so that their square roots and divisions overlap in time.
+inline constexpr PointIndex batches_ahead = 64 / lane_count;
+
+/// Computes the geometry of the next batches of a kind, from point k to at most `end`. @param fours_end the end of the
+/// points that are stored in groups of four @return the number of batches
+template <PointKind K>
+CRACKLE_INLINE PointIndex geometry_ahead(const PassView& view, PointIndex k, PointIndex fours_end, PointIndex end,
+                                         BatchOf<K> (&geometry)[batches_ahead]) {
+    const bool fours = k + lane_count <= fours_end;
+    const PointIndex batches = std::min<PointIndex>(batches_ahead, ((fours ? fours_end : end) - k) / lane_count);
+    if constexpr (K == PointKind::circle_circle)
+        if (view.points > points_in_cache) prefetch_circles(view, k, batches * lane_count);
+    if (fours)
+        geometry_batches<K, true>(view, k, batches, geometry);
+    else
+        geometry_batches<K, false>(view, k, batches, geometry);
+    return batches;
 }
 
 }  // namespace crackle

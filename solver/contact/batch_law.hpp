@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of several contact points at once: of one law in all lanes, or each lane's own, looked up in a table of all
+// Contact laws for a batch of points: one law in all lanes, or a separate law per lane, looked up in a table of all
 // laws. Tested by tests/solver/contact/batch_test.cpp.
 #pragma once
 
@@ -8,26 +8,26 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
-#include <vector>
+#include <span>
 
 #include "solver/base/lanes.hpp"
-#include "solver/contact/features.hpp"
-#include "solver/contact/law.hpp"
-#include "solver/world/world.hpp"
+#include "solver/contact/pass_view.hpp"
+#include "solver/laws/law.hpp"
 
 namespace crackle {
 
-/// The numbers of all laws, those of one kind side by side, where there are few.
+/// Constants of all contact laws, with the values of each constant stored contiguously. The table is used only if there
+/// are few laws.
 struct LawTable {
-    static constexpr std::size_t most_laws = 8;  // as many as the widest lanes look up at once
+    static constexpr std::size_t most_laws = 8;  // number of entries that the widest vector lanes can look up at once
     bool filled = false;
-    bool fits = false;  // no more than that, all with a shear spring or none
+    bool fits = false;  // whether there are at most most_laws laws, and either all or none of them have a shear spring
     alignas(64) double numbers[11][most_laws];
-    bool differ[11];  // from law to law
+    bool differ[11];  // for each constant: whether its value differs between laws
     bool stiffness_or_friction_differ;
 
-    void fill(const World& world) {
-        const std::vector<ContactLaw>& laws = world.settings.laws;
+    void fill(const PassView& view) {
+        const std::span laws(view.laws, view.law_count);
         const auto has_spring = [](const ContactLaw& law) { return law.shear_stiffness > 0.0; };
         const auto springs = std::count_if(laws.begin(), laws.end(), has_spring);
         filled = true;
@@ -54,31 +54,35 @@ struct LawTable {
     }
 };
 
-/// Law of the points of a batch: kept from one batch to the next where they are all of one, else found for each.
+/// Laws of the points in a batch. If all points have the same law, it is reused for the next batch; otherwise laws are
+/// loaded for each batch.
 struct BatchLaw {
-    BatchLaw(const World& world, std::uint16_t number_of_law) { take(world, number_of_law); }
+    BatchLaw(const PassView& view, std::uint16_t number_of_law) { take(view, number_of_law); }
 
-    void take(const World& world, std::uint16_t number_of_law) {
-        law = Law<Lanes>(world.settings.laws[number_of_law]);
+    void take(const PassView& view, std::uint16_t number_of_law) {
+        law = Law<Lanes>(view.laws[number_of_law]);
         number = number_of_law;
     }
 
     Law<Lanes> law;
-    LaneBit number = several_laws;  // into Settings::laws
+    LaneBit number = several_laws;  // index into Settings::laws, or several_laws
     LawTable table;
 
     static constexpr LaneBit several_laws = -1;
 };
 
-/// Each point's law. @param numbers of the laws @return whether lanes can have them: all with a shear spring, or none
+/// Loads each point's law. @param numbers the indices of the laws @return false if the batch mixes laws with and
+/// without a shear spring
 template <class Features>
-CRACKLE_INLINE bool load_laws(const Features& has, const World& world, const PointState* states,
+CRACKLE_INLINE bool load_laws(const Features& has, const PassView& view, const PointState* states,
                               const LaneBits& numbers, BatchLaw& batch) {
+    constexpr bool given = Features::Bond::facts.strengths_are_given;
     Law<Lanes>& law = batch.law;
     batch.number = BatchLaw::several_laws;
-    if (!batch.table.filled) batch.table.fill(world);
+    if (!batch.table.filled) batch.table.fill(view);
     if (batch.table.fits) {
-        // What all laws have alike is there from the batch before: to write it again costs more than to ask.
+        // Constants that are equal in all laws are still in place from the previous batch; checking costs less than
+        // writing them again.
         const auto look_up = [&](std::size_t n, Lanes& number) {
             if (batch.table.differ[n]) number = looked_up(batch.table.numbers[n], numbers);
         };
@@ -91,8 +95,8 @@ CRACKLE_INLINE bool load_laws(const Features& has, const World& world, const Poi
             look_up(5, law.shear_damping_ratio_term);
         }
         if (has.friction) look_up(6, law.friction);
-        if (has.bonds && !has.coulomb) look_up(7, law.break_overlap);
-        if (has.coulomb) {
+        if (has.bonds && !given) look_up(7, law.break_overlap);
+        if (has.bonds && given) {
             look_up(8, law.tensile_strength);
             look_up(9, law.cohesion);
             look_up(10, law.bond_friction);
@@ -103,7 +107,7 @@ CRACKLE_INLINE bool load_laws(const Features& has, const World& world, const Poi
     const ContactLaw* laws[lane_count];
     int springs = 0;
     for (int l = 0; l < lane_count; ++l) {
-        laws[l] = &world.settings.laws[states[l].law];
+        laws[l] = &view.laws[states[l].law];
         springs += laws[l]->shear_stiffness > 0.0 ? 1 : 0;
     }
     if (springs != 0 && springs != lane_count) return false;
@@ -119,7 +123,7 @@ CRACKLE_INLINE bool load_laws(const Features& has, const World& world, const Poi
         load(&ContactLaw::normal_damping, law.normal_damping, law.shear_damping);
         load(&ContactLaw::normal_damping_ratio_term, law.normal_damping_ratio_term, law.shear_damping_ratio_term);
     }
-    if (has.coulomb) {
+    if (has.bonds && given) {
         Lanes unused;
         load(&ContactLaw::tensile_strength, law.tensile_strength, law.cohesion);
         load(&ContactLaw::bond_friction, law.bond_friction, unused);

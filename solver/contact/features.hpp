@@ -1,28 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the contacts of a scene have. Kernels ask `has.friction` of a set of features: of a ContactFeatures while they
-// run, of a CompiledFeatures when they are compiled, which drops what is absent.
+// Features that the contacts of a scene use. Kernels test them through a parameter, for example `has.friction`.
+// FeaturesOf tests them at run time. CompiledFeatures tests them at compile time, which removes unused code
+// (kernels.cpp).
 // Tested by tests/solver/contact/batch_test.cpp.
 #pragma once
 
+#include "solver/laws/bond_law.hpp"
+
 namespace crackle {
 
+/// Features that the contact points of a scene need. The kernels for common sets contain only the code for these
+/// features.
 struct ContactFeatures {
-    bool friction = false;  // any law with μ > 0
-    bool damping = false;   // any law with a dashpot
+    bool friction = false;  // whether any law has μ > 0
+    bool damping = false;   // whether any law has a dashpot
     bool bonds = false;
-    bool consistent = false;  // first and last steps of contacts by opening.hpp
-    bool own_shares = false;  // of stiffness and strength
-    bool coulomb = false;     // bonds by coulomb_bond.hpp; these have friction and own_shares, too
-    bool own_shear = false;   // shares of shear stiffness, across joints; these have coulomb, too
+    bool consistent = false;  // whether the consistent integrator is used (opening.hpp)
+    bool own_shares = false;  // whether each point has its own stiffness and strength factors
+    bool own_shear = false;   // whether points across joints have their own shear stiffness factor
+    BondLaw bond_law{};       // law of the bonds; the first enumerator if there are no bonds
 
     friend constexpr bool operator==(const ContactFeatures&, const ContactFeatures&) = default;
-};
-
-template <ContactFeatures F>
-struct CompiledFeatures {
-    explicit CompiledFeatures(const ContactFeatures&) {}
-    static constexpr bool friction = F.friction, damping = F.damping, bonds = F.bonds, consistent = F.consistent,
-                          own_shares = F.own_shares, coulomb = F.coulomb, own_shear = F.own_shear;
 };
 
 }  // namespace crackle

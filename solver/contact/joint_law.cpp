@@ -3,20 +3,14 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
-
-#include "solver/base/correctly_rounded.hpp"
 
 namespace crackle {
 namespace {
 
-double tangent_of(double degrees) { return correctly_rounded::tan(degrees * std::numbers::pi / 180.0); }
-
-/// N, of a bond that holds without force and breaks as soon as it is pulled.
+/// N, strength of a bond that holds while unloaded and breaks under the slightest tension.
 constexpr double least_strength = std::numeric_limits<double>::min();
 
-/// Of what remains where a spring of the stiffness `own` is put in series with `other`: k/own, k = own other/(own +
-/// other).
+/// Factor by which another spring in series reduces a spring's stiffness: k/own, with k = own·other/(own + other).
 double left_of(double own, double other) { return 1.0 / (1.0 + own / other); }
 
 }  // namespace
@@ -24,11 +18,11 @@ double left_of(double own, double other) { return 1.0 / (1.0 + own / other); }
 ContactLaw law_across(const ContactLaw& rock, const Joint& joint, const IntactOptions& intact) {
     ContactLaw law = rock;
     if (!intact.no_sliding) {
-        if (joint.friction_angle) law.bond_friction = law.friction = tangent_of(*joint.friction_angle);
+        if (joint.friction_angle) law.bond_friction = law.friction = friction_coefficient(*joint.friction_angle);
         if (joint.residual_friction_angle)
-            law.friction = std::min(tangent_of(*joint.residual_friction_angle), law.bond_friction);
+            law.friction = std::min(friction_coefficient(*joint.residual_friction_angle), law.bond_friction);
     }
-    law.dilation = tangent_of(joint.dilation_angle);
+    law.dilation = friction_coefficient(joint.dilation_angle);
     if (!intact.no_breaking) {
         law.tensile_strength = joint.tensile_strength.value_or(joint.strength_factor * rock.tensile_strength);
         law.tensile_strength = std::max(law.tensile_strength, least_strength);

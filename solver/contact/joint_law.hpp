@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contact laws across joints: the rock's with what a Joint has in its place. Stiffnesses a length are no part of them:
-// in series with a face they depend on its length and its bodies, and are in its points' shares.
+// Contact laws across joints: the laws of the rock with the joint's own values substituted. The joint's stiffnesses per
+// length are not part of these laws. They act in series with the stiffness of a face, which depends on its length and
+// its two bodies, so they are included in the points' stiffness factors.
 // Tested by tests/solver/contact/joint_law_test.cpp.
 #pragma once
 
@@ -10,22 +11,23 @@
 
 namespace crackle {
 
-/// @param rock of the same two materials
+/// Law of the contacts across a joint. @param rock the law of the same two materials without a joint
 ContactLaw law_across(const ContactLaw& rock, const Joint& joint, const IntactOptions& intact);
 
-/// Finds the laws across joints, behind the others in `settings.laws`, from those of the material pairs again.
+/// Derives the laws across joints from those of the material pairs and appends them to `settings.laws`.
 void derive_joint_laws(Settings& settings);
 
-/// Shares of the face's own stiffnesses that are left in series with a joint's.
+/// Factors by which a joint's springs, acting in series with a face, reduce the face's own stiffnesses.
 struct SeriesShares {
     double normal = 1.0, shear = 1.0;
     double root_of_shear() const { return std::sqrt(shear / normal); }  ///< Points::shear_root
 };
-/// @param law of the point, its stiffnesses those of a face as long as its bodies are apart, Pa
-/// @param distance m, over which the face's own stiffness acts
+/// Computes the factors for one face. @param law the point's law, with stiffnesses in Pa for a face as long as the
+/// distance between its bodies
+/// @param distance the length over which the face's own stiffness acts, m
 SeriesShares in_series_with(const Joint& joint, const ContactLaw& law, double distance);
 
-/// Of a point by its law; all where that is not of a joint.
+/// Factors for point k; both are 1 if the point does not lie across a joint.
 SeriesShares series_shares(const World& world, PointIndex k, double distance);
 
 }  // namespace crackle

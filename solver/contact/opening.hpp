@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Normal force of an unbonded point under the consistent integrator: leapfrog, but for a contact's first and last step.
+// Normal force of an unbonded point under the consistent integrator: leapfrog, except in a contact's first and last
+// steps.
 //
-// Leapfrog conserves ½mv²(n+½) + ½kδ(n)δ(n+1) while a linear spring is closed. It loses count where a contact opens or
-// closes within a step: a bounce changes the energy by what depends on where in the step it falls, a random walk that
-// grows with the square of the step. Here the invariant is taken with the clipped overlap δ+ = max(δ, 0), which asks of
-// the first and the last step of a contact, and of no other, for the time-symmetric force
-//     f(n) = kδ(n) (δ+(n+1) - δ+(n-1)) / (δ(n+1) - δ(n-1)),
-// explicitly: with p the next overlap without this force, κ = k·kick·dt/m and q, r, x the clipped overlaps,
+// Leapfrog conserves ½mv²(n+½) + ½kδ(n)δ(n+1) while a linear spring is closed, but not if a contact opens or closes
+// within a step. Each bounce then changes the energy by an amount that depends on its time within the step: a random
+// walk whose size grows with the square of the step. Here the clipped overlap δ+ = max(δ, 0) takes the place of δ in
+// the conserved energy. This requires, only in the first and the last step of a contact, the time-symmetric force
+//     f(n) = kδ(n) (δ+(n+1) - δ+(n-1)) / (δ(n+1) - δ(n-1)).
+// Let p be the next overlap without this force, κ = k·kick·dt/m, and q, r, x clipped overlaps. The explicit solution is
 //     first step, q = max(-δ(n-1), 0):   x = ½(b + √(b² + 4pq)),  b = p - q - κδ
 //     last step,  r = max(δ(n-1), 0):    x = ½(p + r - √((p - r)² + 4κe)),  e = rδ + 2D/k;     f = (p - x)k/κ.
-// p needs what else pushes at the point: its bodies' accelerations of the last step stand in for those of this one.
-// What the energy misses by that goes into the point's defect D, J, and is made good in its next last step.
-// Where what the bodies' last kick has done at most, and the change of this point's own force, cannot part the point,
-// the force is kδ: stays_closed() says so without a look at the accelerations.
-// Exact for one disc up to the limit; for many it keeps the error bounded. δ [m], k [N/m], m [kg] effective along the
-// normal. A dashpot is the lagged one, inside p. Restitution stays first order in the step with it.
-// Tested by tests/solver/contact/opening_test.cpp and, with the energies that follow, by
+// p depends on the other forces on the bodies. Their accelerations in the last step are used as an estimate for this
+// step. The resulting energy error is added to the point's defect D, J, and corrected when the contact opens. If
+// neither the largest effect of the bodies' last kick nor the change of this point's force can open the contact, the
+// force is kδ. stays_closed() decides this from bounds, without reading the accelerations. The method is exact for one
+// disc up to the stability limit; for many discs it keeps the error bounded. δ [m], k [N/m], m [kg] effective along the
+// normal. The lagged dashpot force is included in p. With dashpots, the error of restitution is of first order in the
+// step.
+// Tested by tests/solver/contact/opening_test.cpp; the resulting energies are tested by
 // tests/verification/claims_test.cpp.
 #pragma once
 
@@ -23,32 +25,34 @@
 #include <cmath>
 
 #include "solver/base/lanes.hpp"
-#include "solver/world/world.hpp"
+#include "solver/world/points.hpp"
 
 namespace crackle {
 
-/// What a point of the consistent integrator meets in a force pass.
+/// Values of a contact point that the consistent integrator needs in a force pass.
 struct ClosingPoint {
     double overlap;       // δ(n), m
-    double closing;       // v(n-½) along the normal, m/s
-    double acceleration;  // closing, of the last kick, m/s2: this point's own force included
-    double inverse_mass;  // 1/kg; 0: both sides held along the normal
+    double closing;       // m/s, closing velocity v(n-½) along the normal
+    double acceleration;  // m/s2, closing acceleration in the last kick, including this point's own force
+    double inverse_mass;  // 1/kg; 0 if both sides are held along the normal
     double stiffness;     // N/m
-    double dashpot;       // N
-    double drift;         // s, that led here
-    double kick, step;    // s, coming kick and drift
+    double dashpot;       // N, normal dashpot force
+    double drift;         // s, length of the drift that led to the current positions
+    double kick, step;    // s, lengths of the next kick and drift
 };
 
-/// What the bodies of a point have done in their last kick at most, and their inverse masses, summed.
+/// Bounds for a point, each the sum over its two bodies: largest acceleration in the last kick, and inverse mass.
 template <class Number>
 struct PushBounds {
     Number acceleration;  // m/s2
     Number inverse_mass;  // 1/kg
 };
 
-/// Whether a closed point surely is not in its last step: p - κδ > 0 whatever its bodies' accelerations are within the
-/// bounds. Rounding is some 1e-15 of the terms; a millionth of them is left for it.
-/// @param last, dashpot N, of the last force pass and of this one  @param kick, step s
+/// Whether a closed point certainly does not open in this step: p - κδ > 0 for all accelerations within the bounds.
+/// Round-off is about 1e-15 of the terms; the margin is 1e-6 of them.
+/// @param last the force of spring and dashpot in the last force pass, N @param dashpot the dashpot force in this pass,
+/// N
+/// @param kick, step the lengths of the next kick and drift, s
 template <class Number>
 CRACKLE_INLINE Condition<Number> stays_closed(const Number& stiffness, const Number& overlap, const Number& closing,
                                               const Number& last, const Number& dashpot,
@@ -58,9 +62,9 @@ CRACKLE_INLINE Condition<Number> stays_closed(const Number& stiffness, const Num
     return overlap + step * closing - parted > 1e-6 * (overlap + step * magnitude(closing));
 }
 
-/// Closes the account of the last step's force. To be called at every force pass of an unbonded point, before
-/// opening_force(). @param last overlap in the last force pass, m; unset in a new point @return the overlap one step
-/// ago
+/// Completes the energy defect of the last step's force. Call it in every force pass of an unbonded point, before
+/// opening_force(). @param last the overlap in the last force pass, m; NaN for a new point @return the overlap one step
+/// ago, m
 inline double settle_opening(OpeningMemory& memory, double last, bool touched, const ClosingPoint& a) {
     const double before = std::isnan(last) ? a.overlap - a.closing * a.drift : last;
     if (touched) {
@@ -71,13 +75,14 @@ inline double settle_opening(OpeningMemory& memory, double last, bool touched, c
     return before;
 }
 
-/// Spring force at δ(n) > 0, N. @param touched in contact in the last pass too  @param before δ(n-1), m
-/// @param last force of spring and dashpot in the last force pass, N
+/// Spring force at δ(n) > 0, N. @param touched whether the point was in contact in the last force pass @param before
+/// δ(n-1), m
+/// @param last the force of spring and dashpot in the last force pass, N
 inline double opening_force(OpeningMemory& memory, double last, bool touched, double before, const ClosingPoint& a) {
     const double k = a.stiffness, d = a.overlap;
     const double plain = k * d;
     const double u = a.kick * a.step * a.inverse_mass, kappa = k * u;
-    // Overlap to come without the spring.
+    // Next overlap without the spring.
     const double others = a.acceleration + last * a.inverse_mass;
     const double p = d + (a.closing + others * a.kick) * a.step - u * a.dashpot;
     double force = plain;
@@ -101,8 +106,8 @@ inline double opening_force(OpeningMemory& memory, double last, bool touched, do
     return force;
 }
 
-/// Energy of a point at time n beyond that of its spring at δ(n), J; open points may still have some to settle.
-/// @param overlap m; unset in a new point
+/// Energy of a point at time n in excess of its spring energy at δ(n), J. It can be non-zero for open points.
+/// @param overlap the overlap in the last force pass, m; NaN for a new point
 inline double opening_energy(const OpeningMemory& memory, double overlap) {
     return memory.defect + 0.5 * memory.extra_force * (std::isnan(overlap) ? 0.0 : overlap);
 }

@@ -6,16 +6,23 @@
 #include "solver/base/chosen_set.hpp"
 
 namespace crackle {
+namespace {
+
+/// Start of an array, or null if the world does not keep it.
+template <class T>
+T* start_of(Array<T>& values) {
+    return values.empty() ? nullptr : values.data();
+}
+
+}  // namespace
 
 ContactFeatures features_of(const World& world) {
-    ContactFeatures features{false,
-                             false,
-                             world.bonds.made,
-                             !world.points.opening.empty(),
-                             world.settings.own_shares(),
-                             world.bonds.made && world.settings.bond_law == BondLaw::coulomb,
-                             !world.points.shear_root.empty()};
-    features.friction = features.coulomb || world.bonds.held > 0;
+    ContactFeatures features{.bonds = world.bonds.made,
+                             .consistent = !world.points.opening.empty(),
+                             .own_shares = world.settings.own_shares(),
+                             .own_shear = !world.points.shear_root.empty()};
+    if (features.bonds) features.bond_law = world.settings.bond_law;
+    features.friction = (features.bonds && facts_of(features.bond_law).sticks) || world.bonds.held > 0;
     const std::size_t pairs = world.settings.pair_count();
     for (std::size_t number = 0; number < world.settings.laws.size(); ++number) {
         const ContactLaw& law = world.settings.laws[number];
@@ -45,13 +52,54 @@ PointBlock block_of(const World& world, std::size_t kind, PointIndex block, Poin
             first_block_of(world, kind) + block, forces};
 }
 
+PassView::PassView(World& world)
+    : bodies(world),
+      force(world.bodies.force.data()),
+      inertia(world.bodies.inertia.data()),
+      last_force(world.bodies.last_force.data()),
+      push_bound(world.bodies.push_bound.data()),
+      gravity(world.settings.gravity),
+      points(static_cast<PointIndex>(world.points.size())),
+      circle_points(world.points.kind_begin[1]),
+      fours_end(world.points.fours_end),
+      pairs(world.points.contact.pairs.data()),
+      parts(world.points.contact.parts.data()),
+      root_mass(world.points.root_mass.data()),
+      state(world.points.state.data()),
+      shear_force(world.points.shear_force.data()),
+      bond_overlap(world.points.bond_overlap.data()),
+      stiffness_share(start_of(world.points.stiffness_share)),
+      strength_share(start_of(world.points.strength_share)),
+      shear_root(start_of(world.points.shear_root)),
+      lap(start_of(world.points.lap)),
+      normal_dashpot(world.points.normal_dashpot.data()),
+      shear_dashpot(world.points.shear_dashpot.data()),
+      spring_work(world.points.spring_work.data()),
+      opening(world.points.opening.data()),
+      last_overlap(world.points.last_overlap.data()),
+      last_normal(world.points.last_normal.data()),
+      strong_normal(world.points.strong_normal.data()),
+      strong_shear(world.points.strong_shear.data()),
+      laws(world.settings.laws.data()),
+      law_count(world.settings.laws.size()),
+      first_joint_law(world.settings.first_joint_law()),
+      laws_of_joint(world.settings.pair_count()),
+      joints(world.settings.joints.data()),
+      drift(world.stepping.drift),
+      time_step(world.stepping.time_step),
+      kick(kick_before(world.stepping) + 0.5 * world.stepping.time_step),
+      account_begun(world.account.begun),
+      one_by_one(world.workers.one_by_one),
+      losses(world.account.blocks.data()) {}
+
 void geometry_pass(World& world) {
+    const PassView view(world);
     const auto kernel_of = of_chosen_set([]<InstructionSet S>() { return &geometry_kernel_of<S>; });
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         const GeometryKernel kernel = kernel_of(kind);
         const PointIndex blocks = blocks_of_kind(world, kind);
 #pragma omp for schedule(static) nowait
-        for (PointIndex b = 0; b < blocks; ++b) kernel(world, block_of(world, kind, b, nullptr));
+        for (PointIndex b = 0; b < blocks; ++b) kernel(view, block_of(world, kind, b, nullptr));
     }
 }
 

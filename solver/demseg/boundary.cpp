@@ -19,14 +19,14 @@ namespace crackle {
 namespace {
 
 constexpr std::int64_t largest_id = std::numeric_limits<int>::max();
-constexpr std::int64_t largest_step = 1'000'000'000'000;  // sums of a few stay far below overflow
+constexpr std::int64_t largest_step = 1'000'000'000'000;  // sums of a few values of this size stay far below overflow
 
 DofControl read_dof(DeckReader& reader, int id, const char* flag, const char* value) {
     const bool displacement = reader.integer(fmt::format("body {}: {}", id, flag), 0, 1) == 1;
     return {displacement ? Drive::displacement : Drive::force, reader.number(fmt::format("body {}: {}", id, value))};
 }
 
-/// Whether no force can move the body.
+/// Whether the control holds the body completely, so that no force can move it.
 bool holds(const BodyControl& control) {
     return control.x.drive == Drive::displacement && control.y.drive == Drive::displacement &&
            control.rotation.drive == Drive::displacement;
@@ -58,7 +58,7 @@ BoundaryConditions read_boundary(DeckReader& reader) {
     std::unordered_set<int> ids;
     for (std::int64_t k = 0; k < watched; ++k) {
         const std::string key = fmt::format("id {} of npfd", k + 1);
-        // The guide does not show whether they are of one READ.
+        // The DEMseg guide does not show whether a single READ statement reads all these ids.
         if (k == 0 || !reader.numbers_follow(1)) reader.begin_read();
         const int id = static_cast<int>(reader.integer(key, 1, largest_id));
         if (!ids.insert(id).second) reader.refuse(key, fmt::format("{} a second time", id), "each body once");

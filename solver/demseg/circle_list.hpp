@@ -6,8 +6,8 @@
 
 namespace crackle {
 
-/// What a text is that lists circles or spheres, one a line, and is no deck: "x y", "x y r" or "x y z r", with radii
-/// above 0. Empty for any other text.
+/// If a text is not a deck but lists circles or spheres, one per line, returns the format of the lines: "x y", "x y r"
+/// or "x y z r" (radii > 0). Empty for any other text.
 std::string_view circle_list_form(std::string_view text);
 
 }  // namespace crackle

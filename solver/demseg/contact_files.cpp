@@ -24,10 +24,11 @@
 namespace crackle {
 namespace {
 
-/// A point as the files name it, seen from one of its bodies.
+/// Identification of a point in the files, as seen from one of its bodies.
 struct PointName {
-    int body, other;       // input ids; walls negative
-    int element, partner;  // from 1; 0: outline or wall; segments under the guide's law by their number
+    int body, other;  // input ids; negative for walls
+    int element,
+        partner;  // counted from 1; 0 for an outline or wall; with the DEMseg guide's segment law, segment numbers
     auto operator<=>(const PointName&) const = default;
 
     PointName seen_from_other() const { return {other, body, partner, element}; }
@@ -37,8 +38,8 @@ int number_of(const BodyInfo& info, std::uint32_t element) {
     return static_cast<int>(element - info.first_element) + 1;
 }
 
-/// One of the two names of a point, always the same one: whoever owns the element, of two circles or segments the lower
-/// id, of a circle and a segment the circle's.
+/// The standard identification of a point, as seen from the body that owns the element. For two circles or two segments
+/// this is the body with the lower id; for a circle and a segment, the circle's body.
 PointName name_of(const World& world, PointIndex k) {
     const PointKind kind = view_point(world, k).kind;
     const ContactPoint point = world.points.contact[k];
@@ -55,14 +56,14 @@ bool is_wall(PointIndex k, const World& world) {
     return k >= world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
 }
 
-/// Points by name, in name order, each under one name.
+/// Indices of points by their standard identification.
 std::map<PointName, PointIndex> points_by_name(const World& world) {
     std::map<PointName, PointIndex> points;
     for (PointIndex k = 0; k < world.points.size(); ++k) points.emplace(name_of(world, k), k);
     return points;
 }
 
-/// Bodies of the scene by id, with the number of their elements.
+/// Bodies of the scene by id, with the numbers of their elements.
 class BodyNames {
   public:
     explicit BodyNames(const Scene& scene) {
@@ -81,10 +82,10 @@ class BodyNames {
 
 int element_count(const Body& body) { return static_cast<int>(body.circle_count + body.vertex_count); }
 
-/// Both bodies single circles: the guide's two columns suffice.
+/// Whether both bodies are single circles, for which the two columns of the DEMseg guide are sufficient.
 bool plain_pair(const Body& a, const Body& b) { return a.circle_count == 1 && b.circle_count == 1; }
 
-/// Per body of the scene `id count`, then its lines.
+/// Lines to be written after the line `id count` of each body, by body id.
 using LinesOfBodies = std::unordered_map<int, std::vector<std::pair<PointName, std::string>>>;
 
 void write_lists(std::ostream& out, const Scene& scene, LinesOfBodies& lines) {
@@ -102,12 +103,12 @@ double back_tension(const World& world, PointIndex k) {
                : 0.0;
 }
 
-/// δ0 as back_tension() would give it back.
+/// The overlap δ0 that corresponds to a back-tension.
 double bond_overlap(const World& world, PointIndex k, double tension) {
     return -tension / law_of(world, k).normal_stiffness;
 }
 
-/// Reads `id count` of the next list; the lists follow the bodies of the scene.
+/// Reads the line `id count` of the next list; lists must be in the order of the bodies in the scene.
 std::int64_t read_list_head(DeckReader& reader, const Body& body) {
     reader.begin_read();
     const std::int64_t id = reader.integer("body id", 1, std::numeric_limits<int>::max());
@@ -122,7 +123,8 @@ std::unordered_map<int, BodyIndex> indices_by_id(const World& world) {
     return indices;
 }
 
-/// Whether a point that touched a step ago can have left the list: its surfaces moved apart by more than the skin.
+/// Whether a contact point that was touching one step ago can have left the neighbour list, because its surfaces
+/// separated by more than the skin.
 bool may_have_parted(const World& world, const std::unordered_map<int, BodyIndex>& index_of, const PointName& name) {
     double speed = 0.0;
     for (const int id : {name.body, name.other}) {
@@ -180,15 +182,15 @@ void read_contacts(DeckReader& reader, const Scene& scene, World& world) {
             const std::string contact = fmt::format("body {}: contact {}", body.id, c + 1);
             const std::string with = partner == nullptr ? fmt::format("wall {}", other) : fmt::format("body {}", other);
             auto found = points.find(name);
-            // Seen from the other body both the normal and the force turn round: the number is the same.
+            // Seen from the other body, the normal and the shear force are both reversed, so the value is the same.
             if (found == points.end()) found = points.find(name.seen_from_other());
             if (found == points.end()) {
-                // One that opened by more than the list reaches in its last step is over; a bond would have broken.
+                // A contact that opened by more than the skin in its last step has ended; a bond would have broken.
                 if (tension == 0.0 && may_have_parted(world, index_of, name)) continue;
                 reader.refuse(
                     contact,
                     fmt::format("no contact of its element {} with element {} of {}", name.element, name.partner, with),
-                    "them to touch; are in_gm.dat and in_cf.dat of one run?");
+                    "them to touch; check that in_gm.dat and in_cf.dat are from the same run");
             }
             if (!entered.insert(found->second).second)
                 reader.refuse(contact, fmt::format("the contact with {} a second time", with),
@@ -246,9 +248,9 @@ void read_back_tensions(DeckReader& reader, const Scene& scene, World& world) {
             if (!plain_pair(body, *partner)) {
                 if (!reader.numbers_follow(2)) {
                     reader.refuse(fmt::format("body {}: back-tension {}", body.id, c + 1),
-                                  "nothing that names the elements behind the value",
+                                  "no element numbers after the value",
                                   fmt::format("other body, value, own_element and other_element, because bodies {} and "
-                                              "{} are not both single circles; leave the file away to bond all that "
+                                              "{} are not both single circles; remove the file to bond all bodies that "
                                               "overlap",
                                               body.id, other));
                 }
@@ -272,9 +274,10 @@ void read_back_tensions(DeckReader& reader, const Scene& scene, World& world) {
         const auto found = points.find(name);
         if (found == points.end()) {
             if (points.contains(name.seen_from_other()) || listing.tension == 0.0) continue;
-            throw InputError(fmt::format(
-                "{}: found no contact there, expected bonded bodies to touch; are in_gm.dat and in_cf0.dat of one run?",
-                where));
+            throw InputError(
+                fmt::format("{}: found no contact, expected bonded bodies to touch; check that in_gm.dat and "
+                            "in_cf0.dat are from the same run",
+                            where));
         }
         if (listing.tension == 0.0) continue;
         world.points.bond_overlap[found->second] = bond_overlap(world, found->second, listing.tension);

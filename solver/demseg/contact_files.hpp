@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// in_cf.dat and in_cf0.dat: what contacts remember (shear springs, bonds) and back-tensions. Formats: FORMATS.md.
+// in_cf.dat and in_cf0.dat: state of the contacts (shear springs, bonds), and back-tensions. Formats: FORMATS.md.
 //
-// A contact point is named by its two bodies and their elements: circles and corners are numbered from 1 as in
-// in_gm.dat, 0 stands for a body's whole outline (or for a wall). Walls are bodies -1 left, -2 right, -3 bottom, -4
-// top.
+// A contact point is identified by its two bodies and their elements. Circles and corners are numbered from 1 as in
+// in_gm.dat; 0 denotes a body's whole outline, or a wall. The walls are bodies -1 (left), -2 (right), -3 (bottom) and
+// -4 (top).
 // Tested by tests/solver/demseg/files_test.cpp.
 #pragma once
 
@@ -16,18 +16,21 @@ namespace crackle {
 
 class DeckReader;
 
-/// in_cf.dat: shear force, back-tension and slid flag of every point that touches or is bonded. Call before the force
-/// pass at the present positions, so that a reader finds springs and positions as the next force pass needs them.
-/// @param scene gives the order of the bodies.
+/// Writes in_cf.dat: shear force, back-tension and slid flag of every point that touches or is bonded. Call this before
+/// the force pass at the current positions: the next force pass of a continued run starts from these spring forces and
+/// positions.
+/// @param scene determines the order of the bodies
 void write_contacts(std::ostream& out, const Scene& scene, const World& world);
-/// Enters the contacts into a freshly built world; a point may be listed from either of its bodies. @throws InputError
-/// on points that do not exist or come twice, and on bonds with walls. Only a point that can have opened by more than
-/// the list reaches in its last step may be missing.
+/// Restores the contacts in a newly built world. A point may be listed under either of its bodies. A listed point that
+/// the world lacks is ignored if it can have opened by more than the neighbour-list skin in the last step. @throws
+/// InputError if any other listed point does not exist, if a point is listed twice, or if a contact with a wall is
+/// bonded
 void read_contacts(DeckReader& reader, const Scene& scene, World& world);
 
-/// in_cf0.dat: per body its back-tensions -k_n δ0; of a world without bonds those its present overlaps would give.
+/// Writes in_cf0.dat: the back-tensions -k_n δ0, by body. In a world without bonds, writes the back-tensions that
+/// bonding at the current overlaps would give.
 void write_back_tensions(std::ostream& out, const Scene& scene, const World& world);
-/// Bonds a freshly built world, δ0 = -f_b/k_n. Every bond must stand in the lists of both bodies, with one value.
+/// Bonds a newly built world with δ0 = -f_b/k_n. Every bond must be in the lists of both bodies, with the same value.
 void read_back_tensions(DeckReader& reader, const Scene& scene, World& world);
 
 /// Input id of a body, or the negative number of a wall.

@@ -7,7 +7,7 @@
 #include <system_error>
 #include <vector>
 
-#include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "solver/demseg/deck_state.hpp"
 #include "solver/demseg/outputs.hpp"
 #include "solver/files/file_set.hpp"
@@ -45,7 +45,8 @@ void remove_staged_files(const fs::path& folder) {
         const fs::path path = folder / (name + staged_suffix);
         std::error_code error;
         fs::remove(path, error);
-        if (error) throw InputError(fmt::format("{}: cannot be removed ({})", path.string(), error.message()));
+        if (error)
+            fail_writing(error.value(), fmt::format("{}: cannot be removed ({})", path.string(), error.message()));
     }
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The folder that a deck run leaves its files in: which they are, and what of an earlier run is there.
+// The output folder of a deck run: its files, and files left there by an earlier run.
 //
-// The files with which a run goes on are replaced together (file_set.hpp). Where a run takes the place of an earlier
-// one, its outputs, too, are written under other names and get their own with its first such replacement: until then
-// all that the earlier run left is there as it was.
+// The files from which a run can be resumed are replaced as a set (file_set.hpp). If a run replaces an earlier one, its
+// outputs are first written under temporary names. They receive their final names together with the first such set;
+// until then the files of the earlier run are unchanged.
 // Tested by tests/solver/demseg/replaced_test.cpp.
 #pragma once
 
@@ -14,18 +14,18 @@ namespace crackle {
 
 inline constexpr const char* state_name = "new_state.bin";
 
-/// Of the replacement of a folder's files.
+/// Path of the journal used to replace files in a folder.
 std::filesystem::path deck_journal(const std::filesystem::path& folder);
 
-/// Ends a replacement that was stopped. @return whether there was one
-/// @throws InputError if another process holds the folder, or something cannot be written
+/// Completes an interrupted replacement. @return whether there was one
+/// @throws InputError if another process has locked the folder, or a file cannot be written
 bool complete_deck_replacement(const std::filesystem::path& folder);
 
-/// An output or text file for the next part that an earlier run left; new_state.bin may be there as an input, as
-/// DEMseg's users rename the text files alone.
+/// An output file that an earlier run has left in the folder, or one of its text files for the next part. new_state.bin
+/// is not considered, since it may be an input: users of DEMseg rename only the text files.
 std::optional<std::filesystem::path> earlier_output(const std::filesystem::path& folder);
 
-/// Removes the files of a run that was stopped before they got their names. @throws InputError
+/// Removes files of an interrupted run that have not received their final names. @throws InputError
 void remove_staged_files(const std::filesystem::path& folder);
 
 }  // namespace crackle

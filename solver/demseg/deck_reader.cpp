@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/utf8.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/text_lines.hpp"
 
@@ -25,7 +26,8 @@ constexpr std::int64_t most_repeats = std::numeric_limits<int>::max();
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
 
-/// Bytes of the blank at `at`, 0 if none is there. Editors for Japanese easily leave full-width ones behind values.
+/// Length in bytes of the blank at `at`, or 0. Full-width spaces are included, since Japanese editors
+/// easily leave them after values.
 std::size_t blank_at(std::string_view text, std::size_t at) {
     if (is_blank(text[at])) return 1;
     if (text[at] == '\xe3') return text.substr(at, 3) == "\xe3\x80\x80" ? 3 : 0;  // UTF-8
@@ -33,59 +35,48 @@ std::size_t blank_at(std::string_view text, std::size_t at) {
     return 0;
 }
 
-/// The word at `at`, which ends at a separator; empty if one is there.
+/// The word that starts at `at` and ends before the next separator; empty if there is a separator at `at`.
 std::string_view word_at(std::string_view text, std::size_t at) {
     std::size_t end = at;
     while (end < text.size() && text[end] != ',' && text[end] != '/' && blank_at(text, end) == 0) ++end;
     return text.substr(at, end - at);
 }
 
-/// Bytes of the letter that a text begins with; 0 if it cannot be shown as it is: it controls, or is no UTF-8.
-std::size_t letter_length(std::string_view text) {
-    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
-    if (byte(0) < 0x80) return byte(0) >= 0x20 && byte(0) != 0x7f ? 1 : 0;
-    const std::size_t length = byte(0) < 0xc2 ? 0 : byte(0) < 0xe0 ? 2 : byte(0) < 0xf0 ? 3 : byte(0) < 0xf5 ? 4 : 0;
-    if (length > text.size()) return 0;
-    for (std::size_t k = 1; k < length; ++k)
-        if ((byte(k) & 0xc0) != 0x80) return 0;
-    return length;
-}
-
-/// Long words (a binary file, say) are cut in messages; bytes that cannot be shown are written as \x93.
+/// The word in quotes, for a message. Long words (for example, from a binary file) are shortened; bytes that cannot be
+/// displayed are written as \x93.
 std::string quoted(std::string_view word) {
     constexpr std::size_t shown = 40;
     std::string text;
     std::size_t at = 0;
     while (at < std::min(word.size(), shown)) {
-        const std::size_t length = letter_length(word.substr(at));
-        if (length == 0) text += fmt::format("\\x{:02x}", static_cast<unsigned char>(word[at]));
-        text += word.substr(at, length);
-        at += std::max<std::size_t>(length, 1);
+        const auto [bytes, code] = first_letter(word.substr(at));
+        const bool shows = bytes > 0 && code >= 0x20 && code != 0x7f;
+        text += shows ? std::string(word.substr(at, bytes)) : fmt::format("\\x{:02x}", code);
+        at += std::max<std::size_t>(bytes, 1);
     }
     return fmt::format("'{}{}'", text, at < word.size() ? "..." : "");
 }
 
-/// Fortran real to double; false if the word is no number or out of range.
+/// Converts a Fortran real to a double. @return false if the word is not a number or is out of range
 bool parse_number(std::string_view word, double& value) {
     if (word.starts_with('+')) {
         word.remove_prefix(1);
         if (word.starts_with('-')) return false;
     }
-    // from_chars would take "inf" and "nan", and their letters are the only others in a number beside the exponent's.
+    // from_chars would accept "inf" and "nan", so letters other than the exponent's are refused.
     std::string plain;
     for (char c : word) {
         if (c == 'd' || c == 'D' || c == 'E' || c == 'q' || c == 'Q') c = 'e';
         const bool sign = c == '+' || c == '-';
         if (c != 'e' && c != '.' && !sign && (c < '0' || c > '9')) return false;
-        if (sign && !plain.empty() && plain.back() != 'e') plain += 'e';  // .25+8
+        if (sign && !plain.empty() && plain.back() != 'e') plain += 'e';  // exponent without a letter, as in .25+8
         plain += c;
     }
     const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
     return error == std::errc() && end == plain.data() + plain.size();
 }
 
-/// Splits a word such as `3*0.5` into its count and its value. A word without a star has count 1, a wrong count gives
-/// 0.
+/// Splits a word such as `3*0.5` into its count and its value. Without a star the count is 1; an invalid count gives 0.
 std::pair<std::int64_t, std::string_view> repeated(std::string_view word) {
     const std::size_t star = word.find('*');
     if (star == std::string_view::npos) return {1, word};
@@ -95,7 +86,7 @@ std::pair<std::int64_t, std::string_view> repeated(std::string_view word) {
     return {counted ? count : 0, word.substr(star + 1)};
 }
 
-/// How many numbers a word is: one, more with a repeat count, or none.
+/// Number of values in a word: 1, a repeat count, or 0 if it is not a number.
 std::int64_t numbers_in(std::string_view word) {
     const auto [count, number] = repeated(word);
     double value = 0.0;
@@ -107,7 +98,7 @@ std::int64_t numbers_in(std::string_view word) {
 DeckReader::DeckReader(std::string name, std::string text, int first_line)
     : name_(std::move(name)), text_(std::move(text)), line_(first_line), token_line_(first_line) {
     position_ = text_.size() - without_byte_order_mark(text_).size();
-    constexpr char ctrl_z = '\x1a';  // where DOS ends a text
+    constexpr char ctrl_z = '\x1a';  // DOS end-of-file mark
     text_.resize(std::min(text_.find(ctrl_z), text_.size()));
 }
 
@@ -169,7 +160,7 @@ void DeckReader::ignore_rest_of_line() {
         std::string_view(text_).substr(0, std::min(text_.find('\n', position_), text_.size()));
     bool first = true;
     while (position_ < line.size()) {
-        // Whoever ends the values by a slash says that a note follows.
+        // A slash that ends the values of a READ starts a note, in which numbers are not recorded.
         if (first && line[position_] == '/') break;
         const std::string_view word = word_at(line, position_);
         if (word.empty()) {
@@ -215,8 +206,8 @@ std::optional<std::string> DeckReader::ignored_numbers() const {
     if (ignored_count_ == 0) return std::nullopt;
     const auto more = ignored_count_ - static_cast<std::int64_t>(first_ignored_.size());
     return fmt::format(
-        "{}: numbers behind the last value of a READ are ignored, as DEMseg does: {}{}; if they are no notes, a line "
-        "has a value too many or a count is too small",
+        "{}: numbers after the last value of a READ are ignored, as DEMseg does: {}{}; if they are not notes, a line "
+        "has too many values or a count is too small",
         name_, fmt::join(first_ignored_, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
@@ -279,7 +270,7 @@ void DeckReader::expect_end(std::string_view after) {
         token_ = word.empty() ? std::string_view(text_).substr(position_, 1) : word;
     }
     refuse("end of file", fmt::format("{} after {}", quoted(token_), after),
-           "nothing more; a count further up is too small or a line has a value too many");
+           "nothing more; a count further up is too small or a line has too many values");
 }
 
 }  // namespace crackle

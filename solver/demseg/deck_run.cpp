@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "solver/demseg/contact_files.hpp"
 #include "solver/demseg/deck_folder.hpp"
 #include "solver/demseg/deck_reader.hpp"
@@ -22,6 +23,7 @@
 #include "solver/demseg/random_circles.hpp"
 #include "solver/files/file_set.hpp"
 #include "solver/files/folder_lock.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "solver/measure/health.hpp"
@@ -33,7 +35,7 @@
 namespace crackle {
 namespace {
 
-// Steps between two looks at the run's health; one look costs about a step.
+// Number of steps between checks of the run's state; one check costs about as much as a step.
 constexpr std::int64_t health_interval = 100;
 constexpr std::int64_t steps_between_clock_looks = 64;
 
@@ -44,7 +46,7 @@ std::string text_of(Write&& write) {
     return std::move(out).str();
 }
 
-/// Whether bodies and conditions are those that a world was built from.
+/// Whether the bodies of a world are those of the geometry, and include the bodies watched by the boundary conditions.
 bool belongs_to(const DeckGeometry& geometry, const BoundaryConditions& boundary, const World& world) {
     std::unordered_map<int, std::uint32_t> elements_of;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
@@ -65,11 +67,11 @@ bool due(std::int64_t step, std::int64_t interval) { return step % interval == 0
 
 }  // namespace
 
-/// By deck_text_names.
+/// The deck's text files, indexed as deck_text_names.
 struct DeckRun::Texts {
     DeckTexts contents;
     std::array<bool, 4> present{};
-    std::array<std::string, 4> names;  // as the user would write them
+    std::array<std::string, 4> names;  // paths as the user would write them
 
     DeckReader reader(std::size_t which) const { return {names[which], contents[which]}; }
 };
@@ -89,15 +91,17 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
         throw InputError(fmt::format("steps: found {}, expected at least 1", *options_.steps));
     complete_earlier_run();
     if (appends()) lock_.emplace(options_.folder);
-    std::optional<FolderLock> reading;  // files of one run, not of one that replaces them meanwhile
+    std::optional<FolderLock> reading;  // held while reading, so that all files come from the same run
     if (options_.goes_on && !appends()) reading.emplace(options_.folder, Hold::to_read);
     Texts texts;
     for (std::size_t k = 0; k < texts.contents.size(); ++k) {
         const std::filesystem::path path = input(deck_text_names[k]);
         texts.names[k] = path.string();
-        texts.present[k] = k < 2 || is_there(path);  // reading in_gm.dat and in_bc.dat reports those two
+        // in_gm.dat and in_bc.dat always count as present, so that reading them reports an error if they are missing.
+        texts.present[k] = k < 2 || is_there(path);
         if (!texts.present[k]) continue;
-        texts.contents[k] = read_file(path);  // whole: its hash belongs to the state
+        // The whole file is read, because the state file contains its hash.
+        texts.contents[k] = read_file(path, most_bytes_of_particles);
         refuse_wide_letters(path, texts.contents[k]);
     }
     DeckReader reader = texts.reader(1);
@@ -117,14 +121,14 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
     refuse_existing_outputs();
 }
 
-/// The last run here may have been stopped while it replaced the files for the next part.
+/// Handles a run in this folder that was interrupted while it replaced the files for the next part.
 void DeckRun::complete_earlier_run() const {
     if (!complete_deck_replacement(options_.folder) || options_.goes_on) return;
-    throw InputError(
-        fmt::format("{}: found new_*.dat of a run that was stopped while it wrote them, expected all of one run; they "
-                    "are complete now: if the deck's files are copies of them, copy them again; then repeat the "
-                    "command",
-                    options_.folder.string()));
+    throw InputError(fmt::format(
+        "{}: found new_*.dat files of a run that was stopped while it replaced them, expected a complete set; the set "
+        "is complete now; if the deck's files are copies of new_*.dat, copy them again, and repeat the "
+        "command",
+        options_.folder.string()));
 }
 
 std::vector<std::filesystem::path> DeckRun::states() const {
@@ -140,17 +144,17 @@ template <class Choice>
 Choice DeckRun::chosen(const char* option, std::optional<Choice> asked, std::optional<Choice> before,
                        const std::filesystem::path& state) {
     if (asked && before && *asked != *before) {
-        throw InputError(fmt::format(
-            "--{}: found {}, expected {} or none, as the run before had it by {}; remove that file to go on "
-            "from the text files alone",
-            option, name_of(*asked), name_of(*before), state.string()));
+        throw InputError(
+            fmt::format("--{}: found {}, expected {}, which {} records for the previous run; leave out the option, or "
+                        "remove that file to continue from the text files alone",
+                        option, name_of(*asked), name_of(*before), state.string()));
     }
     const Choice choice = asked.value_or(before.value_or(Choice{}));
     if (choice == Choice{}) return choice;
     const std::string words = fmt::format("--{} {}", option, name_of(choice));
-    notices_.push_back(asked ? fmt::format("{}: kept in {}, so that a run that goes on from there needs no --{}", words,
-                                           (output_folder() / state_name).string(), option)
-                             : fmt::format("{}, as the run before had it by {}", words, state.string()));
+    notices_.push_back(asked ? fmt::format("{}: recorded in {}, so that a run continued from there needs no --{}",
+                                           words, (output_folder() / state_name).string(), option)
+                             : fmt::format("{}, as in the previous run according to {}", words, state.string()));
     return choice;
 }
 
@@ -160,7 +164,7 @@ DeckLaws DeckRun::laws_for(const Texts& texts, std::optional<std::size_t> which)
     for (const std::filesystem::path& path : states()) {
         if (!before && which) before = laws_of_deck_state(state = path, *which, texts.contents[*which]);
     }
-    // A new start brings nothing along but the names of its points.
+    // For a new start, only the contact law is taken from the previous run; it is needed to identify points.
     const bool goes_on = asked_.start == DeckStart::continued;
     std::optional<SegmentLaw> law;
     std::optional<Integrator> integrator;
@@ -203,11 +207,11 @@ void DeckRun::start_new(const Texts& texts) {
             add_notices(tensions);
         } else {
             bond_all(world_, world_.settings.thick);
-            notices_.push_back(fmt::format("{}: not there, so {} bonds were made from the present overlaps",
+            notices_.push_back(fmt::format("{}: not found, so {} bonds were made from the current overlaps",
                                            texts.names[3], world_.bonds.initial));
         }
     }
-    enter_steps_before();  // a derived step is known once there are bonds
+    enter_steps_before();  // an automatic time step is known only after bonds have been made
 }
 
 void DeckRun::start_from_contacts(const Texts& texts) {
@@ -226,7 +230,7 @@ void DeckRun::start_from_contacts(const Texts& texts) {
     add_notices(contacts);
     enter_steps_before();
     world_.stepping.drift =
-        world_.stepping.time_step;  // the bodies have just moved: the first force pass takes up the slip of that step
+        world_.stepping.time_step;  // the bodies have just moved, so the first force pass adds the slip of that step
 }
 
 bool DeckRun::start_from_state(const Texts& texts) {
@@ -234,8 +238,9 @@ bool DeckRun::start_from_state(const Texts& texts) {
         std::vector<std::string> edited;
         std::optional<DeckState> state = load_deck_state(path, texts.contents, texts.present, edited);
         if (!state) {
-            notices_.push_back(fmt::format("{}: ignored, because it does not belong to {} as {} now", path.string(),
-                                           fmt::join(edited, ", "), edited.size() == 1 ? "it is" : "they are"));
+            notices_.push_back(fmt::format("{}: ignored, because {} {} changed since this state was saved",
+                                           path.string(), fmt::join(edited, ", "),
+                                           edited.size() == 1 ? "has" : "have"));
             continue;
         }
         DeckReader geometry(path.string() + " (geometry)", state->base_geometry);
@@ -245,8 +250,8 @@ bool DeckRun::start_from_state(const Texts& texts) {
         world_ = std::move(state->world);
         if (!belongs_to(base_, boundary_, world_))
             throw InputError(
-                fmt::format("{}: found a state of other bodies than its geometry's, expected one that "
-                            "crackle wrote; remove it to go on from the text files",
+                fmt::format("{}: found a state whose bodies differ from its geometry, expected one that "
+                            "crackle wrote; remove it to continue from the text files",
                             path.string()));
         chosen<SegmentLaw>("law", options_.law, world_.settings.segment_law, path);
         chosen<Integrator>("integrator", options_.integrator, world_.settings.integrator, path);
@@ -257,7 +262,7 @@ bool DeckRun::start_from_state(const Texts& texts) {
     return false;
 }
 
-/// Tells the user which numbers of a file were ignored.
+/// Adds a notice about numbers that were ignored in a file.
 void DeckRun::add_notices(const DeckReader& reader) {
     if (const auto ignored = reader.ignored_numbers()) notices_.push_back(*ignored);
 }
@@ -279,15 +284,28 @@ void DeckRun::find_bodies() {
 }
 
 void DeckRun::refuse_existing_outputs() const {
-    if (options_.overwrite || appends()) return;
+    if (appends()) return;
     const std::optional<std::filesystem::path> earlier = earlier_output(output_folder());
-    if (!earlier) return;
+    if (!earlier) {
+        refuse_foreign_folder();
+        return;
+    }
+    if (options_.overwrite) {
+        refuse_foreign_outputs(output_folder());
+        return;
+    }
     const bool can_go_on = is_there(output_folder() / (std::string("new_") + deck_text_names[0]));
     throw InputError(fmt::format(
         "{}: found the output of an earlier run{}, expected none; give another folder with -o, {}replace it with "
         "--force",
-        earlier->string(), can_go_on ? "" : ", stopped before it could be gone on with",
-        can_go_on ? "go on with that run with --continue, or " : "or "));
+        earlier->string(), can_go_on ? "" : ", stopped before it could be continued",
+        can_go_on ? "continue that run with --continue, or " : "or "));
+}
+
+void DeckRun::refuse_foreign_folder() const {
+    if (options_.output.empty()) return;
+    refuse_foreign_files(options_.output,
+                         "a new or empty folder, or the output folder of an earlier run; choose another with -o");
 }
 
 bool DeckRun::rows_due() const {
@@ -310,7 +328,8 @@ void DeckRun::write_rows(DeckOutputs& outputs) const {
 void DeckRun::write_breaks(DeckOutputs& outputs) {
     const std::span<const BreakEvent> found = std::span(world_.bonds.events).subspan(breaks_written_);
     if (found.empty()) return;
-    // The last part has written those of its last step, which the first force pass of this one finds again.
+    // The previous part has already written the breaks of its last step, which the first force pass of this part finds
+    // again.
     const auto ours = [&](const BreakEvent& event) { return first_part() || event.step > first_step_; };
     outputs.write_breaks(world_,
                          found.subspan(static_cast<std::size_t>(std::ranges::find_if(found, ours) - found.begin())));
@@ -320,8 +339,8 @@ void DeckRun::write_breaks(DeckOutputs& outputs) {
 void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     make_folder(output_folder());
     const FolderLock lock = lock_ ? *std::exchange(lock_, std::nullopt) : FolderLock(output_folder());
-    complete_replacement(deck_journal(output_folder()));  // of a run that this one replaces
-    refuse_existing_outputs();                            // another run may have been here since
+    complete_replacement(deck_journal(output_folder()));  // completes an interrupted run that this run replaces
+    refuse_existing_outputs();  // checked again, since another run may have written here in the meantime
     remove_staged_files(output_folder());
     if (appends()) drop_rows_after(output_folder(), first_step_);
     const bool replaces = !appends() && earlier_output(output_folder());
@@ -330,21 +349,31 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
         step_to_end(outputs, go_on);
     } catch (const UnstableRun& error) {
         if (outputs.renames().empty()) throw;
-        throw UnstableRun(error, fmt::format("earlier outputs in {0} are as they were, those of this run so far in "
-                                             "{0}/*.dat{1}",
-                                             output_folder().string(), staged_suffix));
+        throw UnstableRun(error,
+                          fmt::format("earlier outputs in {0} are unchanged, the outputs of this run so far are in "
+                                      "{0}/*.dat{1}",
+                                      output_folder().string(), staged_suffix));
     } catch (const OutputError& error) {
-        // Once the names are in the journal the next run brings the replacement to its end.
-        if (outputs.renames().empty() || is_there(deck_journal(output_folder()))) throw;
-        std::string left;
-        try {
-            remove_staged_files(output_folder());
-        } catch (const InputError& cannot) {
-            left = fmt::format("; {}", cannot.what());  // the next run removes it
-        }
-        throw OutputError(
-            fmt::format("{}; earlier outputs in {} are as they were{}", error.what(), output_folder().string(), left));
+        if (counts_as_done(outputs)) throw;
+        throw OutputError(fmt::format("{}; {}", error.what(), fate_of_earlier_outputs()));
+    } catch (const SystemFailure& error) {
+        if (counts_as_done(outputs)) throw;
+        throw SystemFailure(error, fate_of_earlier_outputs());
     }
+}
+
+bool DeckRun::counts_as_done(const DeckOutputs& outputs) const {
+    return outputs.renames().empty() || is_there(deck_journal(output_folder()));
+}
+
+std::string DeckRun::fate_of_earlier_outputs() const {
+    std::string left;
+    try {
+        remove_staged_files(output_folder());
+    } catch (const std::runtime_error& cannot) {
+        left = fmt::format("; {}", cannot.what());  // the next run removes the remaining files
+    }
+    return fmt::format("earlier outputs in {} are unchanged{}", output_folder().string(), left);
 }
 
 OutputMode DeckRun::mode() const {
@@ -362,7 +391,7 @@ void DeckRun::step_to_end(DeckOutputs& outputs, const std::function<bool(const W
             continue;
         }
         const FileSet files = files_for_next();
-        do_step(outputs);  // its row is taken for written, too
+        do_step(outputs);  // the files for the next part assume that this step's row has been written
         save(files, outputs);
         saved = Clock::now();
     }
@@ -375,10 +404,11 @@ void DeckRun::step_to_end(DeckOutputs& outputs, const std::function<bool(const W
 }
 
 void DeckRun::save(const FileSet& files, DeckOutputs& outputs) const {
-    outputs
-        .flush();  // written before the journal: whoever goes on from the files takes the rows before them for written
+    // Outputs are flushed before the journal is written, because a run that continues from the files assumes that
+    // earlier rows have been written.
+    outputs.flush();
     write_journal(deck_journal(output_folder()), files, outputs.renames());
-    outputs.have_own_names();  // from here: whoever reads the folder or runs here renames them
+    outputs.have_own_names();  // from here on, any process that reads the folder or runs in it completes the renaming
     complete_replacement(deck_journal(output_folder()));
 }
 
@@ -390,7 +420,7 @@ void DeckRun::do_step(DeckOutputs& outputs) {
         compute_forces(world_);
         if (check_due) check_health(world_);
         if (first_part() || world_.stepping.steps > first_step_)
-            write_rows(outputs);  // the last part has written the row of its last step
+            write_rows(outputs);  // the previous part has written the row of its last step
         advance(world_);
     }
     write_breaks(outputs);
@@ -398,8 +428,8 @@ void DeckRun::do_step(DeckOutputs& outputs) {
 
 Scene DeckRun::present_scene() const {
     Scene scene = base_.scene;
-    scene.time_step =
-        world_.stepping.time_step;  // a derived one as it is in use: from here it might come out otherwise
+    // The automatic step in use is written, since computing it again from this state might give a different value.
+    scene.time_step = world_.stepping.time_step;
     for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
         Body& body = scene.bodies[k];
         const BodyState& state = world_.bodies.state[order_[k]];

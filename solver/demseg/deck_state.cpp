@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// See deck_state.hpp. Layout: magic, version, four hashes, then three strings, each with its length before it.
+// Reads and writes new_state.bin. Layout: magic number, version, four hashes, then three strings, each preceded by its
+// length.
 
 #include "solver/demseg/deck_state.hpp"
 
@@ -41,8 +42,8 @@ class Source {
 
     std::string_view take(std::uint64_t count) {
         if (count > bytes_.size())
-            throw InputError(
-                fmt::format("{}: found a truncated state, expected a complete one; remove it to go without", name_));
+            throw InputError(fmt::format(
+                "{}: found a truncated state, expected a complete one; remove it to run without it", name_));
         const std::string_view result = bytes_.substr(0, count);
         bytes_.remove_prefix(count);
         return result;
@@ -80,10 +81,11 @@ std::optional<DeckState> load_deck_state(const std::filesystem::path& path, cons
     const std::string bytes = read_file(path);
     Source source(name, bytes);
     if (source.take(magic.size()) != magic)
-        throw InputError(fmt::format("{}: found other data, expected a deck's state; remove it to go without", name));
+        throw InputError(
+            fmt::format("{}: found other data, expected a deck's state; remove it to run without it", name));
     const std::uint64_t found_version = source.number();
     if (found_version != version) {
-        throw InputError(fmt::format("{}: found version {} of a deck's state, expected {}; remove it to go without",
+        throw InputError(fmt::format("{}: found version {} of a deck's state, expected {}; remove it to run without it",
                                      name, found_version, version));
     }
     for (std::size_t k = 0; k < texts.size(); ++k) {
@@ -94,11 +96,11 @@ std::optional<DeckState> load_deck_state(const std::filesystem::path& path, cons
     DeckState state;
     state.base_geometry = source.text();
     state.base_boundary = source.text();
-    state.world = load_world(source.text(), name, "remove it to go on from the text files");
+    state.world = load_world(source.text(), name, "remove it to continue from the text files");
     require_whole(state.world, name);
     if (!source.at_end())
-        throw InputError(
-            fmt::format("{}: found bytes after its end, expected a complete state; remove it to go without", name));
+        throw InputError(fmt::format(
+            "{}: found more bytes after its end, expected a complete state; remove it to run without it", name));
     return state;
 }
 
@@ -113,9 +115,9 @@ std::optional<DeckLaws> laws_of_deck_state(const std::filesystem::path& path, st
     const std::uint64_t asked = hash_of(text);
     for (std::size_t k = 0; k < deck_text_names.size(); ++k)
         if (source.number() != asked && k == which) return std::nullopt;
-    source.text();  // geometry and boundary conditions of the beginning
+    source.text();  // skips the geometry and boundary conditions at the beginning of the run
     source.text();
-    const World world = load_world(source.text(), name, "remove it to go without");
+    const World world = load_world(source.text(), name, "remove it to run without it");
     return DeckLaws{world.settings.segment_law, world.settings.integrator};
 }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// new_state.bin, the sidecar of a deck: what DEMseg's text files cannot hold (body-frame outlines, whole turns, the
-// account of energy, the neighbour list), so that a run in parts does the very same arithmetic as the run in one.
+// new_state.bin, the state file beside a deck's text files. It contains data that DEMseg's text files cannot
+// (body-frame outlines, full turns, the energy account, the neighbour list). With these data, a run in several parts
+// performs exactly the same arithmetic as a single run.
 //
-// It belongs to one set of text files: it carries a hash (XXH3, 64 bits) of each and is good only while they are
-// unchanged.
+// A state file belongs to one set of text files: it contains a hash (XXH3, 64 bits) of each, and is valid only while
+// they are unchanged.
 // Tested by tests/solver/demseg/split_test.cpp.
 #pragma once
 
@@ -18,36 +19,39 @@
 
 namespace crackle {
 
-/// The text files a state belongs to, in the order of their hashes.
+/// The text files to which a state file belongs, in the order in which it contains their hashes.
 inline constexpr std::array<const char*, 4> deck_text_names{"in_gm.dat", "in_bc.dat", "in_cf.dat", "in_cf0.dat"};
 
 /// Contents of the four text files.
 using DeckTexts = std::array<std::string, 4>;
 
+/// The state of a deck run between two of its parts.
 struct DeckState {
     World world;
-    std::string base_geometry;  ///< in_gm.dat of the run's beginning: body shapes before any rounding
-    std::string base_boundary;  ///< in_bc.dat of the run's beginning: ramps are counted from there
+    std::string base_geometry;  ///< in_gm.dat at the very beginning of the run: body shapes before any round-off
+    std::string base_boundary;  ///< in_bc.dat at the very beginning of the run, from which ramps are counted
 };
 
-/// How the contacts of a run act, which its text files do not say.
+/// Contact law and integrator of a run; the text files do not contain them.
 struct DeckLaws {
     SegmentLaw law = SegmentLaw::rounded;
     Integrator integrator = Integrator::leapfrog;
 };
 
-/// @param texts as they are written beside it.
+/// Bytes of a state file. @param texts the text files written together with it
 std::string save_deck_state(const DeckState& state, const DeckTexts& texts);
 
-/// Reads a state if it belongs to the texts. @param present which of them the deck has; an absent one that the run does
-/// not need is not compared. @param edited receives the names of the files that differ.
-/// @return nothing if any differs. @throws InputError on a truncated, foreign or newer file.
+/// Reads a state file if it belongs to the text files. @param present whether each text file exists; absent files are
+/// not compared. @param edited receives the names of the files that differ
+/// @return empty if any file differs @throws InputError if the state file is truncated, foreign or newer
 std::optional<DeckState> load_deck_state(const std::filesystem::path& path, const DeckTexts& texts,
                                          const std::array<bool, 4>& present, std::vector<std::string>& edited);
 
-/// Those of the run that left a state, if one of the texts is as that run wrote it.
-/// @param which in_cf.dat or in_cf0.dat, by deck_text_names: their points have the names that the law gives them
-/// @return nothing if that text is another, or the file is no state @throws InputError on a truncated or damaged one
+/// Contact law and integrator of the run that wrote a state file, if the given text file is unchanged.
+/// @param which index of in_cf.dat or in_cf0.dat in deck_text_names; in these files, the identification of points
+/// depends on the law
+/// @return empty if the text file has changed, or if the file at `path` is not a state file @throws InputError if the
+/// state file is truncated or damaged
 std::optional<DeckLaws> laws_of_deck_state(const std::filesystem::path& path, std::size_t which,
                                            const std::string& text);
 

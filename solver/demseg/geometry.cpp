@@ -22,10 +22,10 @@ namespace crackle {
 namespace {
 
 constexpr std::int64_t largest_count = std::numeric_limits<int>::max();
-// Ends of neighbouring segments, and of a chain, are one point within this share of the chain's length.
+// Ends of adjacent segments, and of a closed chain, count as coincident within this fraction of the chain's length.
 constexpr double joint_tolerance = 1e-6;
 
-/// What both modes begin with.
+/// Values at the beginning of a file, common to both modes.
 struct Head {
     double time_step = 0.0;
     Vec2 gravity;
@@ -40,7 +40,7 @@ int read_mode(DeckReader& reader) {
     refuse_foreign(reader.name(), reader.text(), particle_file);
     if (const std::string_view form = circle_list_form(reader.text()); !form.empty()) {
         throw InputError(
-            fmt::format("{}: found a list of {}, expected {}; `crackle mesh` makes one of polygons about "
+            fmt::format("{}: found a list of {}, expected {}; `crackle mesh` makes one with polygons around "
                         "such centres",
                         reader.name(), form, particle_file));
     }
@@ -86,7 +86,8 @@ Head read_head(DeckReader& reader) {
     return head;
 }
 
-/// Here and not left to validate(), so that the first segment stays the first (its direction is the body's angle).
+/// Makes corners counter-clockwise. This is done here rather than in validate(), so that the first segment stays first;
+/// its direction defines the body's angle.
 void turn_counter_clockwise(std::vector<Vec2>& corners) {
     double twice_area = 0.0;
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)
@@ -96,7 +97,7 @@ void turn_counter_clockwise(std::vector<Vec2>& corners) {
     std::rotate(corners.begin(), corners.end() - 2, corners.end());
 }
 
-/// Reads bodies into the scene; numbers must be unique.
+/// Reads bodies into the scene; their ids must be unique.
 class BodyReader {
   public:
     BodyReader(DeckReader& reader, Scene& scene) : reader_(reader), scene_(scene) {}
@@ -128,12 +129,13 @@ class BodyReader {
             reader_.integer(key(body.id, "ielm"), e, e);
             const Vec2 start = read_point(body.id, "xs", "ys");
             const int start_line = reader_.line();
-            // The guide does not show whether both ends are of one READ.
+            // The DEMseg guide does not show whether a single READ statement reads both ends.
             if (!reader_.numbers_follow(2)) reader_.begin_read();
             const Vec2 end = read_point(body.id, "xe", "ye");
             length += norm(end - start);
             if (!(norm(end - start) > 0.0))
-                reader_.refuse(key(body.id, "xe ye"), fmt::format("{} {}", end.x, end.y), "another point than xs ys");
+                reader_.refuse(key(body.id, "xe ye"), fmt::format("{} {}", end.x, end.y),
+                               "a point different from xs ys");
             if (e == 1) {
                 joints.push_back(start);
             } else if (norm(start - joints.back()) > joint_tolerance * length) {
@@ -184,23 +186,23 @@ class BodyReader {
     DeckReader& reader_;
     Scene& scene_;
     std::unordered_set<int> ids_;
-    std::uint32_t elements_ = 0;  // of the body being read
+    std::uint32_t elements_ = 0;  // number of elements of the body being read
 };
 
-/// What a scene may hold and the format cannot is refused rather than dropped.
+/// Refuses properties that a scene may have but the format cannot represent, instead of dropping them.
 void check_writable(const Scene& scene) {
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
         if (scene.materials[m].damping_ratio) {
             throw InputError(
-                fmt::format("material {}: found a damping ratio, expected normal and shear damping: in_gm.dat has no "
-                            "place for a ratio",
+                fmt::format("material {}: found a damping ratio, expected normal and shear damping: in_gm.dat cannot "
+                            "hold a ratio",
                             m + 1));
         }
     }
     const Domain& domain = scene.domain;
     for (std::size_t w = 0; w < domain.wall_present.size(); ++w) {
         if (!domain.wall_present[w])
-            throw InputError("domain: found a side without a wall, expected four: in_gm.dat cannot leave one out");
+            throw InputError("domain: found a side without a wall, expected four: in_gm.dat cannot omit one");
     }
     for (const double side : {domain.x1, domain.x2, domain.y1, domain.y2}) {
         if (!std::isfinite(side))
@@ -323,7 +325,7 @@ void write_geometry(std::ostream& out, const Scene& scene, std::size_t large_seg
     const std::size_t chains = scene.bodies.size() - circles;
     if (large_segments > chains) {
         throw InputError(
-            fmt::format("nseg2: found {}, expected at most the {} segment bodies there are", large_segments, chains));
+            fmt::format("nseg2: found {}, expected at most the number of segment bodies, {}", large_segments, chains));
     }
     check_writable(scene);
     write_head(out, scene);

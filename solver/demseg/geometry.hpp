@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// in_gm.dat, DEMseg's geometry file: time step, gravity, materials, domain, bodies. Formats: FORMATS.md beside this
-// file.
+// in_gm.dat, DEMseg's geometry file: time step, gravity, materials, domain, bodies. Format: FORMATS.md in this folder.
 //
-// Units are whatever consistent set the deck uses (the guide's are cgs). A body's number runs on through circle bodies,
-// segment bodies (nseg1) and large segment bodies (nseg2); the last two are alike here, only written back apart.
+// Any consistent set of units may be used (the decks in the DEMseg guide use cgs). Bodies are numbered consecutively:
+// circle bodies, segment bodies (nseg1), large segment bodies (nseg2). The last two groups are treated alike, but
+// written separately.
 #pragma once
 
 #include <cstddef>
@@ -17,47 +17,52 @@ namespace crackle {
 
 class DeckReader;
 
-/// Width that gives mass to open chains where thick is 0 (deck units; inferred from the guide's sample f-d_curve.dat).
+/// Width used to compute the mass of open chains if thick is 0, in deck units. Inferred from the sample f-d_curve.dat
+/// in the DEMseg guide.
 inline constexpr double deck_bare_segment_width = 0.1;
 
-/// Mode 1: everything is given.
+/// Mode 1: all bodies are given.
 struct DeckGeometry {
-    Scene scene;                     ///< validated; polygons counter-clockwise
-    std::size_t large_segments = 0;  ///< nseg2: so many of the last chain bodies
+    Scene scene;                     ///< validated, with counter-clockwise polygons
+    std::size_t large_segments = 0;  ///< nseg2: number of large segment bodies, the last chain bodies of the scene
 };
 
-/// Mode 0: circles are to be made at random.
+/// Mode 0: circles are generated at random.
 struct RandomGeometry {
-    double time_step = unset;  ///< 0: derived from the stiffness bound (ours)
+    double time_step = unset;  ///< 0: derived from the stable bound (an extension of DEMseg's format)
     Vec2 gravity;
     std::vector<Material> materials;
     Domain domain;
     double thick = 0.0;
     double radius_min = unset, radius_max = unset;
-    int material = 0;           ///< index into materials
-    double void_ratio = unset;  ///< (area - area of circles) / area of circles
+    int material = 0;           ///< index into the materials
+    double void_ratio = unset;  ///< dimensionless: (area of the domain - area of circles)/area of circles
 };
 
-/// The file's first number. @throws InputError if it is neither 0 nor 1; a file of another kind is named.
+/// Reads the mode of a geometry file (its first number). @throws InputError if the mode is neither 0 nor 1; for another
+/// kind of file, the message names the kind
 int read_geometry_mode(const std::filesystem::path& path);
-/// The same of a text, from its beginning.
+/// Reads the mode of a geometry text (its first number).
 int read_geometry_mode(const DeckReader& reader);
 
-/// Reads a file of mode 1 into a validated scene: deck conventions (full first kick, width of bare segments) are set.
-/// @throws InputError with file, line, key, what was found and expected.
+/// Reads a mode-1 file into a validated scene with the deck conventions (full first kick, width of bare segments).
+/// @throws InputError with file, line and key, and what was found and expected
 Scene read_geometry(const std::filesystem::path& path);
-/// The same with the nseg1/nseg2 grouping kept.
+/// Reads a mode-1 file and keeps the division into nseg1 and nseg2.
 DeckGeometry read_deck_geometry(const std::filesystem::path& path);
+/// Reads a mode-1 file from an open reader.
 DeckGeometry read_deck_geometry(DeckReader& reader);
 
-/// Reads a file of mode 0.
+/// Reads a mode-0 file.
 RandomGeometry read_random_geometry(const std::filesystem::path& path);
+/// Reads a mode-0 file from an open reader.
 RandomGeometry read_random_geometry(DeckReader& reader);
 
-/// Writes a file of mode 1; numbers read back to the same bits. Circle bodies come first, then chains, each in scene
-/// order.
-/// @param large_segments so many of the last chain bodies are written as nseg2.
-/// @throws InputError on what the format has no place for: a damping ratio, a missing or infinitely far domain wall.
+/// Writes a mode-1 file. Numbers are written so that reading them gives identical values. Circle bodies come first,
+/// then chains, each in scene order.
+/// @param large_segments number of chain bodies, at the end, that are written as nseg2
+/// @throws InputError for values that the format cannot represent: a damping ratio, a missing or infinitely distant
+/// domain wall
 void write_geometry(std::ostream& out, const Scene& scene, std::size_t large_segments = 0);
 
 }  // namespace crackle

@@ -10,15 +10,16 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <iterator>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "solver/demseg/contact_files.hpp"
 #include "solver/files/read_file.hpp"
-#include "solver/files/replace_file.hpp"
 #include "solver/measure/breaks.hpp"
 #include "solver/measure/ledger.hpp"
 #include "solver/measure/point_view.hpp"
@@ -26,11 +27,11 @@
 namespace crackle {
 namespace {
 
-/// How the lines of a file follow each other.
+/// How the lines of a file are organised.
 enum class Layout {
-    frames,  ///< a head with step, time and counts, then as many lines
-    rows,    ///< each begins with its step
-    table,   ///< comma-separated, under a line of names
+    frames,  ///< frames: a head with step, time and counts, followed by as many lines as the sum of the counts
+    rows,    ///< rows that begin with the step
+    table,   ///< comma-separated rows below a line of column names
 };
 
 constexpr std::array<Layout, deck_output_names.size()> layouts{Layout::frames, Layout::frames, Layout::frames,
@@ -44,7 +45,7 @@ const std::array<std::string, deck_output_names.size()>& headers() {
         "# step time contacts, then per contact: body other nx ny overlap normal_force shear_force back_tension "
         "(springs)\n",
         "# step enrg enva enka enca enfr enxd enxf err enfb\n",
-        "",  // as in the guide: rows only
+        "",  // no header, as in the DEMseg guide
         "# step body vy\n",
         "# step bonds broken\n",
         breaks_header(),
@@ -52,10 +53,10 @@ const std::array<std::string, deck_output_names.size()>& headers() {
     return lines;
 }
 
-constexpr std::int64_t most_lines_a_count = 1'000'000'000;  // of one frame and count
+constexpr std::int64_t most_lines_a_count = 1'000'000'000;  // largest count accepted in the head of a frame
 
-/// Whole numbers at the beginning of a row: its step, which in a table stands behind the time, and from the third word
-/// on the counts of a frame's lines. @return false if the row is none of ours
+/// Reads the step and the number of further lines from the beginning of a row. In a table the step is the second value;
+/// in a frame's head the number of lines is the sum of the counts. @return false if the row is foreign
 bool read_head(std::string_view line, Layout layout, std::int64_t& step, std::int64_t& lines) {
     const char *at = line.data(), *end = line.data() + line.size();
     double time = 0.0;
@@ -80,19 +81,19 @@ bool read_head(std::string_view line, Layout layout, std::int64_t& step, std::in
     return true;
 }
 
-/// Bytes up to the last complete row or frame of a step up to `step`.
+/// Length in bytes up to the end of the last complete row or frame whose step is at most `step`.
 std::uintmax_t length_up_to(const std::filesystem::path& path, std::int64_t step, std::size_t which) {
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    const auto refuse_unread = [&] {  // or all of it would be cut off
-        throw InputError(fmt::format("{}: cannot be read ({}), expected the rows of an earlier part", path.string(),
-                                     std::strerror(errno)));
+    const auto refuse_unread = [&] {  // an unreadable file would otherwise look empty and be truncated to nothing
+        fail_reading(errno, fmt::format("{}: cannot be read ({}), expected the rows of an earlier part", path.string(),
+                                        std::strerror(errno)));
     };
     if (!file) refuse_unread();
     std::string line;
     std::uintmax_t at = 0, kept = 0;
     std::int64_t number = 0, row_step = 0, lines_left = 0;
-    while (std::getline(file, line) && !file.eof()) {  // at the end of the file: a line cut short
+    while (std::getline(file, line) && !file.eof()) {  // eof() means that the last line is incomplete
         at += line.size() + 1;
         ++number;
         if (lines_left > 0) {
@@ -120,22 +121,46 @@ void drop_rows_after(const std::filesystem::path& folder, std::int64_t step) {
     std::vector<std::pair<std::filesystem::path, std::uintmax_t>> lengths;
     for (std::size_t k = 0; k < deck_output_names.size(); ++k) {
         const std::filesystem::path path = folder / deck_output_names[k];
+        refuse_no_plain_file(path);
         if (is_there(path)) lengths.emplace_back(path, length_up_to(path, step, k));
     }
     for (const auto& [path, length] : lengths) {
         std::error_code error;
         if (std::filesystem::file_size(path, error) != length && !error)
             std::filesystem::resize_file(path, length, error);
-        if (error) throw InputError(fmt::format("{}: cannot be shortened ({})", path.string(), error.message()));
+        if (error)
+            fail_writing(error.value(), fmt::format("{}: cannot be shortened ({})", path.string(), error.message()));
+    }
+}
+
+void refuse_foreign_outputs(const std::filesystem::path& folder) {
+    for (std::size_t k = 0; k < deck_output_names.size(); ++k) {
+        const std::filesystem::path path = folder / deck_output_names[k];
+        if (!is_there(path)) continue;
+        errno = 0;
+        std::ifstream file(path, std::ios::binary);
+        if (!file.is_open())
+            fail_reading(errno, fmt::format("{}: cannot be read ({}), expected an output of an earlier run",
+                                            path.string(), std::strerror(errno)));
+        std::string line;
+        std::getline(file, line);
+        refuse_failed(file, path.string());
+        std::int64_t step = 0, lines = 0;
+        if (line.empty() || line + '\n' == headers()[k] || line.starts_with("# step") ||
+            read_head(line, layouts[k], step, lines))
+            continue;
+        throw InputError(
+            fmt::format("{}:1: found '{}', expected an output of an earlier run to replace; give another folder with "
+                        "-o, or move the file away",
+                        path.string(), line.substr(0, 40)));
     }
 }
 
 DeckOutputs::DeckOutputs(const std::filesystem::path& folder, OutputMode mode, OutputNames names)
     : folder_(folder), suffix_(names == OutputNames::staged ? staged_suffix : "") {
     for (std::size_t k = 0; k < files_.size(); ++k) {
-        errno = 0;
-        files_[k].open(path(k), std::ios::binary | (mode == OutputMode::appending ? std::ios::app : std::ios::trunc));
-        if (!files_[k]) refuse_output(path(k));
+        files_[k].open(path(k),
+                       mode == OutputMode::appending ? FileStream::Opening::appending : FileStream::Opening::fresh);
         if (mode == OutputMode::fresh) files_[k] << headers()[k];
     }
     flush();
@@ -160,19 +185,18 @@ void DeckOutputs::write(Which which, const World& world, const std::string& text
             });
         const auto body = static_cast<std::size_t>(largest - world.bodies.force.begin());
         throw UnstableRun(world.stepping.steps, world.bodies.info(body).id,
-                          fmt::format("a number of {} would be infinite or none (this body bears the largest force); "
-                                      "look for a force, mass or stiffness that is no size of anything",
+                          fmt::format("a value in {} would not be finite (this body carries the largest force); "
+                                      "look for a force, mass or stiffness of unrealistic size",
                                       deck_output_names[which]));
     }
-    errno = 0;
     files_[which].write(text.data(), static_cast<std::streamsize>(text.size()));
-    if (!files_[which]) refuse_output(path(which));
+    files_[which].require_written(path(which));
 }
 
 void DeckOutputs::flush() {
     for (std::size_t k = 0; k < files_.size(); ++k) {
-        errno = 0;
-        if (!files_[k].flush()) refuse_output(path(k));
+        files_[k].flush();
+        files_[k].require_written(path(k));
     }
 }
 

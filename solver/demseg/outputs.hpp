@@ -1,58 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a deck run writes on its way: positions and contact forces every nprn1 steps, energies, controlled bodies,
-// velocities and the number of bonds every nprn2, and every bond that breaks. Formats: FORMATS.md. Every number reads
-// back to the same bits. Tested by tests/solver/demseg/split_test.cpp.
+// Outputs of a deck run. Positions and contact forces are written every nprn1 steps. Energies, controlled bodies,
+// velocities and the number of bonds are written every nprn2 steps, and broken bonds as they occur. Formats:
+// FORMATS.md. Numbers are written so that reading them gives identical values.
+// Tested by tests/solver/demseg/split_test.cpp.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "solver/files/file_set.hpp"
+#include "solver/files/file_stream.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
 
-/// Names of the output files, in the order in which DeckOutputs holds them.
+/// Names of the output files, indexed by DeckOutputs::Which.
 inline constexpr std::array<const char*, 8> deck_output_names{
     "output.dat", "cont.dat", "cont2.dat", "energy.dat", "f-d_curve.dat", "velocity_y.dat", "bonds.dat", "events.csv"};
 
-/// Staged: of a run that replaces another, whose outputs keep their names until the new run can be gone on with.
+/// Whether outputs have their final names. A run that replaces an earlier run writes its outputs under temporary
+/// (staged) names until it can be resumed.
 enum class OutputNames : bool { own, staged };
 
+/// How output files begin.
 enum class OutputMode {
-    fresh,      ///< begins files with their headers
-    part,       ///< begins files without: a later part, to be put behind an earlier one
-    appending,  ///< goes on with the files of the earlier part
+    fresh,      ///< creates files, with headers
+    part,       ///< creates files without headers, for a later part that will be appended to an earlier one
+    appending,  ///< appends to the files of an earlier part
 };
 
+/// Output files of a deck run.
 class DeckOutputs {
   public:
-    /// @throws InputError naming a file that cannot be written.
+    /// Opens the files. @throws InputError if a file cannot be written; the message names it
     DeckOutputs(const std::filesystem::path& folder, OutputMode mode, OutputNames names = OutputNames::own);
 
-    // All of these throw UnstableRun instead of writing a number that is not finite.
+    // All write functions throw UnstableRun instead of writing a number that is not finite.
 
-    /// output.dat, cont.dat, cont2.dat. Needs current forces. @param order bodies in the order of the deck.
+    /// Writes output.dat, cont.dat and cont2.dat. Forces must be current. @param order bodies in deck order
     void write_frame(const World& world, std::span<const BodyIndex> order);
-    /// energy.dat and velocity_y.dat. @param bodies whose velocity is written.
+    /// Writes energy.dat and velocity_y.dat. @param bodies bodies whose velocity is written
     void write_energy_row(const World& world, std::span<const BodyIndex> bodies);
-    /// f-d_curve.dat. @param bodies npfd's.
+    /// Writes f-d_curve.dat. @param bodies bodies selected by npfd
     void write_force_rows(const World& world, std::span<const BodyIndex> bodies);
-    /// bonds.dat
+    /// Writes bonds.dat.
     void write_bond_row(const World& world);
-    /// events.csv
+    /// Writes events.csv.
     void write_breaks(const World& world, std::span<const BreakEvent> breaks);
-    /// @throws InputError if something could not be written (a full disc, say).
+    /// Writes buffered output. @throws InputError if a file could not be written (for example, because the disc is
+    /// full)
     void flush();
 
-    /// From the names that they are written under to their own; none where these are the same.
+    /// Renames from staged to final names; empty if the outputs already have their final names.
     Renames renames() const;
-    /// Once the files have been renamed so, or will be whatever comes.
+    /// Call this once the files have been renamed or are certain to be renamed.
     void have_own_names() { suffix_ = ""; }
 
   private:
@@ -64,13 +69,16 @@ class DeckOutputs {
 
     std::filesystem::path folder_;
     std::string suffix_;
-    std::array<std::ofstream, deck_output_names.size()> files_;
+    std::array<FileStream, deck_output_names.size()> files_;
 };
 
-/// Cuts the outputs of an earlier part back to their last complete row or frame of a step up to `step`: what a part
-/// that failed or was killed wrote behind the point from which the run goes on. Files that are not there are left
-/// alone.
-/// @throws InputError on a file that is none of ours, before any is touched.
+/// Truncates the outputs of an earlier part after the last complete row or frame whose step is at most `step`. An
+/// earlier part that failed or was killed may have written rows beyond the step from which the run is resumed. Missing
+/// files are skipped.
+/// @throws InputError if a file is foreign, before any file is changed
 void drop_rows_after(const std::filesystem::path& folder, std::int64_t step);
+
+/// Checks the first line of each existing output. @throws InputError if a file was not written by this program
+void refuse_foreign_outputs(const std::filesystem::path& folder);
 
 }  // namespace crackle

@@ -17,26 +17,26 @@
 namespace crackle {
 namespace {
 
-/// Uniform on [low, high): 53 random bits.
+/// Uniformly distributed number in [low, high), with 53 random bits.
 double uniform(std::mt19937_64& generator, double low, double high) {
     constexpr double unit = 1.0 / 9007199254740992.0;  // 2^-53
     return low + (high - low) * (static_cast<double>(generator() >> 11) * unit);
 }
 
-/// Circles placed so far, in square cells of at least the largest diameter, so that whatever overlaps lies in nine of
-/// them.
+/// Circles placed so far, sorted into square cells. Cells are at least as large as the largest diameter, so all circles
+/// that overlap a new one lie in nine cells.
 class PlacedCircles {
   public:
     PlacedCircles(const Domain& domain, double radius_max, std::int64_t count) : origin_{domain.x1, domain.y1} {
         const double width = domain.x2 - domain.x1, height = domain.y2 - domain.y1, n = static_cast<double>(count);
-        // Larger cells where few circles have much room, so that memory follows the number of circles.
+        // In a sparse domain cells are larger, so that memory is proportional to the number of circles.
         size_ = std::max({2.0 * radius_max, std::sqrt(width / n * height), std::max(width, height) / (n + 64.0)});
         columns_ = static_cast<std::size_t>(width / size_) + 1;
         rows_ = static_cast<std::size_t>(height / size_) + 1;
         cells_.resize(columns_ * rows_);
     }
 
-    /// Σ δ² over the circles that it overlaps: the energy that its contacts would hold, up to k_n/2.
+    /// Σ δ² over the circles that a new circle overlaps: the energy of these contacts divided by k_n/2.
     double squared_overlaps(const CircleElement& circle) const {
         const std::size_t column = column_of(circle.centre), row = row_of(circle.centre);
         double sum = 0.0;
@@ -68,8 +68,9 @@ class PlacedCircles {
     std::vector<std::vector<CircleElement>> cells_;
 };
 
-// Places tried for a circle. With one, some circles lie nearly on top of each other and leave through the walls; with
-// this many the energy of the start is a twelfth of that (the guide's 582), and more bring little.
+// Number of random positions tried for each circle; the one with the least overlap is used. With a single try, some
+// circles land nearly on top of each other and are pushed out through the walls. Thirty tries reduce the initial energy
+// to a twelfth (for the DEMseg guide's example of 582 circles), and more tries help little.
 constexpr int places_tried = 30;
 
 }  // namespace
@@ -81,7 +82,7 @@ std::int64_t random_circle_count(const RandomGeometry& geometry) {
     const double count = std::round(area / ((1.0 + geometry.void_ratio) * std::numbers::pi * mean_square));
     if (!(count >= 1.0 && count <= 1e7)) {
         throw InputError(fmt::format(
-            "in_gm.dat: random circles: found {} of them by domain, radii and void ratio, expected 1 to 1e7", count));
+            "in_gm.dat: random circles: found {} circles from domain, radii and void ratio, expected 1 to 1e7", count));
     }
     return static_cast<std::int64_t>(count);
 }

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "solver/demseg/deck_folder.hpp"
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/files/file_set.hpp"
@@ -42,7 +43,7 @@ int read_id(DeckReader& reader, const char* key, int lowest) {
     return static_cast<int>(reader.integer(key, lowest, largest_number));
 }
 
-/// The file's frame of a step.
+/// Head of the frame of a given step; nullptr if the file has no such frame.
 const DeckFrameFile::Head* head_of_step(const DeckFrameFile& file, std::int64_t step) {
     const auto& heads = file.heads();
     const auto found = std::lower_bound(heads.begin(), heads.end(), step,
@@ -58,7 +59,7 @@ std::optional<DeckFrameFile> file_if_there(const std::filesystem::path& path) {
 DeckBreaks read_breaks(const std::filesystem::path& file) {
     if (!is_there(file)) return {};
     std::string text = read_file(file);
-    text.resize(text.rfind('\n') + 1);  // a killed run may have left its last line incomplete
+    text.resize(text.rfind('\n') + 1);  // a killed run may have left an incomplete last line
     const std::string names = breaks_header();
     if (text.starts_with(names)) return {std::move(text), 1};
     if (text.empty() || (text.front() >= '0' && text.front() <= '9')) return {names + text, 0};
@@ -72,8 +73,8 @@ DeckFrameFile::DeckFrameFile(std::filesystem::path path, int counts) : path_(std
     errno = 0;
     file_.open(path_, std::ios::binary);
     if (!file_)
-        throw InputError(fmt::format("{}: cannot be read ({}), expected the output of `crackle run`", path_.string(),
-                                     std::strerror(errno)));
+        fail_reading(errno, fmt::format("{}: cannot be read ({}), expected the output of `crackle run`", path_.string(),
+                                        std::strerror(errno)));
     std::string line;
     std::int64_t at = 0;
     int number = 0;
@@ -92,8 +93,8 @@ DeckFrameFile::DeckFrameFile(std::filesystem::path path, int counts) : path_(std
         }
         words.expect_end("the counts");
         if (!heads_.empty() && head.step <= heads_.back().step) {
-            throw InputError(fmt::format("{}:{}: found step {} after step {}, expected steps that rise", path_.string(),
-                                         number, head.step, heads_.back().step));
+            throw InputError(fmt::format("{}:{}: found step {} after step {}, expected increasing steps",
+                                         path_.string(), number, head.step, heads_.back().step));
         }
         head.offset = at;
         head.line = number;
@@ -125,7 +126,8 @@ DeckFrames::Identities DeckFrames::identities(const std::filesystem::path& folde
 }
 
 DeckFrames::Identities DeckFrames::whole_set(const std::filesystem::path& folder) {
-    // Of a run that was stopped, or is saving just now and will be done in a moment. Others leave outputs alone.
+    // A journal exists while a run is saving, or if it was interrupted while saving. As long as the run holds the
+    // folder, completing the replacement fails and is retried; a save takes only a moment.
     constexpr int most_tries = 50;
     constexpr std::chrono::milliseconds between_tries{100};
     for (int tries = 1; gives_name(deck_journal(folder), files_read); ++tries) {
@@ -148,8 +150,8 @@ DeckFrames::DeckFrames(const std::filesystem::path& folder)
       breaks_(read_breaks(folder / files_read[3])) {
     require_unchanged();
     if (positions_.heads().empty()) {
-        throw InputError(
-            fmt::format("{}: found no complete frame, expected those of `crackle run`", positions_.path().string()));
+        throw InputError(fmt::format("{}: found no complete frame, expected at least one written by `crackle run`",
+                                     positions_.path().string()));
     }
 }
 

@@ -35,7 +35,7 @@ constexpr std::array beginnings{
     Beginning{"ITEM: TIMESTEP", "a LAMMPS dump"},
 };
 
-constexpr std::size_t looked_at = 4096;  // bytes, of a text for its kind
+constexpr std::size_t looked_at = 4096;  // bytes of a text that are examined to determine its kind
 
 std::string lower(std::string_view text) {
     std::string low(text);

@@ -7,12 +7,12 @@
 
 namespace crackle {
 
-/// What a file is, by its first bytes, that people have in hand and this program does not read: "GeoJSON", "an SVG
-/// drawing", "a spreadsheet (xlsx, ods) or another zip archive". Empty for plain text.
+/// Recognises, from a file's first bytes, kinds of files that users may have but this program does not read: "GeoJSON",
+/// "an SVG drawing", "a spreadsheet (xlsx, ods) or another zip archive". Empty for plain text.
 std::string_view foreign_kind(std::string_view bytes);
 
-/// @param expected what is read here, and what to do with such a file
-/// @throws InputError «name: found GeoJSON, expected ...» for a file of such a kind
+/// Refuses a file whose kind foreign_kind() recognises. @param expected what the program reads here, and what the user
+/// can do with the file @throws InputError «name: found GeoJSON, expected ...»
 void refuse_foreign(const std::string& name, std::string_view bytes, const std::string& expected);
 
 }  // namespace crackle

@@ -11,6 +11,7 @@
 #include <new>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/read_pieces.hpp"
 
@@ -25,7 +26,8 @@ FileMark mark_of_file(const std::filesystem::path& file) {
     errno = 0;
     std::ifstream in(file, std::ios::binary);
     if (!in)
-        throw InputError(fmt::format("{}: cannot be read ({}), expected a file", file.string(), std::strerror(errno)));
+        fail_reading(errno,
+                     fmt::format("{}: cannot be read ({}), expected a file", file.string(), std::strerror(errno)));
     const std::streamoff length = length_of_stream(in);
     errno = 0;
     const bool whole = length >= 0 && read_pieces(in, 0, length, [&](std::string_view piece) {
@@ -33,7 +35,8 @@ FileMark mark_of_file(const std::filesystem::path& file) {
                        });
     refuse_failed(in, file.string());
     if (!whole)
-        throw InputError(fmt::format("{}: became shorter while it was read, expected a file at rest", file.string()));
+        throw InputError(
+            fmt::format("{}: became shorter while it was read, expected a file that does not change", file.string()));
     return {static_cast<std::uint64_t>(length), XXH3_64bits_digest(state.get())};
 }
 

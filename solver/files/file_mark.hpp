@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is recorded of a file's beginning, or of all of it: by what it is known to be the one that was written.
+// Length and hash of a file, or of its beginning, to recognise it later.
 // Tested by tests/solver/files/file_mark_test.cpp.
 #pragma once
 
@@ -8,23 +8,24 @@
 #include <string>
 #include <string_view>
 
+#include "solver/base/fields.hpp"
+
 namespace crackle {
 
+/// Length and hash of a file's beginning.
 struct FileMark {
     std::uint64_t bytes = 0;
-    std::uint64_t hash = 0;  ///< XXH3 (64 bits) of these
+    std::uint64_t hash = 0;  ///< XXH3 hash (64 bits) of these bytes
 
+    /// Whether length and hash are the same.
     bool operator==(const FileMark&) const = default;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("bytes", s.bytes);
-        visit("hash", s.hash);
-    }
+    CRACKLE_FIELDS(bytes, hash);
 };
 
+/// Mark of the complete contents of a file, given in memory.
 FileMark mark_of(std::string_view contents);
-/// Of a whole file, read piece by piece. @throws InputError if it cannot be read
+/// Mark of a whole file. The file is read in pieces. @throws InputError if it cannot be read
 FileMark mark_of_file(const std::filesystem::path& file);
 
 /// The hash as 16 hexadecimal digits, as `xxhsum -H3` prints it.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Layout of a journal: journal_mark, XXH3 (64 bits) of what follows, renames as cereal writes them.
+// Layout of a journal: journal_mark, XXH3 hash (64 bits) of the rest, and the renames as written by cereal.
 #include "solver/files/file_set.hpp"
 
 #include <fmt/format.h>
@@ -10,15 +10,15 @@
 #include <cereal/types/string.hpp>
 #include <cereal/types/utility.hpp>
 #include <cereal/types/vector.hpp>
-#include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <sstream>
 #include <string_view>
 
 #include "solver/base/checked_input.hpp"
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
+#include "solver/files/file_stream.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 
@@ -31,9 +31,9 @@ constexpr std::string_view journal_mark = "CRKLSET3";
 
 std::string damage(const fs::path& journal) {
     return fmt::format(
-        "{}: found a journal that is damaged or of another version, expected one that is whole; the files beside it "
+        "{}: found a journal that is damaged or of another version, expected a complete one; the files in its folder "
         "may "
-        "belong to two runs: remove them with it and run again",
+        "belong to two runs: remove these files and the journal, and run again",
         journal.string());
 }
 
@@ -59,25 +59,25 @@ Renames read_journal(const fs::path& journal) {
     return renames;
 }
 
-/// Removed again unless they were kept.
+/// New files of a set; they are removed on destruction unless keep() is called.
 class StagedFiles {
   public:
     explicit StagedFiles(fs::path folder) : folder_(std::move(folder)) {}
     StagedFiles(const StagedFiles&) = delete;
     StagedFiles& operator=(const StagedFiles&) = delete;
     ~StagedFiles() {
-        std::error_code ignored;  // the next who writes the set begins them anew
+        std::error_code ignored;  // errors are ignored, because the next writer of the set overwrites the files
         for (const auto& [from, to] : renames_) fs::remove(folder_ / from, ignored);
     }
 
     void write(const std::string& name, const std::string& contents) {
         renames_.emplace_back(name + staged_suffix, name);
         const fs::path path = folder_ / renames_.back().first;
-        errno = 0;
-        std::ofstream file(path, std::ios::binary | std::ios::trunc);
+        FileStream file;
+        file.open(path, FileStream::Opening::fresh);
         file.write(contents.data(), static_cast<std::streamsize>(contents.size()));
         file.close();
-        if (!file) refuse_output(folder_ / name);
+        file.require_written(folder_ / name);
     }
     const Renames& renames() const { return renames_; }
     void keep() { renames_.clear(); }
@@ -103,8 +103,9 @@ void write_journal(const fs::path& journal, const FileSet& files, const Renames&
     text.append(reinterpret_cast<const char*>(&hash), sizeof hash);
     try {
         replace_file(journal, text + packed);
-    } catch (const OutputError&) {
-        if (is_there(journal)) staged.keep();  // its name alone may not be on the disc
+    } catch (const std::exception&) {
+        if (is_there(journal))
+            staged.keep();  // the journal exists, although its name may not have been flushed to the disc
         throw;
     }
     staged.keep();
@@ -122,15 +123,18 @@ bool complete_replacement(const fs::path& journal) {
     if (!is_there(journal)) return false;
     for (const auto& [from, to] : read_journal(journal)) {
         const fs::path staged = journal.parent_path() / from, path = journal.parent_path() / to;
-        if (!is_there(staged)) continue;  // it has its name already
+        if (!is_there(staged)) continue;  // the file already has its final name
         std::error_code error;
         fs::rename(staged, path, error);
-        if (error) throw OutputError(fmt::format("{}: cannot be replaced ({})", path.string(), error.message()));
+        if (error)
+            fail_writing(error.value(), fmt::format("{}: cannot be replaced ({})", path.string(), error.message()));
     }
     bring_names_to_disc(journal.parent_path());
     std::error_code error;
     if (!fs::remove(journal, error)) refuse_output(journal);
-    bring_names_to_disc(journal.parent_path());  // else a loss of power brings it back, over what is edited since
+    // Without this flush, the journal could reappear after a loss of power, and completing it would overwrite later
+    // changes.
+    bring_names_to_disc(journal.parent_path());
     return true;
 }
 

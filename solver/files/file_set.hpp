@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of a folder that belong together, replaced all or none: whoever is stopped at any moment, by a signal, a full
-// disc or a loss of power, leaves the earlier set or the new one, never a mixture.
+// Replaces a set of files in a folder as a unit. A signal, a full disc or a loss of power may stop the process at any
+// time; afterwards either the old set or the new one exists, never a mixture.
 //
-// The new files are first written under other names and brought to the disc. Then a journal says what each is renamed
-// to; from the moment it has its name the replacement counts as done, and whoever reads the set next ends what is left.
+// The new files are first written under temporary names and flushed to the disc. Then a journal that lists their final
+// names is written. Once the journal exists, the replacement counts as done: if the process is stopped, the next reader
+// of the set completes it.
 // Tested by tests/solver/files/file_set_test.cpp and tests/solver/demseg/replaced_test.cpp.
 #pragma once
 
@@ -15,27 +16,28 @@
 
 namespace crackle {
 
-/// Names in one folder, with contents.
+/// Names of files in one folder, with their contents.
 using FileSet = std::vector<std::pair<std::string, std::string>>;
-/// Names of complete files in that folder, with the names that they get.
+/// Pairs of temporary and final names of completely written files in the folder.
 using Renames = std::vector<std::pair<std::string, std::string>>;
 
-/// Behind the name of a file that gets its own with the set that it belongs to.
+/// Suffix of a file that receives its final name together with the rest of its set.
 inline constexpr const char* staged_suffix = ".new";
 
-/// The first half of a replacement: from here it comes to its end, whoever is stopped. Where it fails, the files that
-/// it wrote are removed again unless the journal stands. All else that was written to this file system is on the disc,
-/// too.
-/// @param journal its path; the files lie beside it
-/// @param renames of files that are written already
-/// @throws OutputError if something cannot be written
+/// First half of a replacement: writes the files under temporary names, and then the journal. After a successful
+/// return, the replacement will be completed even if the process is stopped. On failure, the files written are removed,
+/// unless the journal exists. All other data written to this file system are flushed as well.
+/// @param journal path of the journal, in the folder of the files
+/// @param renames further files of the set that are already written
+/// @throws OutputError if a file cannot be written
 void write_journal(const std::filesystem::path& journal, const FileSet& files, const Renames& renames = {});
 
-/// Whether a journal is there that gives a file one of these names. @throws InputError if it is damaged
+/// Whether a journal exists that lists one of these names as a final name. @throws InputError if the journal is damaged
 bool gives_name(const std::filesystem::path& journal, std::span<const char* const> names);
 
-/// The other half, or what is left of it. @return whether there was a journal
-/// @throws InputError if it is damaged, OutputError if something cannot be written
+/// Second half of a replacement: renames the files that still have temporary names, and removes the journal. @return
+/// whether there was a journal
+/// @throws InputError if the journal is damaged, OutputError if a file cannot be written
 bool complete_replacement(const std::filesystem::path& journal);
 
 }  // namespace crackle

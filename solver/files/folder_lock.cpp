@@ -13,13 +13,13 @@
 #include <string>
 
 #include "solver/base/errors.hpp"
-#include "solver/files/replace_file.hpp"
+#include "solver/files/file_stream.hpp"
 
 namespace crackle {
 
 namespace {
 
-/// The process that holds a folder, as the system lists locks; empty where it does not say.
+/// The process that has locked a folder, according to /proc/locks; empty if it is not listed there.
 std::string holder_of(int descriptor) {
     struct stat folder = {};
     if (::fstat(descriptor, &folder) != 0) return "";
@@ -45,13 +45,14 @@ FolderLock::FolderLock(const std::filesystem::path& folder, Hold hold)
     ::close(descriptor_);
     errno = reason;
     if (reason != EWOULDBLOCK) refuse_output(folder);
-    throw OutputError(fmt::format(
-        "{}: another crackle{} is writing here, expected a folder of one's own; wait for it, or choose another -o",
-        folder.string(), holder));
+    throw OutputError(
+        fmt::format("{}: another crackle{} is writing here, expected an unused folder; wait for it, or choose another "
+                    "folder with -o",
+                    folder.string(), holder));
 }
 
 FolderLock::~FolderLock() {
-    if (descriptor_ >= 0) ::close(descriptor_);  // which unlocks
+    if (descriptor_ >= 0) ::close(descriptor_);  // closing removes the lock
 }
 
 }  // namespace crackle

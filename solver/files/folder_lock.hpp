@@ -7,13 +7,15 @@
 
 namespace crackle {
 
+/// Purpose of a lock.
 enum class Hold : bool { to_write, to_read };
 
-/// Holds a folder against other processes as long as it lives: who reads does not keep out others who read.
+/// Locks a folder against other processes during its lifetime. Several readers can hold the lock at the same time.
 class FolderLock {
   public:
-    /// @throws InputError if another process holds it.
+    /// Locks a folder. @throws InputError if another process holds a conflicting lock
     explicit FolderLock(const std::filesystem::path& folder, Hold hold = Hold::to_write);
+    /// Takes over the lock of another object.
     FolderLock(FolderLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
     FolderLock& operator=(FolderLock&&) = delete;
     ~FolderLock();

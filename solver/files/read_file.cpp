@@ -9,25 +9,34 @@
 #include <fstream>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 
 namespace crackle {
 
 namespace {
 
+[[noreturn]] void refuse_longer(const std::filesystem::path& path, std::uint64_t most_bytes) {
+    throw InputError(fmt::format(
+        "{0}: found more than {1} bytes, expected at most {1}, the limit for such files; use a smaller file",
+        path.string(), most_bytes));
+}
+
 [[noreturn]] void refuse_unknown(const std::filesystem::path& path, const std::error_code& error) {
-    throw InputError(fmt::format("{}: cannot be looked for ({})", path.string(), error.message()));
+    fail_reading(error.value(),
+                 fmt::format("{}: its existence cannot be checked ({})", path.string(), error.message()));
 }
 
 }  // namespace
 
 void refuse_failed(const std::istream& in, const std::string& name) {
-    if (in.bad()) throw InputError(fmt::format("{}: reading stopped with an error ({})", name, std::strerror(errno)));
+    if (in.bad())
+        fail_reading(errno, fmt::format("{}: reading stopped with an error ({})", name, std::strerror(errno)));
 }
 
 bool is_there(const std::filesystem::path& path) {
     std::error_code error;
     const bool there = std::filesystem::exists(path, error);
-    // A name too long for a file is none, nor is one below a file.
+    // These two errors mean that the path does not exist.
     if (error && error != std::errc::filename_too_long && error != std::errc::not_a_directory)
         refuse_unknown(path, error);
     return there;
@@ -49,20 +58,36 @@ bool is_folder(const std::filesystem::path& path) {
     return folder;
 }
 
-std::string read_file(const std::filesystem::path& path) {
-    std::error_code unknown;  // opening tells
+std::set<std::string> names_in(const std::filesystem::path& folder) {
+    std::set<std::string> names;
+    std::error_code error;
+    std::filesystem::directory_iterator entry(folder, error);
+    if (error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory) return names;
+    for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error))
+        names.insert(entry->path().filename().string());
+    if (error) fail_reading(error.value(), fmt::format("{}: cannot be listed ({})", folder.string(), error.message()));
+    return names;
+}
+
+std::string read_file(const std::filesystem::path& path, std::uint64_t most_bytes) {
+    std::error_code unknown;  // ignored, because opening the file reports the error
     if (std::filesystem::is_directory(path, unknown))
         throw InputError(fmt::format("{}: found a folder, expected a file", path.string()));
+    const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+    // Files of unknown size are checked while they are read.
+    if (!unknown && size > most_bytes) refuse_longer(path, most_bytes);
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     if (!file)
-        throw InputError(fmt::format("{}: cannot be read ({}), expected a file", path.string(), std::strerror(errno)));
-    // By read(): it alone says that the system gave an error, where `<< rdbuf()` takes that for the end.
+        fail_reading(errno,
+                     fmt::format("{}: cannot be read ({}), expected a file", path.string(), std::strerror(errno)));
+    // read() is used because it reports system errors; `<< rdbuf()` would treat them as the end of the file.
     std::string bytes;
     std::array<char, 1 << 16> piece;
     do {
         file.read(piece.data(), piece.size());
         bytes.append(piece.data(), static_cast<std::size_t>(file.gcount()));
+        if (bytes.size() > most_bytes) refuse_longer(path, most_bytes);
     } while (file);
     refuse_failed(file, path.string());
     return bytes;
@@ -76,7 +101,8 @@ std::string_view without_byte_order_mark(std::string_view text) {
 
 namespace {
 
-/// By its mark, or by the zeros in every other byte of its first two letters.
+/// Whether a text is UTF-16, recognised by its byte order mark, or by a zero in one byte of each of its first two
+/// characters.
 bool is_of_wide_letters(std::string_view bytes) {
     if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) return true;
     if (bytes.size() < 4) return false;
@@ -93,8 +119,8 @@ void refuse_wide_letters(const std::filesystem::path& path, std::string_view byt
     }
 }
 
-std::string read_text(const std::filesystem::path& path) {
-    std::string text = read_file(path);
+std::string read_text(const std::filesystem::path& path, std::uint64_t most_bytes) {
+    std::string text = read_file(path, most_bytes);
     refuse_wide_letters(path, text);
     text.erase(0, text.size() - without_byte_order_mark(text).size());
     return text;

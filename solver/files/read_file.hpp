@@ -2,32 +2,48 @@
 // Tested by tests/solver/files/read_file_test.cpp.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <limits>
+#include <set>
 #include <string>
 #include <string_view>
 
 namespace crackle {
 
-/// The bytes of a file, all of them.
-/// @throws InputError if it is none, cannot be opened, or reading stops before its end
-std::string read_file(const std::filesystem::path& path);
+// Size limits of files that are read as a whole, by type of contents.
+inline constexpr std::uint64_t most_bytes_of_keys = std::uint64_t{1} << 24;       // TOML: 16 MiB
+inline constexpr std::uint64_t most_bytes_of_table = std::uint64_t{1} << 30;      // 1 GiB
+inline constexpr std::uint64_t most_bytes_of_particles = std::uint64_t{1} << 34;  // decks and results: 16 GiB
 
-/// A text without the byte order mark (UTF-8) that some editors put in front.
+/// Reads all bytes of a file.
+/// @throws InputError if it is not a plain file, cannot be read completely, or has more bytes than the limit
+std::string read_file(const std::filesystem::path& path,
+                      std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
+
+/// The text without the byte order mark (UTF-8) that some editors add at its beginning.
 std::string_view without_byte_order_mark(std::string_view text);
 
-/// @throws InputError if the bytes of a file are UTF-16
+/// Refuses a file in UTF-16. @throws InputError
 void refuse_wide_letters(const std::filesystem::path& path, std::string_view bytes);
 
-/// A file of text: its bytes without such a mark. @throws InputError as read_file(), and for UTF-16, which is named
-std::string read_text(const std::filesystem::path& path);
+/// Reads a text file, without its byte order mark. @throws InputError as read_file(), and for UTF-16, which the message
+/// mentions
+std::string read_text(const std::filesystem::path& path, std::uint64_t most_bytes = most_bytes_of_particles);
 
-/// @throws InputError if the system gave an error while a stream was read, which is no end of it
+/// Checks that reading from a stream stopped at the end of the data. @throws InputError if it stopped because of a
+/// system error
 void refuse_failed(const std::istream& in, const std::string& name);
 
-/// Whether a path is there; a file; a folder. @throws InputError if the system does not say: that is no "no"
+/// Whether a path exists. @throws InputError, SystemFailure if the operating system cannot determine it
 bool is_there(const std::filesystem::path& path);
+/// Whether a path leads to a plain file, not to a folder or device. @throws InputError, SystemFailure if the operating
+/// system cannot determine it
 bool is_file(const std::filesystem::path& path);
+/// Whether a path leads to a folder. @throws InputError, SystemFailure if the operating system cannot determine it
 bool is_folder(const std::filesystem::path& path);
+/// Names in a folder; empty if there is no such folder. @throws InputError, SystemFailure if it cannot be listed
+std::set<std::string> names_in(const std::filesystem::path& folder);
 
 }  // namespace crackle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A part of a stream piece by piece, for what must not be in the memory as a whole.
+// Reads part of a stream in pieces, for data too large to be held in memory.
 // Tested by tests/verification/determinism_test.cpp.
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace crackle {
 
-/// Bytes from `begin` on up to `end` to watch(piece). @return whether all could be read; the stream stands at `end`
-/// then
+/// Calls watch(piece) for consecutive pieces of the bytes from `begin` to `end`. @return whether all bytes could be
+/// read; the stream is then at `end`
 template <class Watch>
 bool read_pieces(std::istream& in, std::streamoff begin, std::streamoff end, Watch watch) {
     std::array<char, 1 << 16> piece;
@@ -25,7 +25,7 @@ bool read_pieces(std::istream& in, std::streamoff begin, std::streamoff end, Wat
     return in.good();
 }
 
-/// Its length, bytes; the stream stands at its begin.
+/// Length of a stream in bytes. Resets the stream to its beginning.
 inline std::streamoff length_of_stream(std::istream& in) {
     in.seekg(0, std::ios::end);
     const std::streamoff length = in.tellg();

@@ -2,26 +2,20 @@
 #include "solver/files/replace_file.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <system_error>
 
-#include "solver/base/errors.hpp"
-#include "solver/files/read_file.hpp"
+#include "solver/files/file_stream.hpp"
+#include "solver/files/new_file.hpp"
 
 namespace crackle {
 
-void refuse_output(const std::filesystem::path& path) {
-    throw OutputError(fmt::format("{}: cannot be written ({}), expected a writable folder with room on the disc",
-                                  path.string(), std::strerror(errno)));
-}
-
 namespace {
 
-/// @return what the system says of it, 0: done
+/// Flushes a file or folder to the disc. @return errno of the failed call, or 0 for success
 int bring_to_disc(const std::filesystem::path& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) return errno;
@@ -35,14 +29,22 @@ int bring_to_disc(const std::filesystem::path& path) {
 void bring_names_to_disc(const std::filesystem::path& folder) {
     const std::filesystem::path here = folder.empty() ? "." : folder;
     errno = bring_to_disc(here);
-    if (errno != 0 && errno != EINVAL) refuse_output(here);  // EINVAL: a file system that knows no such thing
+    if (errno != 0 && errno != EINVAL) refuse_output(here);  // EINVAL: not supported by this file system
 }
 
+// std::filesystem::create_directories() is not used, because it queries each folder first and gives up if a query
+// fails.
 void make_folder(const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (!error) return;
-    errno = error.value();
+    if (::mkdir(folder.c_str(), 0777) == 0) return;
+    if (errno == ENOENT && folder.has_parent_path() && folder.parent_path() != folder) {
+        make_folder(folder.parent_path());
+        if (::mkdir(folder.c_str(), 0777) == 0) return;
+    }
+    struct stat found = {};
+    if (errno == EEXIST && ::stat(folder.c_str(), &found) == 0) {
+        if (S_ISDIR(found.st_mode)) return;
+        errno = ENOTDIR;
+    }
     refuse_output(folder);
 }
 
@@ -55,42 +57,11 @@ void bring_all_to_disc(const std::filesystem::path& folder) {
     if (reason != 0) refuse_output(folder);
 }
 
-void refuse_replacing(const std::filesystem::path& output, bool force, std::span<const std::filesystem::path> inputs) {
-    if (!is_there(output)) return;
-    std::error_code error;
-    for (const std::filesystem::path& input : inputs) {
-        if (std::filesystem::equivalent(output, input, error) && !error) {
-            throw InputError(
-                fmt::format("{}: found an input of the same command, expected another file to write", output.string()));
-        }
-    }
-    if (!force) {
-        throw InputError(fmt::format(
-            "{}: found there already, expected a new file; choose another name, or add --force to replace it",
-            output.string()));
-    }
-}
-
 void replace_file(const std::filesystem::path& path, const std::string& contents) {
-    std::filesystem::path temporary = path;
-    temporary += ".tmp";
-    errno = 0;
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    file.write(contents.data(), static_cast<std::streamsize>(contents.size()));
-    file.close();
-    const int reason = !file ? errno : bring_to_disc(temporary);
-    std::error_code error;
-    if (!file || reason != 0) {
-        std::filesystem::remove(temporary, error);
-        errno = reason;
-        refuse_output(path);
-    }
-    std::filesystem::rename(temporary, path, error);
-    if (error) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw OutputError(fmt::format("{}: cannot be replaced ({})", path.string(), error.message()));
-    }
+    NewFile file(path);
+    file.stream().write(contents.data(), static_cast<std::streamsize>(contents.size()));
+    file.bring_to_disc();
+    file.take_name();
     bring_names_to_disc(path.parent_path());
 }
 

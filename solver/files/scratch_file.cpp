@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/files/scratch_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <utility>
 
-#include "solver/base/errors.hpp"
-#include "solver/files/replace_file.hpp"
+#include "solver/base/system_failure.hpp"
+#include "solver/files/file_stream.hpp"
+#include "solver/files/new_file.hpp"
 
 namespace crackle {
 
 ScratchFile::ScratchFile(std::filesystem::path folder) : folder_(std::move(folder)), descriptor_(-1) {
-    // A name for as long as it takes to remove it: not every file system makes files without one.
-    std::string name = (folder_ / "scratch.").string() + std::string(6, 'X');  // for mkostemp() to fill in
-    descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
-    if (descriptor_ < 0) refuse_output(folder_);
-    if (::unlink(name.c_str()) == 0) return;
+    // The file has a name only until it is unlinked below, since not every file system can create unnamed files.
+    const TemporaryFile file = make_temporary(folder_, folder_);
+    descriptor_ = file.descriptor;
+    if (::unlink(file.path.c_str()) == 0) return;
     const int reason = errno;
     ::close(descriptor_);
-    throw OutputError(
-        fmt::format("{}: cannot be removed ({}), expected a folder whose files can be; it holds nothing, remove it",
-                    name, std::strerror(reason)));
+    fail_writing(
+        reason,
+        fmt::format(
+            "{}: cannot be removed ({}), expected a folder in which files can be removed; the file is empty, remove it",
+            file.path.string(), std::strerror(reason)));
 }
 
 ScratchFile::~ScratchFile() { ::close(descriptor_); }
@@ -46,9 +46,9 @@ void ScratchFile::read(std::size_t at, std::span<std::byte> bytes) const {
         const ssize_t done = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(at));
         if (done < 0 && errno == EINTR) continue;
         if (done < 0)
-            throw InputError(fmt::format("{}: a file without a name there cannot be read again ({})", folder_.string(),
-                                         std::strerror(errno)));
-        if (done == 0) {  // beyond what was written
+            fail_reading(errno, fmt::format("{}: an unnamed temporary file in this folder cannot be read ({})",
+                                            folder_.string(), std::strerror(errno)));
+        if (done == 0) {  // beyond the end of the data written
             std::ranges::fill(bytes, std::byte{});
             return;
         }
@@ -58,7 +58,7 @@ void ScratchFile::read(std::size_t at, std::span<std::byte> bytes) const {
 }
 
 void ScratchFile::bring_to_disc() const {
-    if (::fdatasync(descriptor_) != 0 && errno != EINVAL)  // EINVAL: a file system that knows no such thing
+    if (::fdatasync(descriptor_) != 0 && errno != EINVAL)  // EINVAL: not supported by this file system
         refuse_output(folder_);
 }
 

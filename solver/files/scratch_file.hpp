@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers that wait on the disc instead of in memory, in files that have no name and are gone with the process.
+// Numbers stored on disc instead of in memory, in unnamed files that are deleted when the process ends.
 // Tested by tests/solver/files/scratch_file_test.cpp.
 #pragma once
 
@@ -12,19 +12,21 @@
 
 namespace crackle {
 
+/// An unnamed file for data that need not be in memory.
 class ScratchFile {
   public:
-    /// @throws InputError if the folder takes no file, or keeps its name
+    /// Creates the file. @throws InputError if no file can be created in the folder, or if its name cannot be removed
     explicit ScratchFile(std::filesystem::path folder);
     ScratchFile(const ScratchFile&) = delete;
     ScratchFile& operator=(const ScratchFile&) = delete;
     ~ScratchFile();
 
-    /// @throws InputError where the disc is full or fails; so do the others
+    /// Writes bytes at an offset. @throws InputError if the disc is full or fails; so do the other functions
     void write(std::size_t at, std::span<const std::byte> bytes);
-    /// What was never written reads as 0.
+    /// Reads bytes at an offset. Bytes that were never written are read as 0.
     void read(std::size_t at, std::span<std::byte> bytes) const;
-    /// A file system over a network may find only now that it has no room, and would read back zeros.
+    /// Flushes the data to the disc. A network file system may report only then that it is full; without the flush,
+    /// reads could return zeros.
     void bring_to_disc() const;
 
   private:
@@ -32,24 +34,29 @@ class ScratchFile {
     int descriptor_;
 };
 
-/// An array of which a stretch at a time is in memory: quick where one element comes after the other.
+/// An array on disc with one section at a time in memory; fast for sequential access.
 template <class T>
 class ScratchArray {
     static_assert(std::is_trivially_copyable_v<T>);
 
   public:
+    /// Creates an empty array. @throws InputError if no file can be created in the folder
     explicit ScratchArray(const std::filesystem::path& folder) : file_(folder) {}
 
+    /// Number of elements.
     std::size_t size() const { return size_; }
+    /// Changes the number of elements. All values must then be set again.
     void resize(std::size_t count) {
         size_ = count;
         begin_ = 0;
         stretch_.clear();
     }
+    /// Changes the number of elements and sets each to `value`.
     void assign(std::size_t count, const T& value) {
         generate(count, [&](std::size_t) { return value; });
     }
-    /// Puts value(k) everywhere, one after the other: nothing is read.
+    /// Changes the number of elements and sets each element k to value(k), in ascending order and without reading the
+    /// file.
     template <class Value>
     void generate(std::size_t count, Value&& value) {
         resize(count);
@@ -58,11 +65,12 @@ class ScratchArray {
             for (std::size_t k = 0; k < stretch_.size(); ++k) stretch_[k] = value(begin + k);
         }
     }
-    /// Valid until another element is asked for.
+    /// Element k. The reference is valid until another element is accessed.
     T& operator[](std::size_t k) {
         if (k < begin_ || k >= begin_ + stretch_.size()) move_to(k, true);
         return stretch_[k - begin_];
     }
+    /// Copy of all elements in memory. @throws InputError if the disc is full or fails
     std::vector<T> values() {
         write_stretch();
         file_.bring_to_disc();
@@ -84,7 +92,7 @@ class ScratchArray {
 
     ScratchFile file_;
     std::size_t size_ = 0, begin_ = 0;
-    std::vector<T> stretch_;  // from begin_ on
+    std::vector<T> stretch_;  // the section in memory; its first element has index begin_
 };
 
 }  // namespace crackle

@@ -24,7 +24,7 @@ std::vector<std::string_view> words_of(std::string_view text) {
     return words;
 }
 
-/// The line without what stands between quotes.
+/// The line without its quoted parts.
 std::string outside_quotes(std::string_view line) {
     std::string text;
     bool inside = false;
@@ -35,7 +35,7 @@ std::string outside_quotes(std::string_view line) {
     return text;
 }
 
-/// "0,5 1,5": the commas are within the numbers.
+/// Whether all commas of a line are decimal commas, as in "0,5 1,5".
 bool has_only_decimal_commas(std::string_view line) {
     const std::vector<std::string_view> words = words_of(line);
     bool any = false;
@@ -47,8 +47,8 @@ bool has_only_decimal_commas(std::string_view line) {
     return any && words.size() > 1;
 }
 
-/// What stands between the values of a line. Spreadsheets of places that write decimal commas take semicolons, so a
-/// semicolon wins over a comma; "a,\tb" has commas, with tabs behind them.
+/// Separator of the values in a line. Spreadsheets with decimal commas use semicolons, so a semicolon takes precedence
+/// over a comma. In "a,\tb" the separator is the comma followed by a tab.
 char separator_of(std::string_view line, TableReader::Form form) {
     if (form == TableReader::Form::words) return '\n';
     const std::string text = outside_quotes(line);
@@ -103,7 +103,8 @@ void TableReader::require_as_many_as_names() {
                   expected);
 }
 
-/// In a table a row may begin with a name such as #3: a remark has a blank behind its #, or not a row's values.
+/// Whether a line is a comment. In a table, a row may begin with a name such as #3. Therefore a space must follow the
+/// #, or the number of values must differ from the number of columns.
 bool TableReader::is_remark(std::string_view line) {
     if (!line.starts_with('#')) return false;
     if (names_.empty() || line.size() < 2 || blanks.find(line[1]) != std::string_view::npos) return true;
@@ -116,7 +117,8 @@ bool TableReader::next_line() {
         whole_ = stripped(*line);
         if (whole_.empty() || is_remark(whole_)) continue;
         const bool first = separator_ == '\0';
-        if (first && whole_.size() == 5 && whole_.starts_with("sep=")) {  // a spreadsheet's word on what follows
+        if (first && whole_.size() == 5 &&
+            whole_.starts_with("sep=")) {  // a spreadsheet's declaration of the separator
             separator_ = whole_.back();
             continue;
         }
@@ -131,7 +133,7 @@ bool TableReader::next_line() {
     return false;
 }
 
-/// Takes a value in quotes off the front, with the blanks behind it.
+/// Removes a quoted value and the spaces after it from the front of `rest`.
 std::string_view TableReader::quoted(std::string_view& rest) {
     std::string value;
     for (std::size_t k = 1; k < rest.size(); ++k) {
@@ -145,7 +147,7 @@ std::string_view TableReader::quoted(std::string_view& rest) {
             return unquoted_.back();
         }
     }
-    lines_.refuse(fmt::format("a quote that is not closed: {:.40}", rest), "a second one on the same line");
+    lines_.refuse(fmt::format("a quote that is not closed: {:.40}", rest), "a closing quote on the same line");
 }
 
 void TableReader::split(std::string_view line) {
@@ -153,7 +155,7 @@ void TableReader::split(std::string_view line) {
     unquoted_.clear();
     const bool by_blanks = separator_ == ' ';
     for (std::string_view rest = line;;) {
-        // Leading blanks; a tab that separates is none of them.
+        // leading white space to skip; tabs are kept if they are the separator
         const std::string_view passed_over = separator_ == '\t' ? " " : blanks;
         rest.remove_prefix(std::min(rest.find_first_not_of(passed_over), rest.size()));
         if (rest.starts_with('"')) {
@@ -161,15 +163,16 @@ void TableReader::split(std::string_view line) {
             const std::size_t end =
                 std::min(by_blanks ? rest.find_first_of(blanks) : rest.find(separator_), rest.size());
             if (!stripped(rest.substr(0, end)).empty())
-                lines_.refuse(fmt::format("'{:.40}' behind a value in quotes", rest.substr(0, end)),
-                              fmt::format("nothing between it and the next of the {}", name_of_separator(separator_)));
+                lines_.refuse(fmt::format("'{:.40}' after a value in quotes", rest.substr(0, end)),
+                              fmt::format("nothing before the next separator; values are separated by {}",
+                                          name_of_separator(separator_)));
             if (end == rest.size()) return;
             rest.remove_prefix(end + 1);
             continue;
         }
         const std::size_t end = std::min(by_blanks ? rest.find_first_of(blanks) : rest.find(separator_), rest.size());
         const std::string_view value = stripped(rest.substr(0, end));
-        if (form_ == Form::list && !value.empty()) {  // "1,2 3,4" are four
+        if (form_ == Form::list && !value.empty()) {  // "1,2 3,4" is a list of four values
             const std::vector<std::string_view> words = words_of(value);
             values_.insert(values_.end(), words.begin(), words.end());
         } else if (!by_blanks || !value.empty()) {

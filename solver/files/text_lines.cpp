@@ -51,6 +51,11 @@ std::optional<std::string_view> TextLines::next() {
     if (rest_.empty()) return std::nullopt;
     const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
     const std::string_view line = rest_.substr(0, end);
+    if (line.size() > most_bytes_of_line) {
+        ++line_;
+        refuse(fmt::format("a line of {} bytes", line.size()),
+               fmt::format("at most {}; save the file as text with line breaks", most_bytes_of_line));
+    }
     rest_.remove_prefix(end);
     rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, rest_.size()));
     ++line_;

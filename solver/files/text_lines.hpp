@@ -1,40 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A text line by line, and a word of it as a number: what every reader of text begins with.
+// Splits a text into lines and converts words to numbers, for all readers of text.
 // Tested by tests/solver/files/table_reader_test.cpp.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace crackle {
 
-/// Without blanks and tabs at both ends.
+/// The text without leading and trailing spaces and tabs.
 std::string_view stripped(std::string_view text);
 
-/// A whole word as a number. A plus sign and a Fortran exponent (1d3) are understood; infinite and "nan" are numbers
-/// here, for those who have a use for them. @return nothing if it is none, or beyond the range of a double
+/// Converts a word to a number. A plus sign, a Fortran exponent (1d3), infinity and "nan" are accepted. @return empty
+/// if the word is not a number, or is beyond the range of a double
 std::optional<double> number_of(std::string_view word);
 
-/// Whether a word is a number with a decimal comma (1,5): no number here, but worth naming.
+/// Whether a word is a number with a decimal comma (1,5). Such numbers are refused, with a hint in the message.
 bool has_decimal_comma(std::string_view word);
 
-/// Lines that end by LF, CR LF or CR alone.
+inline constexpr std::size_t most_bytes_of_line = 1'000'000;
+
+/// Reads lines that end with LF, CR LF or CR alone.
 class TextLines {
   public:
-    /// @param name of the file, for messages @param text which the caller keeps @param first number of its first line
+    /// @param name name of the file, for messages @param text must outlive this object @param first line number of the
+    /// first line of the text
     TextLines(std::string name, std::string_view text, int first = 1);
 
-    /// The next line, or nothing behind the last one.
+    /// The next line, or empty. @throws InputError if a line is longer than the limit
     std::optional<std::string_view> next();
 
-    /// @throws InputError «file:line: found X, expected Y»
+    /// Refuses the current line. @throws InputError «file:line: found X, expected Y»
     [[noreturn]] void refuse(const std::string& found, const std::string& expected) const;
-    /// Refuses a word that is no number; a decimal comma is named. @param expected what it should be
+    /// Refuses a word that is not a number; the message mentions a decimal comma. @param expected description of a
+    /// valid word
     [[noreturn]] void refuse_number(std::string_view word, const std::string& expected) const;
 
+    /// Name of the file for messages.
     const std::string& name() const { return name_; }
-    int line() const { return line_ < first_ ? first_ : line_; }  ///< of what next() has given
+    int line() const { return line_ < first_ ? first_ : line_; }  ///< number of the line last returned by next()
 
   private:
     std::string name_;

@@ -11,7 +11,7 @@
 namespace crackle {
 namespace {
 
-/// Sides of traces that a body lies on, by its edges; nothing of one without outline.
+/// Side of a trace on which each edge of a body's outline lies. Empty for a body without an outline.
 std::span<const TraceSide> sides_of(const World& world, BodyIndex b) {
     const BodyInfo info = world.bodies.info(b);
     if (world.bodies.element_sides.empty() || info.piece_count == 0) return {};
@@ -26,7 +26,7 @@ std::int32_t joint_of_trace(const World& world, std::int32_t trace) {
     return world.settings.trace_joints[static_cast<std::size_t>(trace)];
 }
 
-/// The first part of a trace on opposite sides of which two circles have flat faces, by its trace.
+/// Trace of the first straight part along which the two circles have flat faces on opposite sides.
 std::optional<std::int32_t> trace_between_circles(const World& world, BodyIndex i, BodyIndex j) {
     for (const FlatFace& own : world.bodies.flat_faces_of(i))
         for (const FlatFace& other : world.bodies.flat_faces_of(j))

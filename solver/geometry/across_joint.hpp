@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which contacts are across a joint, from the sides of traces that bodies lie on.
+// Determines whether a contact lies across a joint, from the side of each trace on which the two bodies lie.
 //
-// Two bodies are parted by a trace where each has a face on it, on opposite sides: so are those that a face of the mesh
-// on the trace was between, and those that come to meet as they slide along it. Neighbours on one side are not. What is
-// asked is of the two bodies alone, so that a contact's law depends neither on where it touches nor on when the
-// neighbour list was built. A body between two parts of one trace lies on both its sides, and so its neighbours do.
+// A trace separates two bodies that have faces on opposite sides of it. They may share a mesh face on the trace, or
+// meet later by sliding along it. Neighbours on the same side are not separated. The rule uses only the two bodies, so
+// a contact's law depends neither on where they touch nor on when the neighbour list was built. A body between two
+// parts of one trace lies on both sides of it, so the trace separates it from its neighbours on either side.
 //
-// Circles are parted by a straight part of a trace on opposite sides of which they have flat faces (flat_faces.hpp).
+// A straight part of a trace separates two circles if they have flat faces on opposite sides of it (flat_faces.hpp).
 //
-// When bonds are made two bodies are parted also where either of the faces that they turn to each other lies on a
-// trace: slender cells let others reach past them.
+// When bonds are made, two bodies also count as separated if one of the two edges that face each other lies on a trace.
+// This is needed because a bond can connect bodies on either side of a slender cell.
 // Tested by tests/solver/geometry/across_joint_test.cpp.
 #pragma once
 
@@ -22,23 +22,25 @@ namespace crackle {
 
 inline constexpr std::int32_t no_joint = -1;
 
-/// Of the traces that part two bodies the first, whatever its mechanics. Into Settings::trace_joints.
+/// Trace that separates two bodies, including traces that behave like the rock, as an index into
+/// Settings::trace_joints; the lowest index if several traces do.
 std::optional<std::int32_t> trace_between(const World& world, BodyIndex i, BodyIndex j);
 
-/// The same of two bodies that lie against each other. @param gap between them, m
+/// Trace between two adjacent bodies that are to be bonded. @param gap distance between the two outlines, m
 std::optional<std::int32_t> trace_of_face(const World& world, BodyIndex i, BodyIndex j, double gap);
 
-/// Of the trace that parts two bodies, of several the first; no_joint where none does, or one that is as the rock.
-/// Into Settings::joints.
+/// Joint along the trace that separates two bodies, as an index into Settings::joints; no_joint if there is no such
+/// trace or it behaves like the rock.
 std::int32_t joint_between(const World& world, BodyIndex i, BodyIndex j);
 
-/// The same of two bodies that lie against each other to be bonded. @param gap between them, m
+/// Joint between two adjacent bodies that are to be bonded. @param gap distance between the two outlines, m
 std::int32_t joint_of_face(const World& world, BodyIndex i, BodyIndex j, double gap);
 
-/// Of two flat faces, the same: circles at a crossing have points across both traces.
+/// Joint between the two flat faces of a contact point. At a crossing of traces, two circles can have a contact point
+/// across each trace.
 std::int32_t joint_of_flat_faces(const World& world, const ContactPoint& point);
 
-/// m, of a contact that was never bonded: the overlap without force.
+/// Overlap at which the force of a never-bonded contact is zero, m.
 double rest_overlap_between(const World& world, BodyIndex i, BodyIndex j);
 
 }  // namespace crackle

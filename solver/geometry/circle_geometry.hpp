@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two circles in contact: δ = r_i + r_j - d, d the distance of their centres, which lie on the normal with the contact
-// position between them, midway between the two surfaces.
+// Contact of two circles: overlap δ = r_i + r_j - d, where d is the distance between their centres. The normal points
+// from centre to centre; the contact position lies between the centres, midway between the two surfaces.
 // Tested by tests/solver/geometry/geometry_test.cpp.
 #pragma once
 
@@ -8,14 +8,16 @@
 
 namespace crackle {
 
+/// Contact of two circles.
 template <class Number>
 struct CircleContact {
-    Number overlap;       // m
-    Number nx, ny;        // unit normal, from i to j
-    Number arm_i, arm_j;  // m, from the centres to the contact position, along the normal and against it
+    Number overlap;  // m
+    Number nx, ny;   // unit normal, from i to j
+    // m, distances of the contact position from the centre of i (along the normal) and of j (against the normal).
+    Number arm_i, arm_j;
 };
 
-/// Two circles, the second dx, dy away from the first (m).
+/// Geometry of two circles. @param dx, dy position of the second relative to the first, m
 template <class Number>
 CRACKLE_INLINE CircleContact<Number> circle_contact(const Number& dx, const Number& dy, const Number& radius_i,
                                                     const Number& radius_j) {
@@ -23,20 +25,21 @@ CRACKLE_INLINE CircleContact<Number> circle_contact(const Number& dx, const Numb
     const Condition<Number> apart = squared >= least_squared_distance;
     CircleContact<Number> c;
     c.overlap = radius_i + radius_j - distance;
-    c.nx = select(apart, dx * inverse, all_of<Number>(1.0));  // coincident centres have no normal: take the x axis
+    // Coincident centres have no normal, so the x axis is used.
+    c.nx = select(apart, dx * inverse, all_of<Number>(1.0));
     c.ny = select(apart, dy * inverse, Number{});
     c.arm_i = radius_i - 0.5 * c.overlap;
     c.arm_j = radius_j - 0.5 * c.overlap;
     return c;
 }
 
-/// The same with arms as vectors, from the circles' centres.
+/// Converts the arms from distances to vectors from the circles' centres.
 template <class Number>
 CRACKLE_INLINE PointGeometry<Number> with_arms(const CircleContact<Number>& c) {
     return {c.overlap, c.nx, c.ny, c.arm_i * c.nx, c.arm_i * c.ny, -c.arm_j * c.nx, -c.arm_j * c.ny};
 }
 
-/// Of two single circles, whose centres are their centroids.
+/// Forces on two single-circle bodies, whose centroids are the circles' centres.
 template <class Number>
 CRACKLE_INLINE ForceOnBodies<Number> force_on_bodies(const CircleContact<Number>& c, const Number& normal,
                                                      const Number& shear) {

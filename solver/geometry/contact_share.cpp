@@ -12,14 +12,15 @@
 namespace crackle {
 namespace {
 
-/// Edges that face each other are turned by at most this against each other: cells of a mesh lie parallel.
-constexpr double least_facing = 0.9;  // minus the cosine between their directions
+/// Two edges face each other if the cosine of the angle between their directions is at most -least_facing. Facing edges
+/// of a mesh are parallel.
+constexpr double least_facing = 0.9;
 
 bool held(const World& world, BodyIndex b) {
     return world.bodies.inertia[b].inverse_mass_x == 0.0 && world.bodies.inertia[b].inverse_mass_y == 0.0;
 }
 
-/// Radius of the disc of the same area, m; of a body that is held nothing, of an open chain half its length.
+/// Radius of the disc with the body's area, m; 0 for a held body; the bounding radius for an open chain.
 double equivalent_radius(const World& world, BodyIndex b) {
     if (held(world, b)) return 0.0;
     const BodyInfo info = world.bodies.info(b);
@@ -40,15 +41,15 @@ std::vector<Vec2> corners_of(const World& world, BodyIndex b) {
     return corners;
 }
 
-/// An edge of an outline, shifted outwards with its neighbours.
+/// An edge of an outline whose edges have all been shifted outwards by the same distance.
 struct OutsetEdge {
-    Vec2 start, along;  // m; unit direction
+    Vec2 start, along;  // m; unit vector
     double length;      // m
 };
 
 Vec2 unit(Vec2 v) { return (1.0 / norm(v)) * v; }
 
-/// tan of half the angle from direction a to b.
+/// Tangent of half the angle from direction a to direction b.
 double half_turn(Vec2 a, Vec2 b) {
     const double sine = a.x * b.y - a.y * b.x, cosine = dot(a, b);
     return sine / (1.0 + cosine);
@@ -70,7 +71,8 @@ std::vector<OutsetEdge> outset_edges(const std::vector<Vec2>& corners, double by
     return edges;
 }
 
-/// Length over which two edges face each other, m; 0 where they do not. @param reach m, that they may lie apart
+/// Length over which two edges face each other, m; 0 if they do not. @param reach largest allowed distance between
+/// them, m
 double facing_length(const OutsetEdge& a, const OutsetEdge& b, double reach) {
     if (dot(a.along, b.along) > -least_facing) return 0.0;
     const Vec2 end = b.start + b.length * b.along;
@@ -81,7 +83,7 @@ double facing_length(const OutsetEdge& a, const OutsetEdge& b, double reach) {
     return std::max(0.0, std::min(a.length, to) - std::max(0.0, from));
 }
 
-/// Half the sum of the edges that meet in a corner, m.
+/// Half the sum of the lengths of the two edges that meet at a corner, m.
 double length_of_corner(const World& world, BodyIndex b, std::uint32_t element) {
     const BodyInfo info = world.bodies.info(b);
     const std::uint32_t n = info.element_count, k = element - info.first_element;
@@ -95,7 +97,7 @@ double length_of_corner(const World& world, BodyIndex b, std::uint32_t element) 
     return 0.5 * sum;
 }
 
-/// Diameter of an element that is a circle, or length of one that is a corner, m.
+/// Diameter of a circle element, or half the sum of the two edge lengths at a corner, m.
 double length_of(const World& world, BodyIndex b, std::uint32_t element) {
     return world.bodies.info(b).piece_count > 0 ? length_of_corner(world, b, element)
                                                 : 2.0 * element_of(world, b, element).radius;

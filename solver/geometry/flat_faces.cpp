@@ -6,26 +6,30 @@
 #include <utility>
 #include <vector>
 
+#include "solver/world/world.hpp"
+
 namespace crackle {
 namespace {
 
-/// Diameters of the largest circle, to which circles beside a trace know on which side they lie: what has come closer
-/// from farther away than two rows of them is rubble.
+/// Circles within this distance from a trace, in diameters of the largest circle, are assigned to one of its sides. A
+/// circle that reaches the trace later from farther away has no face and is treated as rubble.
 constexpr double depth_in_diameters = 2.0;
 
-/// Radii to both sides of its centre, over which a circle has a face. A row is closer than that; where one ends while
-/// its trace goes on, as in a wedge at the specimen's side, its last circle bears no more than lies before it.
+/// Largest distance of a face's end from the circle's centre, in radii of the circle. Neighbouring circles along a
+/// trace are closer together. If the circles end before the trace does, as in a wedge at the edge of the specimen, the
+/// last circle's face ends at this distance.
 constexpr double farthest_reach = 3.0;
 
-/// A circle with fewer neighbours than this on its side, at gaps below this share of its own and their mean radius,
-/// would roll between the two sides: it goes over to the other one, if that holds it.
+/// A circle with fewer neighbours than this on its side could roll between the two sides. It is moved to the other side
+/// if it has enough neighbours there. Circles are neighbours if their gap is less than neighbour_gap times their mean
+/// radius.
 constexpr int fewest_neighbours = 2;
 constexpr double neighbour_gap = 0.3;
-/// Circles that have gone over leave others alone.
+/// Largest number of rounds. Circles that change sides may leave others with too few neighbours for the next round.
 constexpr int most_rounds = 4;
 
 struct StraightPart {
-    Vec2 begin, along;  // m; unit
+    Vec2 begin, along;  // m; unit vector
     double length;      // m
 
     explicit StraightPart(const TracePiece& piece)
@@ -33,10 +37,10 @@ struct StraightPart {
         along = (1.0 / length) * along;
     }
     double foot(Vec2 p) const { return dot(p - begin, along); }
-    double height(Vec2 p) const { return cross(along, p - begin); }  // > 0 on the left
+    double height(Vec2 p) const { return cross(along, p - begin); }  // m, height above the line; positive on the left
 };
 
-/// A circle that has a face on a part.
+/// A circle near a straight part of a trace.
 struct Neighbour {
     BodyIndex body;
     bool right;
@@ -44,11 +48,11 @@ struct Neighbour {
     bool held = true;
 };
 
-/// Whether a circle lies in front of a part of a trace. Where the trace bends, in front of neither part but before its
-/// outer side, it lies in front of both.
+/// Assigns circles to the straight parts of traces that they face. A circle on the outer side of a bend that faces
+/// neither part directly is assigned to both.
 class PartsOfTraces {
   public:
-    /// @param depth m, to which circles count beyond an end outside
+    /// @param depth largest distance of circles beyond an end of a trace that lies outside the specimen, m
     PartsOfTraces(std::span<const TracePiece> pieces, double depth) : pieces_(pieces), depth_(depth) {
         for (const TracePiece& piece : pieces) parts_.emplace_back(piece);
     }
@@ -91,7 +95,7 @@ std::vector<Neighbour> neighbours_of(const World& world, const PartsOfTraces& pa
     return found;
 }
 
-/// Pairs of circles at a part of a trace that lie next to each other.
+/// Pairs of neighbouring circles along a straight part of a trace, as indices into `all`.
 std::vector<std::pair<std::size_t, std::size_t>> adjacent(const std::vector<Neighbour>& all) {
     std::vector<std::size_t> order(all.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -114,7 +118,8 @@ std::vector<std::pair<std::size_t, std::size_t>> adjacent(const std::vector<Neig
     return pairs;
 }
 
-/// Circles that their side does not hold go over to the other; their distance is then below 0. Marks who is held.
+/// Moves circles with too few neighbours to the other side of the trace, where their distance is negative. Sets `held`
+/// for circles with enough neighbours.
 void take_sides(std::vector<Neighbour>& all) {
     const auto pairs = adjacent(all);
     std::vector<bool> gone_over(all.size(), false);
@@ -140,7 +145,8 @@ void take_sides(std::vector<Neighbour>& all) {
 }  // namespace
 
 std::vector<std::optional<TraceShare>> share_trace(std::span<const CircleAtTrace> circles, double length) {
-    // Of all circles |p - x|² - r² is p² plus a line in p: the least of these lines is their lower envelope.
+    // |p - x|² - r² of each circle is p² plus a linear function of p, so the minimum over the circles is a lower
+    // envelope of lines.
     const auto at_begin = [&](std::size_t k) {
         const CircleAtTrace& c = circles[k];
         return c.foot * c.foot + c.distance * c.distance - c.radius * c.radius;
@@ -178,7 +184,8 @@ void lay_flat_faces(World& world, std::span<const TracePiece> pieces) {
     const double depth = depth_in_diameters * 2.0 * largest;
     const PartsOfTraces parts(pieces, depth);
     for (std::size_t k = 0; k < pieces.size(); ++k) {
-        if (world.settings.trace_joints[static_cast<std::size_t>(pieces[k].trace)] < 0) continue;  // as the rock
+        // A trace that behaves like the rock needs no faces.
+        if (world.settings.trace_joints[static_cast<std::size_t>(pieces[k].trace)] < 0) continue;
         std::vector<Neighbour> all = neighbours_of(world, parts, k, depth);
         take_sides(all);
         for (const bool right : {false, true}) {
@@ -206,7 +213,7 @@ void lay_flat_faces(World& world, std::span<const TracePiece> pieces) {
                     face.height = c.distance;
                 } else if (!one.held) {
                     face.from = face.to = 0.0;
-                } else if (c.foot < 0.0) {  // beyond what is shared
+                } else if (c.foot < 0.0) {  // the circle's centre lies beyond an end of the straight part
                     face.to = -c.foot;
                 } else if (c.foot > parts[k].length) {
                     face.from = parts[k].length - c.foot;

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Flat faces of circles at a trace: a joint among circles is as smooth as its trace, not as the circles are round.
+// Flat faces of circles along a trace, so that a joint between circles is as smooth as its trace.
 //
-// Each side of a straight part of a trace is shared among the circles of that side by their power diagram: a point p
-// on it is of the circle with the least |p - x|² - r². The part of the trace that is a circle's is its face, at the
-// height h of its centre above it. The faces of a side cover the trace once, and lie flush with those of the other.
-// Circles of the side that are not at the trace have a face, too, as wide as they are and at the height of their
-// radius: it comes to bear once they lie at the joint. A face moves with the circle's centre and does not turn.
+// Each side of a straight part of a trace is divided among the circles on that side by their power diagram. A point p
+// on it belongs to the circle with the smallest |p - x|² - r². The circle's face is its section of the trace; its
+// centre lies at a height h above the face. The faces on one side cover the trace exactly once and are flush with those
+// on the other side. Circles on the side that do not border on the trace also have a face, as wide as the circle and at
+// a height of at most its radius. It carries load only once the circle reaches the joint. A face moves with the
+// circle's centre and does not rotate.
 //
-// Faces of two circles on opposite sides of a part are the one contact that these have. With n the part's normal from
-// i to j, t along it, x the centres, [a, b] the faces along t:
+// Two circles on opposite sides of a straight part touch only through these faces. With n the normal of the part from i
+// to j, t the unit vector along it, x the centres, and [a, b] the extent of the faces along t:
 //
-//     δ = h_i + h_j - (x_j - x_i)·n         overlap: 0 where the faces lie as at the start, whichever two meet
-//     λ = |[a_i, b_i] ∩ [a_j, b_j]|         lap, m; its stiffness is that of a metre times λ
-//     at ½(x_i + x_j)                       where its force acts on both
+//     δ = h_i + h_j - (x_j - x_i)·n         overlap: 0 at the initial height, whichever two faces meet
+//     λ = |[a_i, b_i] ∩ [a_j, b_j]|         lap (shared length), m; the stiffness is λ times that of 1 m
+//     at ½(x_i + x_j)                       where the force acts on both
 //
-// so that a pair comes to bear, and lets go, without a jump as it slides past, and never interlocks. A force there
-// turns both circles: δ without force, Points::bond_overlap, follows by what their turning closes it,
-// ½ (x_j - x_i)·t (ω_i + ω_j) a second. Source: solver/MODEL.md 5.4.
+// The force of a pair therefore begins and ends without a jump as the circles slide past each other, and they never
+// interlock. The force also rotates both circles. The overlap at which it is zero (Points::bond_overlap) therefore
+// follows the closure caused by their rotation, at the rate ½ (x_j - x_i)·t (ω_i + ω_j). Source: solver/MODEL.md 5.4.
 // Tested by tests/solver/geometry/flat_faces_test.cpp.
 #pragma once
 
@@ -24,28 +25,31 @@
 #include <span>
 
 #include "solver/geometry/point_geometry.hpp"
-#include "solver/world/world.hpp"
+#include "solver/world/bodies.hpp"
+#include "solver/world/points.hpp"
 
 namespace crackle {
 
-/// Of one point, or of several in lanes.
+/// Geometry of one contact point between flat faces, or of several points in lanes.
 template <class Number>
 struct FlatFaceGeometry : PointGeometry<Number> {
-    Number apart;   // m, of the faces along the trace; < 0 where they lap
-    Number closed;  // m, δ whether they lap or not: overlap is `-apart` where they do not, if that is less
+    Number apart;   // m, gap between the faces along the trace; negative if they share a length
+    Number closed;  // m, δ from the heights alone; if the faces share no length, `overlap` is at most -apart
     Number offset;  // m, (x_j - x_i)·t, t the normal turned by +90 degrees
+    /// Lap, m: length along the trace that the two faces share, or 0.
     CRACKLE_INLINE Number lap() const { return select(apart < 0.0, -apart, Number{}); }
 };
 using FlatFaceContact = FlatFaceGeometry<double>;
 
-/// As in FlatFace.
+/// Ends and height of a face, as in FlatFace.
 template <class Number>
 struct FaceNumbers {
     Number from, to, height;
 };
 
-/// @param a, b faces of bodies i and j on opposite sides of one part of a trace @param along_x, along_y its direction
-/// @param sense sense_of() the first @param dx, dy of j from i, m
+/// Contact geometry of two faces. @param a, b faces of bodies i and j on opposite sides of one straight part of a trace
+/// @param along_x, along_y unit vector along the part
+/// @param sense sense_of() for face a @param dx, dy position of j relative to i, m
 template <class Number>
 CRACKLE_INLINE FlatFaceGeometry<Number> flat_face_contact(const FaceNumbers<Number>& a, const FaceNumbers<Number>& b,
                                                           const Number& along_x, const Number& along_y,
@@ -65,34 +69,39 @@ CRACKLE_INLINE FlatFaceGeometry<Number> flat_face_contact(const FaceNumbers<Numb
     return c;
 }
 
-/// Of the body i of a point: 1 where it lies on the right of its trace, else -1.
+/// 1 if the face's body lies to the right of its trace, otherwise -1.
 inline double sense_of(const FlatFace& face) { return (face.side & 1) != 0 ? 1.0 : -1.0; }
 
+/// Contact geometry of two faces for the given states of their bodies.
 inline FlatFaceContact flat_face_contact(const FlatFace& a, const FlatFace& b, const BodyState& i, const BodyState& j) {
     return flat_face_contact<double>({a.from, a.to, a.height}, {b.from, b.to, b.height}, a.along_x, a.along_y,
                                      sense_of(a), j.x - i.x, j.y - i.y);
 }
 
-inline FlatFaceContact flat_face_contact(const World& world, const ContactPoint& point) {
-    return flat_face_contact(world.bodies.flat_faces[point.element_i], world.bodies.flat_faces[point.feature_j],
-                             world.bodies.state[point.body_i], world.bodies.state[point.body_j]);
+/// Geometry of a point of the kind face_face.
+inline FlatFaceContact flat_face_contact(const BodyView& bodies, const ContactPoint& point) {
+    return flat_face_contact(bodies.flat_faces[point.element_i], bodies.flat_faces[point.feature_j],
+                             bodies.state[point.body_i], bodies.state[point.body_j]);
 }
 
-/// The part of a straight trace that a circle has, m from its begin.
+/// Section of a straight trace that is assigned to a circle: positions of its ends, m from the start of the trace.
 struct TraceShare {
     double from, to;
 };
 
-/// A circle beside a straight trace: its foot along that and its distance, m.
+/// A circle beside a straight trace: projection of its centre on the trace, distance of the centre from the trace, and
+/// radius, m.
 struct CircleAtTrace {
     double foot, distance, radius;
 };
 
-/// How circles on one side of a trace share it: by their power diagram; nothing of one that has no part of it.
-/// @param length of the trace, m
+/// Divides a trace among the circles on one side of it by their power diagram. The entry of a circle that gets no
+/// section is empty.
+/// @param length length of the trace, m
 std::vector<std::optional<TraceShare>> share_trace(std::span<const CircleAtTrace> circles, double length);
 
-/// Gives the circles at the traces of joints their faces, as they lie. @param pieces of all traces
+/// Creates the flat faces of the circles along the traces of joints, from the current positions. @param pieces straight
+/// parts of all traces
 void lay_flat_faces(World& world, std::span<const TracePiece> pieces);
 
 }  // namespace crackle

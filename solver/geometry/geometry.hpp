@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where two bodies meet: overlap, normal and contact position of one contact point, for each kind of point.
+// Geometry of a contact point: overlap, normal and contact position, for each kind of point.
 //
 // An element (circle, or vertex of a chain) faces a circle, an outline or a wall. With d the distance of the element's
 // centre from the partner (signed, negative inside a closed outline), the overlap is
-//     δ = r_a + r_b - d         circle-circle: both radii; circle-outline: r and thick; vertex-outline: thick/2 twice
-// the normal n = -∇d points from i to j, and the force acts midway between the two surfaces, at x + n(r_a - δ/2).
-// This is the «rounded» law: d is C¹ outside a convex outline, so the force derives from ½k_n δ². The guide's law has
-// kinds of its own, by guide_segments.hpp, and so have circles across a joint, by flat_faces.hpp. Source:
-// solver/MODEL.md 3.
+//     δ = r_a + r_b - d
+//         circle-circle: the two radii; circle-outline: r and thick; vertex-outline: thick/2 for both
+// the normal n = -∇d points from i to j, and the force acts midway between the two surfaces, at x + n(r_a - δ/2). This
+// is the «rounded» law: d is continuously differentiable outside a convex outline, so the force has the potential ½k_n
+// δ². Contacts that follow the DEMseg guide's segment law (guide_segments.hpp) and contacts of circles across a joint
+// (flat_faces.hpp) are points of other kinds. Source: solver/MODEL.md 3.
 #pragma once
 
 #include <array>
@@ -17,57 +18,61 @@
 #include "solver/geometry/flat_faces.hpp"
 #include "solver/geometry/guide_segments.hpp"
 #include "solver/geometry/outline_geometry.hpp"
-#include "solver/world/world.hpp"
+#include "solver/world/bodies.hpp"
+#include "solver/world/points.hpp"
 
 namespace crackle {
 
-/// Element centre relative to the body's centroid, world axes. (A single circle's element sits at its centroid.)
+/// Position of an element's centre relative to its body's centroid, in world axes, m. For bodies that are not single
+/// circles.
 inline Vec2 turned(const BodyState& body, const Element& element) {
     return {body.shape[0] * element.x - body.shape[1] * element.y,
             body.shape[1] * element.x + body.shape[0] * element.y};
 }
 
-/// The segment that begins at an element, as it lies now. @param centre of its body, m, in the frame wanted
-inline Bar bar_of(const World& world, const BodyState& body, std::uint32_t element, Vec2 centre) {
-    const Edge& edge = world.bodies.segments[element];
+/// Current position of the segment that begins at an element. @param centre position of its body's centroid in the
+/// desired coordinates, m
+inline Bar bar_of(const BodyView& bodies, const BodyState& body, std::uint32_t element, Vec2 centre) {
+    const Edge& edge = bodies.segments[element];
     const double c = body.shape[0], s = body.shape[1];
     return {centre + Vec2{c * edge.x - s * edge.y, s * edge.x + c * edge.y},
             {c * edge.tx - s * edge.ty, s * edge.tx + c * edge.ty},
             edge.length};
 }
 
-/// Calls visit(bar, disc's centre, radius, sense) for every disc of a point under the guide's law between bodies i and
-/// j; positions count from i's centroid, sense is +1 for a disc of i.
+/// Calls visit(bar, centre of the disc, radius, sense) for every disc case of a point that follows the DEMseg guide's
+/// segment law. Positions are relative to i's centroid; sense is +1 if the disc belongs to i, otherwise -1.
 template <PointKind K, typename Visit>
-inline void visit_discs(const World& world, const ContactPoint& point, const BodyState& i, const BodyState& j,
+inline void visit_discs(const BodyView& bodies, const ContactPoint& point, const BodyState& i, const BodyState& j,
                         Visit&& visit) {
-    const Bar b = bar_of(world, j, point.feature_j, {j.x - i.x, j.y - i.y});
+    const Bar b = bar_of(bodies, j, point.feature_j, {j.x - i.x, j.y - i.y});
     if constexpr (K == PointKind::disc_segment) {
-        const Element circle = element_of(world, point.body_i, point.element_i);
-        visit(b, turned(i, circle), circle.radius + world.settings.thick, 1.0);
+        const Element circle = element_of(bodies, point.body_i, point.element_i);
+        visit(b, turned(i, circle), circle.radius + bodies.thick, 1.0);
     } else {
-        const Bar a = bar_of(world, i, point.element_i, {});
-        visit(b, a.start, world.settings.thick, 1.0);
-        visit(b, a.start + a.length * a.along, world.settings.thick, 1.0);
-        visit(a, b.start, world.settings.thick, -1.0);
-        visit(a, b.start + b.length * b.along, world.settings.thick, -1.0);
+        const Bar a = bar_of(bodies, i, point.element_i, {});
+        visit(b, a.start, bodies.thick, 1.0);
+        visit(b, a.start + a.length * a.along, bodies.thick, 1.0);
+        visit(a, b.start, bodies.thick, -1.0);
+        visit(a, b.start + b.length * b.along, bodies.thick, -1.0);
     }
 }
 
+/// Contact of two bodies that consist of a single circle each.
 inline CircleContact<double> single_circles_contact(const BodyState& i, const BodyState& j) {
     return circle_contact(j.x - i.x, j.y - i.y, i.shape[0], j.shape[0]);
 }
 
-/// Geometry of a point of kind K were its bodies where i and j say (of a wall j is not looked at); `feature` comes back
-/// as the edge faced.
+/// Geometry of a point of kind K for the given states of bodies i and j (j is not used for a wall). For an outline,
+/// sets `feature` to the edge that the element faces.
 template <PointKind K>
-inline ContactGeometry contact_geometry(const World& world, const ContactPoint& point, const BodyState& i,
+inline ContactGeometry contact_geometry(const BodyView& bodies, const ContactPoint& point, const BodyState& i,
                                         const BodyState& j, std::uint32_t& feature) {
     if constexpr (K == PointKind::circle_circle) {
         return with_arms(single_circles_contact(i, j));
     } else if constexpr (K == PointKind::element_element) {
-        const Element a = element_of(world, point.body_i, point.element_i);
-        const Element b = element_of(world, point.body_j, point.feature_j);
+        const Element a = element_of(bodies, point.body_i, point.element_i);
+        const Element b = element_of(bodies, point.body_j, point.feature_j);
         const Vec2 oi = turned(i, a), oj = turned(j, b);
         ContactGeometry g =
             with_arms(circle_contact((j.x - i.x) + (oj.x - oi.x), (j.y - i.y) + (oj.y - oi.y), a.radius, b.radius));
@@ -77,32 +82,30 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
         g.ajy += oj.y;
         return g;
     } else if constexpr (K == PointKind::element_outline) {
-        const Element a = element_of(world, point.body_i, point.element_i);
+        const Element a = element_of(bodies, point.body_i, point.element_i);
         const Vec2 oi = turned(i, a);
         const double wx = (i.x - j.x) + oi.x, wy = (i.y - j.y) + oi.y;
         const double cosine = j.shape[0], sine = j.shape[1];
-        const OutlineFacing facing = face_outline(world, world.bodies.info(point.body_j), point.feature_j,
+        const OutlineFacing facing = face_outline(bodies, bodies.shape_of(point.body_j), point.feature_j,
                                                   cosine * wx + sine * wy, cosine * wy - sine * wx);
         feature = facing.edge;
         return outline_contact<double>({oi.x, oi.y, wx, wy, a.radius, a.radius + a.target_reach, cosine, sine}, facing);
     } else if constexpr (K == PointKind::face_face) {
-        return flat_face_contact(world.bodies.flat_faces[point.element_i], world.bodies.flat_faces[point.feature_j], i,
-                                 j);
+        return flat_face_contact(bodies.flat_faces[point.element_i], bodies.flat_faces[point.feature_j], i, j);
     } else if constexpr (by_guide(K)) {
         DiscResultant resultant;
-        const auto visit = [&](auto&& add) { visit_discs<K>(world, point, i, j, add); };
+        const auto visit = [&](auto&& add) { visit_discs<K>(bodies, point, i, j, add); };
         visit([&](const Bar& bar, Vec2 centre, double radius, double sense) {
             resultant.add(bar, centre, radius, sense);
         });
-        const DiscResultant::Contact contact =
-            resultant.contact(world.settings.segment_law == SegmentLaw::demseg_mean, visit);
+        const DiscResultant::Contact contact = resultant.contact(bodies.mean_of_discs, visit);
         return {contact.overlap, contact.normal.x,           contact.normal.y,          contact.at.x,
                 contact.at.y,    contact.at.x - (j.x - i.x), contact.at.y - (j.y - i.y)};
     } else {
-        const Element a = element_of(world, point.body_i, point.element_i);
+        const Element a = element_of(bodies, point.body_i, point.element_i);
         const Vec2 oi = turned(i, a);
         const double radius = point.feature_j == 1 ? 0.0 : a.radius;
-        const Domain& domain = world.settings.domain;
+        const Domain& domain = bodies.domain;
         ContactGeometry g{};
         double distance = 0.0;
         switch (static_cast<Wall>(point.body_j)) {
@@ -137,22 +140,23 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
     }
 }
 
-/// The same where the bodies are.
+/// Geometry of a point of kind K at the current positions.
 template <PointKind K>
-inline ContactGeometry contact_geometry(const World& world, const ContactPoint& point, std::uint32_t& feature) {
-    const BodyState& i = world.bodies.state[point.body_i];
-    return contact_geometry<K>(world, point, i, K == PointKind::element_wall ? i : world.bodies.state[point.body_j],
+inline ContactGeometry contact_geometry(const BodyView& bodies, const ContactPoint& point, std::uint32_t& feature) {
+    const BodyState& i = bodies.state[point.body_i];
+    return contact_geometry<K>(bodies, point, i, K == PointKind::element_wall ? i : bodies.state[point.body_j],
                                feature);
 }
 
-/// Only the overlap of it, m.
+/// Overlap of a point of kind K at the current positions, m.
 template <PointKind K>
-inline double overlap_at(const World& world, const ContactPoint& point) {
+inline double overlap_at(const BodyView& bodies, const ContactPoint& point) {
     std::uint32_t feature = point.feature_j;
-    return contact_geometry<K>(world, point, feature).overlap;
+    return contact_geometry<K>(bodies, point, feature).overlap;
 }
 
-/// Calls visit.operator()<K>(begin, end) with the range of points of each kind K. @param kind_begin as of a world
+/// Calls `visit.operator()<K>(begin, end)` with the range of points of each kind K. @param kind_begin index of the
+/// first point of each kind, as in Points
 template <class Visit>
 inline void visit_kinds(const std::array<PointIndex, point_kinds + 1>& kind_begin, Visit&& visit) {
     const auto of_kind = [&]<PointKind K>() {

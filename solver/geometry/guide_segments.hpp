@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The guide's contact of segments («demseg» law): a disc of radius r against a bare segment, decided element by
-// element.
+// The DEMseg guide's segment law («demseg»): a disc of radius r against a bare segment, evaluated for each pair of
+// elements.
 //
-// With α the normal distance of the disc's centre x1 from the segment's line, p its foot, x2 the segment's midpoint,
-// l = sqrt(r² - α²), k the nearer end, h_p = |p - x2| and h_s = |s_k - x2|:
+// Let α be the distance of the disc's centre x1 from the segment's line, p the projection of x1 on the line, x2 the
+// segment's midpoint, s_k its nearer end, l = sqrt(r² - α²), h_p = |p - x2| and h_s = |s_k - x2|. The cases are:
 //     (i)   h_p >= h_s + l                no contact
 //     (ii)  h_s + l > h_p > h_s           at s_k   δ = r - |s_k - x1|         normal along s_k - x1
 //     (iii) h_s > h_p > h_s - l           at p     δ = (r - |α|)·|s_k - p|/l  normal to the segment
 //     (iv)  h_s - l >= h_p                at p     δ = r - |α|                normal to the segment
-// Segment against segment: r = thick, the discs sit at the ends of each against the bare other (up to four cases);
-// circle against segment: its radius + thick. The cases of one pair of elements have one resultant
+// For two segments, r = thick, and each end of either segment carries a disc against the other bare segment (up to four
+// cases). For a circle and a segment, r is the circle's radius plus thick. The cases of one pair of elements are
+// combined into a resultant
 //     δ n = Σ δ_c n_c (or its mean over the cases in contact),   acting at   Σ δ_c x_c / Σ δ_c,
-// n_c from i to j. Opposite cases may cancel: then δ = 0, and the contact ends.
-// Kept as the guide has it: δ jumps from (iii) to (ii) at a free end (the sum over a straight joint is continuous); α
-// is unsigned, so a disc that got through is pushed out behind; a corner is the end of two segments and twice as stiff.
-// Ours where the guide is silent: the normal of (ii), and half its overlap at h_p = h_s, so that ends exactly opposite
-// each other sum up as ends nearly so do (rounding decides there: meshes on a grid are this law's worst case). Source:
-// DEMseg guide II.2 (printed (6) and (7) lack -r); solver/MODEL.md 3.3.
+// with n_c from i to j. If opposite cases cancel, δ = 0 and the contact ends. Three properties of the guide's law are
+// kept. First, δ jumps between (iii) and (ii) at a free end, although the sum over two collinear adjoining segments is
+// continuous. Second, α is unsigned, so a disc that has passed through is pushed out at the back. Third, a corner is
+// the end of two segments and therefore twice as stiff. The guide does not state the normal of (ii), nor the overlap at
+// h_p = h_s. That overlap is taken as half the overlap of (ii), so that ends exactly opposite each other give the same
+// sum as ends nearly opposite. Round-off decides the case there, so meshes on a grid are the worst case for this law.
+// Source: DEMseg guide II.2 (equations (6) and (7) are printed without -r); solver/MODEL.md 3.3.
 #pragma once
 
 #include <algorithm>
@@ -28,44 +30,45 @@
 
 namespace crackle {
 
-/// A bare segment: start, unit direction, length (m).
+/// A bare segment: start (m), unit direction and length (m).
 struct Bar {
     Vec2 start, along;
     double length;
 
-    /// Of a counter-clockwise polygon.
+    /// Outward normal if the bar is an edge of a counter-clockwise polygon.
     Vec2 outward() const { return {along.y, -along.x}; }
 };
 
+/// Rule of the DEMseg guide that applies to a disc.
 enum class DiscRule : std::uint8_t { none, end, ramp, face };  // (i) to (iv)
 
-/// Where a disc's centre lies before a bar, and what the rules give for it.
+/// Position of a disc's centre relative to a bar, and the resulting contact.
 struct DiscCase {
-    double inside;            // m, of the foot from the nearer end, h_s - h_p
-    double height;            // m, |α|
-    double side;              // +1: the centre is on the outward side (or on the line), -1: behind
-    double squared_distance;  // m2, of the centre from the bar
+    double inside;  // m, distance of the projected centre from the nearer end, h_s - h_p; negative beyond the end
+    double height;  // m, |α|
+    double side;    // +1 if the centre is on the outward side of the line or on it, otherwise -1
+    double squared_distance;  // m2, squared distance of the centre from the nearest point of the bar
     Vec2 end;                 // s_k, m
     DiscRule rule = DiscRule::none;
     double overlap = 0.0;  // m
-    Vec2 normal;           // unit, from the disc to the bar; set by place() where the rule is none
+    Vec2 normal;           // unit vector from the disc to the bar; without contact, set only by place()
     Vec2 at;               // m, contact position
 };
 
-/// Normal and position, by the feature of the bar that is nearest.
+/// Sets normal and contact position from the point of the bar nearest to the disc's centre.
 inline void place(DiscCase& c, const Bar& bar, Vec2 centre) {
     const double distance = std::sqrt(c.squared_distance);
     if (c.inside <= 0.0 && distance > 0.0) {
         c.normal = (1.0 / distance) * (c.end - centre);
         c.at = c.end;
     } else {
-        // On the end itself no direction is better than the segment's normal.
+        // If the centre is at the end point itself, the direction is undefined; the segment's normal is used.
         c.normal = -c.side * bar.outward();
         c.at = centre + c.height * c.normal;
     }
 }
 
-/// Rules (i) to (iv). @param radius r, m
+/// Determines the case of a disc by rules (i) to (iv). @param radius r, m
 inline DiscCase disc_case(const Bar& bar, Vec2 centre, double radius) {
     DiscCase c;
     const Vec2 w = centre - bar.start;
@@ -95,10 +98,11 @@ inline DiscCase disc_case(const Bar& bar, Vec2 centre, double radius) {
     return c;
 }
 
-/// Adds up the disc cases of one pair of elements.
+/// Sums the disc cases of one pair of elements.
 class DiscResultant {
   public:
-    /// @param sense +1 where the disc is i's, -1 where it is j's: normals point from i to j
+    /// Adds the case of one disc. @param sense +1 for a disc of i, -1 for a disc of j, so that normals point from i to
+    /// j
     void add(const Bar& bar, Vec2 centre, double radius, double sense) {
         const DiscCase c = disc_case(bar, centre, radius);
         if (c.squared_distance < least_squared_distance_) {
@@ -113,12 +117,14 @@ class DiscResultant {
         ++cases_;
     }
 
+    /// Resultant contact of all discs of a pair of elements.
     struct Contact {
-        double overlap;   // m; out of contact minus the distance of the nearest disc from the bar
-        Vec2 normal, at;  // unit, from i to j; m
+        double overlap;   // m; without contact, minus the gap between the nearest disc and the bar
+        Vec2 normal, at;  // unit vector from i to j; contact position, m
     };
 
-    /// @param visit calls what it is given once more with the arguments of every add(), for a pair out of contact
+    /// Returns the resultant. @param mean whether to use the mean instead of the sum @param visit function that repeats
+    /// all calls of add() on its argument; used only for a pair without contact
     template <typename Visit>
     Contact contact(bool mean, Visit&& visit) const {
         const double size = norm(sum_);

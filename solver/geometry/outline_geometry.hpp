@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Distance of a point from an outline: edges and corners of its convex pieces and open segments.
+// Distance of a point from an outline, which consists of convex pieces and open segments.
 //
-// A point lies `across` in front of the line of an edge, and `over` beyond one of the edge's ends (negative at the
-// start; 0: before the edge itself). In front of the edge its distance is `across`, the gradient the edge's normal;
-// beyond an end it is that from the corner. Both are needed of one point and of several in lanes.
+// Relative to an edge, `across` is the distance in front of the edge's line, and `over` the distance beyond one of its
+// ends (negative at the start, 0 between the ends). Between the ends, the distance is `across` and its gradient is the
+// edge's normal. Beyond an end, the distance is that from the corner. The code handles one point, or several in lanes.
 // Tested by tests/solver/geometry/geometry_test.cpp.
 #pragma once
 
@@ -12,23 +12,26 @@
 #include <type_traits>
 
 #include "solver/geometry/point_geometry.hpp"
-#include "solver/world/world.hpp"
+#include "solver/world/bodies.hpp"
 
 namespace crackle {
 
-/// An edge as a Number knows it: start, unit direction, length and the cones of its corners, as Edge has them.
+/// An edge as values of type Number: start, unit direction, length, and the cones of its corners (Edge::cone).
 template <class Number>
 struct EdgeNumbers {
     Number x, y, tx, ty, length, cone_before, cone_beyond;
 };
 
-/// Where a point lies before an edge.
+/// Position of a point relative to an edge.
 template <class Number>
 struct BeforeEdge {
-    Number across, along, over;    // m; along from the edge's start
-    Condition<Number> is_closest;  // of a convex outline: the edge, or its corner where over != 0
+    Number across, along, over;  // m; `along` is measured from the edge's start
+    Condition<Number>
+        is_closest;  // whether this edge (or its corner, if over != 0) is the closest feature of a convex outline
 };
 
+/// Position of a point relative to an edge. @param px, py coordinates of the point in the frame in which the edge is
+/// given, m
 template <class Number>
 CRACKLE_INLINE BeforeEdge<Number> before_edge(const EdgeNumbers<Number>& edge, const Number& px, const Number& py) {
     const Number dx = px - edge.x, dy = py - edge.y;
@@ -40,13 +43,14 @@ CRACKLE_INLINE BeforeEdge<Number> before_edge(const EdgeNumbers<Number>& edge, c
     return {across, along, over, is_closest};
 }
 
-/// Distance from an edge or one of its ends, and its unit gradient in the frame of the edge's body.
+/// Distance from an edge or its end, and the unit gradient of the distance in the body frame.
 template <class Number>
 struct OutlineDistance {
     Number distance, gx, gy;
 };
 
-/// @param at_corner the end is what is closest, else the edge @param tx, ty direction of the edge
+/// Distance and gradient from the position relative to an edge. @param at_corner whether an end of the edge is the
+/// closest point @param tx, ty unit direction of the edge
 template <class Number>
 CRACKLE_INLINE OutlineDistance<Number> outline_distance(const Condition<Number>& at_corner, const Number& over,
                                                         const Number& across, const Number& tx, const Number& ty) {
@@ -54,24 +58,24 @@ CRACKLE_INLINE OutlineDistance<Number> outline_distance(const Condition<Number>&
         if (!at_corner) return {across, ty, -tx};
     const Number squared = over * over + across * across;
     const Number to_corner = root(squared), inverse = to_corner * (1.0 / squared);
-    // On the corner itself any direction of its normal cone will do; the edge's normal is one.
+    // For a point at the corner itself, any direction in its normal cone is valid; the edge's normal is used.
     const Condition<Number> turned = at_corner & (squared >= least_squared_distance);
     const Number along = over * inverse, out = across * inverse;
     return {select(at_corner, to_corner, across), select(turned, along * tx + out * ty, ty),
             select(turned, along * ty - out * tx, -tx)};
 }
 
-/// What an element knows of the outline it faces.
+/// Position of an element relative to the outline it may touch.
 template <class Number>
 struct FacingElement {
-    Number ox, oy;        // m, its centre from i's centroid
-    Number wx, wy;        // m, from j's
+    Number ox, oy;        // m, position of the element's centre relative to i's centroid
+    Number wx, wy;        // m, position of the element's centre relative to j's centroid
     Number radius;        // m
-    Number cover;         // m, distance at which the overlap begins
-    Number cosine, sine;  // of j
+    Number cover;         // m, distance from the outline at which the overlap is zero
+    Number cosine, sine;  // cosine and sine of the rotation of body j
 };
 
-/// Contact of an element of i with the outline of j.
+/// Contact of an element of body i with the outline of body j.
 template <class Number>
 CRACKLE_INLINE PointGeometry<Number> outline_contact(const FacingElement<Number>& e,
                                                      const OutlineDistance<Number>& facing) {
@@ -88,14 +92,14 @@ CRACKLE_INLINE PointGeometry<Number> outline_contact(const FacingElement<Number>
     return g;
 }
 
-/// Closest feature of an outline to a point of its body frame.
+/// Feature of an outline that is closest to a point, in the body frame.
 struct OutlineFacing : OutlineDistance<double> {
-    std::uint32_t edge;  // faced, into Bodies::edges
+    std::uint32_t edge;  // the edge that the point faces, index into Bodies::edges
 };
 
 namespace detail {
 
-/// @param at_corner the end is what is closest, else the edge
+/// @param at_corner whether the edge's end is the closest point
 inline OutlineFacing facing_of(bool at_corner, double over, double across, const Edge& edge, std::uint32_t index) {
     return {outline_distance(at_corner, over, across, edge.tx, edge.ty), index};
 }
@@ -115,7 +119,7 @@ inline OutlineFacing face_segment(const Edge& edge, std::uint32_t index, double 
                            : OutlineFacing{{-p.across, -edge.ty, edge.tx}, index};
 }
 
-/// Signed distance to a convex closed piece by looking at every edge.
+/// Signed distance to a convex closed piece, found by testing every edge.
 inline OutlineFacing face_every_edge(const Edge* edges, const Piece& piece, double px, double py) {
     OutlineFacing inside = far_away(-std::numeric_limits<double>::infinity());
     OutlineFacing outside = far_away(std::numeric_limits<double>::infinity());
@@ -123,16 +127,17 @@ inline OutlineFacing face_every_edge(const Edge* edges, const Piece& piece, doub
     for (std::uint32_t e = piece.first_edge; e < end; ++e) {
         const BeforeEdge<double> p = before_edge_of(edges[e], px, py);
         if (p.across > inside.distance) inside = facing_of(false, 0.0, p.across, edges[e], e);
-        if (p.across <= 0.0) continue;  // the closest edge of an outside point is one that sees it
+        if (p.across <= 0.0) continue;  // an edge can be the closest only if the point is in front of it
         const OutlineFacing candidate = facing_of(p.over != 0.0, p.over, p.across, edges[e], e);
         if (candidate.distance < outside.distance) outside = candidate;
     }
     return inside.distance <= 0.0 ? inside : outside;
 }
 
-/// Signed distance to a convex closed piece, starting from the edge faced last. The normal strips of the edges and the
-/// cones of the corners partition the outside of a convex outline, so a point found in one needs no further search.
-/// A corner's place is taken from the edge it faces: the two that meet there agree to rounding.
+/// Signed distance to a convex closed piece, starting from the edge found by the previous call. The strips in front of
+/// the edges and the cones at the corners partition the outside of a convex outline. The search therefore ends at the
+/// first region that contains the point. A corner's position is computed from the edge that is being tested; the two
+/// edges that meet at the corner agree to round-off.
 inline OutlineFacing face_convex(const Edge* edges, const Piece& piece, std::uint32_t hint, double px, double py) {
     const std::uint32_t first = piece.first_edge, last = first + piece.edge_count - 1;
     std::uint32_t e = hint >= first && hint <= last ? hint : first;
@@ -147,10 +152,13 @@ inline OutlineFacing face_convex(const Edge* edges, const Piece& piece, std::uin
 
 }  // namespace detail
 
-/// Closest feature of a body's outline (minimum over its convex pieces and segments); `hint` is the edge faced last.
-inline OutlineFacing face_outline(const World& world, const BodyInfo& body, std::uint32_t hint, double px, double py) {
-    const Piece* pieces = world.bodies.pieces.data() + body.first_piece;
-    const Edge* edges = world.bodies.edges.data();
+/// Closest feature of a body's outline: the minimum over its convex pieces and segments. @param body BodyShape or
+/// BodyInfo @param hint edge faced last @param px, py the point in the body frame, m
+template <class Outlined>
+inline OutlineFacing face_outline(const BodyView& bodies, const Outlined& body, std::uint32_t hint, double px,
+                                  double py) {
+    const Piece* pieces = bodies.pieces + body.first_piece;
+    const Edge* edges = bodies.edges;
     if (body.piece_count == 1 && pieces[0].closed) return detail::face_convex(edges, pieces[0], hint, px, py);
     OutlineFacing best = detail::far_away(std::numeric_limits<double>::infinity());
     for (std::uint32_t p = 0; p < body.piece_count; ++p) {

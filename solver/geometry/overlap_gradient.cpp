@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Derivatives of the guide's disc cases and of their resultant.
+// Derivatives of the disc cases of the DEMseg guide's segment law (guide_segments.hpp), and of their resultant.
 //
-// With a the motion of i's material against j's, closing positive along n_c, and q = (r - |α|)/l =
+// With a the motion of i's material relative to j's, positive along n_c when closing, and q = (r - |α|)/l =
 // sqrt((r-|α|)/(r+|α|)):
 //     (ii), (iv)  dδ_c = n_c·a at the contact position
 //     (iii)       dδ_c = -q'·d·(n_c·a at p) ∓ q·(τ·a at the disc's centre),   d = |s_k - p|, q' = -r/(q(r + |α|)²),
 //                 τ from p to s_k, upper sign for a disc of i
-// and for the resultant δ = |Σ δ_c n_c|:  dδ = Σ (n·n_c) dδ_c + Σ δ_c n·dn_c, where n_c turns with the segment in (iii)
-// and (iv), and as the line from centre to corner does in (ii). Checked against differences of the force routine in
-// the tests of segment contacts.
+// For the resultant δ = |Σ δ_c n_c|:  dδ = Σ (n·n_c) dδ_c + Σ δ_c n·dn_c. Here n_c rotates with the segment in (iii)
+// and (iv), and with the line from the centre to the end in (ii). Tests of segment contacts compare these derivatives
+// with finite differences of the force routine.
 
 #include "solver/geometry/overlap_gradient.hpp"
 
@@ -22,7 +22,7 @@ struct Disc {
     double radius, sense;
 };
 
-/// Up to four; breaks look at points within a step, which allocates nothing.
+/// Up to four discs, in an array of fixed size because this is called within a step, which must not allocate memory.
 struct Discs {
     std::array<Disc, 4> all;
     std::size_t count = 0;
@@ -51,13 +51,13 @@ void add_to(OverlapGradient& sum, double share, const OverlapGradient& row) {
     for (std::size_t d = 0; d < row.size(); ++d) sum[d] += share * row[d];
 }
 
-/// From i's centroid to j's.
+/// Vector from the centroid of i to that of j.
 Vec2 between(const World& world, const ContactPoint& point) {
     const BodyState &i = world.bodies.state[point.body_i], &j = world.bodies.state[point.body_j];
     return {j.x - i.x, j.y - i.y};
 }
 
-/// dδ_c of a case in contact.
+/// Overlap derivative dδ_c of a disc case that is in contact.
 OverlapGradient case_gradient(const Disc& disc, Vec2 to_j) {
     const DiscCase& c = disc.found;
     const OverlapGradient along = closing_gradient(disc.sense * c.normal, c.at, c.at - to_j);
@@ -70,7 +70,7 @@ OverlapGradient case_gradient(const Disc& disc, Vec2 to_j) {
     return row;
 }
 
-/// n·dn_c of a case in contact.
+/// Rotation term n·dn_c of a disc case that is in contact.
 OverlapGradient turning_gradient(const Disc& disc, Vec2 n, Vec2 to_j) {
     const DiscCase& c = disc.found;
     const Vec2 normal = disc.sense * c.normal, aside = perpendicular(normal);
@@ -80,7 +80,7 @@ OverlapGradient turning_gradient(const Disc& disc, Vec2 n, Vec2 to_j) {
         const Vec2 on_i = disc_of_i ? disc.centre : c.end, on_j = disc_of_i ? c.end : disc.centre;
         add_to(row, -dot(n, aside) / std::sqrt(c.squared_distance), closing_gradient(aside, on_i, on_j - to_j));
     } else {
-        row[disc_of_i ? 5 : 2] = dot(n, aside);  // the segment's body turns it
+        row[disc_of_i ? 5 : 2] = dot(n, aside);  // the normal rotates with the body that owns the segment
     }
     return row;
 }

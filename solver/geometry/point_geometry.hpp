@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where two bodies meet, and what the forces there do to them.
+// Geometry of a contact point, and the forces and moments that it exerts on the two bodies.
 // Tested by tests/solver/geometry/geometry_test.cpp.
 #pragma once
 
@@ -9,28 +9,29 @@
 
 namespace crackle {
 
-/// Of one contact point, or of several in lanes.
+/// Geometry of one contact point, or of several points in lanes.
 template <class Number>
 struct PointGeometry {
     Number overlap;   // m
     Number nx, ny;    // unit normal, from i to j
-    Number aix, aiy;  // m, arm from i's centroid to the contact position
-    Number ajx, ajy;  // m, from j's
+    Number aix, aiy;  // m, vector from i's centroid to the contact position
+    Number ajx, ajy;  // m, vector from j's centroid to the contact position
 };
 using ContactGeometry = PointGeometry<double>;
 
-/// m2; closer points are taken to coincide. Above, √s/s is 1/√s to rounding; the root and the division need not wait
-/// for each other.
+/// Squared distance s below which two points count as coincident, m2. Above it, 1/√s equals √s·(1/s) to round-off, so
+/// the square root and the division can be computed in parallel.
 inline constexpr double least_squared_distance = std::numeric_limits<double>::min();
 
-/// Force of a point on i (j gets the opposite), N, and its moments about both centroids, N m.
+/// Force of a contact point on body i, N (j receives the opposite force), and its moments about both centroids, N m.
 template <class Number>
 struct ForceOnBodies {
     Number fx, fy;
     Number torque_i, torque_j;
 };
 
-/// @param normal pushes i away from j @param shear on i along the normal turned by +90 degrees
+/// Converts the force of a contact point to forces and moments on the bodies. @param normal force that pushes i and j
+/// apart, N @param shear force on i along the normal turned by +90 degrees, N
 template <class Number>
 CRACKLE_INLINE ForceOnBodies<Number> force_on_bodies(const PointGeometry<Number>& g, const Number& normal,
                                                      const Number& shear) {

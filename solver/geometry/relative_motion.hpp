@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How i moves against j at the contact position: v_i + ω_i × a_i - v_j - ω_j × a_j along the normal and the tangent.
+// Velocity of i relative to j at the contact position: v_i + ω_i × a_i - v_j - ω_j × a_j along the normal and the
+// tangent.
 //
-// Where an arm is not along the normal, ω × a at the end of the drift misses the chord of its turn, ½ω²Δt·a, in the
-// slip. Left out, a bonded specimen that turns as a whole would collect shear, first order in Δt.
-// Tested by tests/solver/contact/batch_test.cpp.
+// The drift is the part of a step that moves the bodies. If an arm a is not along the normal, ω × a at the end of the
+// drift differs from the mean slip rate over the drift. The difference is ½ω²Δt·a, since the arm's end moved along a
+// chord. Without this chord term, a bonded specimen in rigid rotation would accumulate shear forces of first order in
+// Δt. Tested by tests/solver/contact/batch_test.cpp.
 #pragma once
 
 #include "solver/geometry/circle_geometry.hpp"
@@ -11,32 +13,34 @@
 
 namespace crackle {
 
+/// Relative velocity of the two sides of a contact point.
 template <class Number>
 struct RelativeMotion {
     Number closing, slipping;  // m/s, along the normal and the tangent
 };
 
-/// How two bodies move: velocity of i against j, m/s, and both spins, rad/s.
+/// Motion of two bodies: velocity of i relative to j, m/s, and the angular velocities of both, rad/s.
 template <class Number>
 struct PairMotion {
     Number vx, vy;
     Number spin_i, spin_j;
 };
 
-/// Slip rate of an arm by the chord of its turn, m/s. @param half half of the drift, s
+/// Chord term of one arm in the slip rate, m/s. @param half half the duration of the drift, s
 template <class Number>
 CRACKLE_INLINE Number chord(double half, const Number& spin, const Number& arm_x, const Number& arm_y,
                             const PointGeometry<Number>& g) {
     return half * spin * spin * (arm_y * g.nx - arm_x * g.ny);
 }
 
-/// Of single circles, whose arms are along the normal.
+/// Relative motion of two single circles, whose arms are along the normal.
 template <class Number>
 CRACKLE_INLINE RelativeMotion<Number> relative_motion(const CircleContact<Number>& c, const PairMotion<Number>& m) {
     return {m.vx * c.nx + m.vy * c.ny, (m.vy * c.nx - m.vx * c.ny) + (m.spin_i * c.arm_i + m.spin_j * c.arm_j)};
 }
 
-/// @param drift s, that led to these positions
+/// Relative motion of two bodies at a contact point. @param drift duration of the drift that led to the current
+/// positions, s
 template <class Number>
 CRACKLE_INLINE RelativeMotion<Number> relative_motion(const PointGeometry<Number>& g, const PairMotion<Number>& m,
                                                       double drift) {
@@ -50,7 +54,7 @@ CRACKLE_INLINE RelativeMotion<Number> relative_motion(const PointGeometry<Number
     return motion;
 }
 
-/// Of a body against a wall, which stays. @param m of which spin_j is nothing
+/// Motion of a body relative to a fixed wall. @param m spin_j is not used
 template <class Number>
 CRACKLE_INLINE RelativeMotion<Number> motion_against_wall(const PointGeometry<Number>& g, const PairMotion<Number>& m,
                                                           double drift) {

@@ -18,14 +18,14 @@ namespace {
 using Matrix = MassScaled::Matrix;
 using Vector = MassScaled::Vector;
 
-constexpr double lanczos_tolerance =
-    1e-10;  // of the eigenvalue; its vector errs by the root, the quotient by this again
+// Relative error of the eigenvalue and of the Rayleigh quotient; that of the eigenvector is its square root.
+constexpr double lanczos_tolerance = 1e-10;
 constexpr Eigen::Index lanczos_vectors = 40;
 constexpr Eigen::Index lanczos_restarts = 2000;
 constexpr int newton_steps = 30;
 constexpr double newton_tolerance = 1e-10;
 
-/// A symmetric matrix of which the lower triangle is stored, as Spectra wants to multiply by it.
+/// Multiplies by a symmetric matrix given by its lower triangle; has the interface that Spectra requires.
 class Multiply {
   public:
     using Scalar = double;
@@ -43,21 +43,23 @@ class Multiply {
     Matrix full_;
 };
 
-/// Vector of the largest eigenvalue. Starts at random numbers of a fixed seed (Spectra's), so it is the same every
-/// time.
+/// Eigenvector of the largest eigenvalue. Spectra starts from random numbers with a fixed seed, so the result is
+/// reproducible.
 Vector extreme_vector(const MassScaled& pencil, double damping_share, double stiffness_share) {
     const Matrix lower = pencil.matrix(damping_share, stiffness_share);
     const Eigen::Index n = lower.rows();
-    if (lower.squaredNorm() == 0.0) return Vector::Unit(n, 0);  // nothing is closed, and Lanczos has nothing to go by
+    if (lower.squaredNorm() == 0.0)
+        return Vector::Unit(n, 0);  // without closed points the matrix is zero, and Lanczos cannot start
     if (n <= lanczos_vectors) {
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense{Eigen::MatrixXd(lower)};  // reads the lower triangle
+        // SelfAdjointEigenSolver reads only the lower triangle.
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense{Eigen::MatrixXd(lower)};
         return dense.eigenvectors().col(n - 1);
     }
     Multiply multiply(pencil, lower);
     Spectra::SymEigsSolver<Multiply> solver(multiply, 1, lanczos_vectors);
     solver.init();
     solver.compute(Spectra::SortRule::LargestAlge, lanczos_restarts, lanczos_tolerance);
-    // Where it has not converged its best vector still bounds the limit from above; Cholesky checks the result.
+    // Without convergence, the best vector so far still bounds the limit from above; Cholesky checks the result.
     if (solver.info() == Spectra::CompInfo::Successful) return solver.eigenvectors(1).col(0);
     return Vector();
 }
@@ -72,7 +74,7 @@ bool positive_definite(const MassScaled& pencil, double dt) {
     return factor.info() == Eigen::Success;
 }
 
-/// Root of 4 - 2Δt c - Δt² k.
+/// Positive root of 4 - 2Δt c - Δt² k = 0.
 double step_of(const MassScaled::Quotient& q) {
     return 4.0 / (std::sqrt(q.damping * q.damping + 4.0 * q.stiffness) + q.damping);
 }
@@ -82,12 +84,13 @@ double step_of(const MassScaled::Quotient& q) {
 CriticalStep critical_step(const World& world, ClosedPoints which) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     const MassScaled pencil(world, which);
-    const double guaranteed = stable_step_bound(world);  // over all listed points: never above the limit sought
+    const double guaranteed =
+        stable_step_bound(world);  // a bound for all listed points, so never above the exact limit
     CriticalStep result{guaranteed, infinite, false, std::vector<BodyMotion>(world.bodies.size())};
     if (pencil.size() == 0 || !std::isfinite(guaranteed)) return {infinite, infinite, true, result.mode};
     const auto unproved = [&] {
         result.step = std::max(guaranteed, lanczos_step(pencil, guaranteed));
-        result.proved = std::isinf(result.step);  // nothing is closed
+        result.proved = std::isinf(result.step);  // no closed points
         return result;
     };
     if (pencil.size() > most_exact_unknowns) return unproved();
@@ -97,8 +100,7 @@ CriticalStep critical_step(const World& world, ClosedPoints which) {
         const Vector x = extreme_vector(pencil, 2.0 * dt, dt * dt);
         if (x.size() == 0) return unproved();
         const MassScaled::Quotient q = pencil.quotient(x);
-        if (q.damping == 0.0 && q.stiffness == 0.0)
-            return {infinite, infinite, true, result.mode};  // nothing is closed
+        if (q.damping == 0.0 && q.stiffness == 0.0) return {infinite, infinite, true, result.mode};  // no closed points
         const double next = step_of(q);
         result.mode = pencil.motion(x);
         const bool done = !damped || std::abs(next - dt) <= newton_tolerance * dt;
@@ -124,7 +126,7 @@ double growth_per_step(const World& world, ClosedPoints which, double dt) {
     for (int n = 0; n < newton_steps; ++n) {
         const Vector x = extreme_vector(pencil, dt / (1.0 + zeta), dt * dt * zeta / ((1.0 + zeta) * (1.0 + zeta)));
         if (x.size() == 0) break;
-        // Larger root of ζ² + (2 - Δt c - Δt² k)ζ + 1 - Δt c = 0
+        // The larger root of ζ² + (2 - Δt c - Δt² k)ζ + 1 - Δt c = 0.
         const MassScaled::Quotient q = pencil.quotient(x);
         const double b = 2.0 - dt * q.damping - dt * dt * q.stiffness, c = 1.0 - dt * q.damping;
         const double inside = 0.25 * b * b - c;

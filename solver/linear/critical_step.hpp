@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The exact stable step of a world: the largest Δt for which 4M - 2Δt·C - Δt²·K stays positive definite.
+// The exact stable time step of a world: the largest Δt for which 4M - 2Δt·C - Δt²·K stays positive definite.
 //
-// Leapfrog with the lagged dashpot, M(v(n+½) - v(n-½))/Δt = -K x(n) - C v(n-½), multiplies a mode by z with
+// Leapfrog with the lagged dashpot, M(v(n+½) - v(n-½))/Δt = -K x(n) - C v(n-½), multiplies a mode by z per step, where
 //     M(z - 1)² + Δt C(z - 1) + Δt² K z = 0.
-// With M, K > 0 and C >= 0 the first root to leave the unit circle does so at z = -1, where 4M - 2Δt C - Δt² K becomes
-// singular; one spring and dashpot gives the guide's Δt = 2 sqrt(m/k)(sqrt(h² + 1) - h). The unknown is found by
-// Newton's method on the Rayleigh quotient: for a given vector the root of 4m - 2Δt c - Δt² k lies at or above the
-// limit, for the extreme vector of the pencil at that Δt (Lanczos, Spectra) it is closer by the square. A sparse
-// Cholesky factorisation just below the result then proves that nothing was missed.
+// With M, K > 0 and C >= 0, the first root to leave the unit circle does so at z = -1, where 4M - 2Δt C - Δt² K becomes
+// singular. For one spring and dashpot this gives the DEMseg guide's Δt = 2 sqrt(m/k)(sqrt(h² + 1) - h). Δt is found by
+// Newton's method on the Rayleigh quotient: for any vector, the root of 4m - 2Δt c - Δt² k is at or above the limit.
+// Taking the extreme eigenvector at this Δt (Lanczos, Spectra) for the next iteration squares the error. A sparse
+// Cholesky factorisation just below the result then proves that no mode was missed.
 // Tested by tests/solver/linear/step_bound_test.cpp and stopped_solve_test.cpp.
 #pragma once
 
@@ -19,29 +19,33 @@
 
 namespace crackle {
 
+/// The largest stable time step of a world.
 struct CriticalStep {
-    double
-        step;  ///< s, stable at and below: the root less `margin`, within 2 % of it if not proved (lanczos_bound.hpp)
-    double root;                   ///< s, where the pencil becomes singular; infinite where nothing is stiff
-    bool proved;                   ///< Cholesky: 4M - 2Δt·C - Δt²·K is positive definite at `step`
-    std::vector<BodyMotion> mode;  ///< per body, the motion that grows first; largest component of M^½ times it 1
+    double step;  ///< s; steps up to this value are stable: the root minus `margin`, or, if not proved, within 2 % of
+                  ///< it (lanczos_bound.hpp)
+    double root;  ///< s, step at which the matrix becomes singular; infinite if there are no stiff points
+    bool proved;  ///< whether Cholesky has shown that 4M - 2Δt·C - Δt²·K is positive definite at `step`
+    std::vector<BodyMotion> mode;  ///< for each body, the mode that becomes unstable first, scaled so that the largest
+                                   ///< component of M^½ u is 1
 };
 
-/// Beyond so many degrees of freedom (100,000 free bodies) a step within 2 % of it takes its place (lanczos_bound.hpp):
-/// factors of millions of rows need minutes and gigabytes.
+/// With more degrees of freedom than this (100,000 free bodies), a step within 2 % of the limit is computed instead
+/// (lanczos_bound.hpp), since factorising millions of rows takes minutes and gigabytes.
 inline constexpr std::int64_t most_exact_unknowns = 300'000;
 
-/// Relative distance kept from the root, far above the rounding of the factorisation.
+/// Relative distance of the result below the root, far above the round-off of the factorisation.
 inline constexpr double critical_step_margin = 1e-6;
 
-/// @param which points count as closed; with `listed` the result holds until the neighbour list is rebuilt
+/// Computes the largest stable time step. @param which points that count as closed; for ClosedPoints::listed, the
+/// result holds until the neighbour list is rebuilt
 CriticalStep critical_step(const World& world, ClosedPoints which);
 
-/// Whether `dt` is at or below critical_step(), by one factorisation.
+/// Whether the time step `dt` (s) is at or below critical_step(); needs a single factorisation.
 bool stable_at(const World& world, ClosedPoints which, double dt);
 
-/// Largest |z| of all modes at time step `dt`: 1 up to the limit, beyond it the growth of the fastest mode a step,
-/// found by the same iteration on (1 + ζ)²M - Δt(1 + ζ)C - Δt²ζK with z = -ζ.
+/// Largest |z| of all modes at the time step `dt` (s): 1 up to the stable limit, and the growth per step of the
+/// fastest-growing mode above the limit. It is found like the critical step, by iteration on (1 + ζ)²M - Δt(1 + ζ)C -
+/// Δt²ζK with z = -ζ.
 double growth_per_step(const World& world, ClosedPoints which, double dt);
 
 }  // namespace crackle

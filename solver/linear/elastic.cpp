@@ -20,16 +20,18 @@ using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
 using Factor = Eigen::SimplicialLDLT<Matrix, Eigen::Lower>;
 
-// In those units; far below the softest mode that carries load, far above rounding.
+// Diagonal shift, and energy below which a motion counts as free, in scaled units. Both are far below the energy of the
+// softest mode that carries load, and far above round-off.
 constexpr double shift = 1e-12;
 constexpr double free_energy = 1e-9;
 constexpr double residual_goal = 1e-9;
 constexpr int refinements = 20;
-// Projections of random vectors on the free motions: a body that takes part in one is missed by none but by chance.
+// Number of random vectors that are projected onto the free motions. A body that takes part in a free motion is missed
+// only by coincidence.
 constexpr int probes = 3;
 constexpr double taking_part = 1e-6;
 
-/// Which degrees of freedom are held, three a body.
+/// For each degree of freedom, three per body, whether it is held.
 std::vector<bool> held_freedoms(const World& world, const std::vector<BodyIndex>& bodies) {
     std::vector<bool> held(3 * world.bodies.size(), false);
     for (const BodyIndex b : bodies) {
@@ -47,7 +49,8 @@ std::vector<Spring> springs_between_bodies(const World& world, ClosedPoints clos
     return springs;
 }
 
-/// The free degrees of freedom and the stiffness over them, in units of the bodies' own springs: entries of 1 or less.
+/// The free degrees of freedom and their stiffness matrix, scaled by each body's own springs so that entries are at
+/// most 1.
 class ScaledSystem {
   public:
     ScaledSystem(const World& world, const std::vector<Spring>& springs, const std::vector<bool>& held) {
@@ -55,8 +58,8 @@ class ScaledSystem {
         int rows = 0;
         for (std::size_t k = 0; k < held.size(); ++k)
             if (!held[k]) number_[k] = rows++;
-        // The diagonal itself would not do: a frictionless disc's own is rounding, and scaled up would pass for
-        // stiffness.
+        // Diagonal entries are not used for scaling: for the rotation of a frictionless disc this entry is only
+        // round-off, and scaling by it would make it look like stiffness.
         std::vector<double> stiffness(world.bodies.size(), 0.0);
         for (const Spring& s : springs) {
             stiffness[s.i] += s.stiffness;
@@ -77,7 +80,7 @@ class ScaledSystem {
     int number(std::size_t body, int dof) const { return number_[3 * body + static_cast<std::size_t>(dof)]; }
     double scale(int row) const { return scale_[row]; }
     bool symmetric() const { return symmetric_; }
-    const Matrix& stiffness() const { return stiffness_; }  // lower triangle where it is symmetric
+    const Matrix& stiffness() const { return stiffness_; }  // lower triangle if symmetric
     Matrix shifted(double by) const {
         Matrix identity(stiffness_.rows(), stiffness_.rows());
         identity.setIdentity();
@@ -105,8 +108,8 @@ class ScaledSystem {
         stiffness_.setFromTriplets(entries.begin(), entries.end());
     }
 
-    std::vector<int> number_;  // per body and degree of freedom: row, -1 where held
-    Vector scale_;             // per row: displacement for a unit of the scaled unknown
+    std::vector<int> number_;  // row index by body and degree of freedom; -1 if held
+    Vector scale_;             // for each row, displacement per unit of the scaled unknown
     Matrix stiffness_;
     bool symmetric_ = true;
 };
@@ -123,7 +126,7 @@ struct Refined {
     double error_energy = 0.0;
 };
 
-/// @param full K as it acts on a vector
+/// Solves by the factorisation and refines iteratively. @param full matrix K, including its upper triangle
 template <class Solver, class Full>
 Refined refine(const Workers& workers, const Solver& factor, const Full& full, const Vector& load) {
     require_factor(factor);
@@ -141,11 +144,11 @@ Refined refine(const Workers& workers, const Solver& factor, const Full& full, c
     }
     const double residual = size > 0.0 ? rest.norm() / size : 0.0;
     if (!(residual <= residual_goal)) {
-        throw InputError(
-            fmt::format("elastic solve: found a residual of {:.3g}, expected at most {:.3g}; the specimen's stiffness "
-                        "is too ill-conditioned, as where nothing holds a part, such as a block between joints without "
-                        "friction",
-                        residual, residual_goal));
+        throw InputError(fmt::format(
+            "elastic solve: found a residual of {:.3g}, expected at most {:.3g}; the specimen's stiffness "
+            "is too ill-conditioned; check that every part is held, for example blocks between joints without "
+            "friction",
+            residual, residual_goal));
     }
     return {u, residual, std::abs(rest.dot(factor.solve(rest)))};
 }
@@ -240,7 +243,9 @@ FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& 
         world.workers.hear();
         Vector z(system.stiffness().rows());
         for (double& value : z) value = 2.0 * static_cast<double>(random()) / std::minstd_rand::max() - 1.0;
-        z = shift * factor.solve(z);  // leaves what has no energy, and 1e-12 over its energy of the rest
+        z = shift *
+            factor.solve(
+                z);  // keeps motions without energy and multiplies others by 1e-12 divided by their scaled energy
         z = shift * factor.solve(z);
         for (std::size_t b = 0; b < world.bodies.size(); ++b) {
             for (int d = 0; d < 3; ++d) {

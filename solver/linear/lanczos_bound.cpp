@@ -15,16 +15,16 @@ namespace {
 
 using Vector = MassScaled::Vector;
 
-constexpr int search_steps = 40;   // of Lanczos, while the step is sought
-constexpr int most_searches = 20;  // two or three do
+constexpr int search_steps = 40;   // Lanczos steps per iteration of the search for the time step
+constexpr int most_searches = 20;  // two or three searches are usually enough
 
-/// So that the probability above is lanczos_failure.
+/// Number of Lanczos steps for which the probability stated in lanczos_bound.hpp is lanczos_failure.
 int sufficient_steps(Eigen::Index rows) {
     const double certainty = correctly_rounded::log(1.648 * std::sqrt(static_cast<double>(rows)) / lanczos_failure);
     return static_cast<int>(std::ceil(0.5 * (certainty / std::sqrt(lanczos_share) + 1.0)));
 }
 
-/// Of normally distributed components, which makes every direction as likely.
+/// A vector with normally distributed components, so that all directions are equally likely.
 Vector random_start(Eigen::Index rows) {
     std::mt19937_64 generator(1);
     Vector start(rows);
@@ -35,8 +35,8 @@ Vector random_start(Eigen::Index rows) {
     return start / start.norm();
 }
 
-/// Largest eigenvalue of A(Δt), from below. Three vectors are all that is kept: those that have lost their
-/// orthogonality to the first repeat eigenvalues that are found already.
+/// Largest eigenvalue of A(Δt), approached from below. Only three vectors are stored. Later vectors lose orthogonality
+/// to earlier ones, but this only makes eigenvalues appear repeatedly.
 double largest_eigenvalue(const MassScaled& pencil, double dt, const Vector& start, int steps) {
     const Eigen::Index most = std::min<Eigen::Index>(steps, pencil.size());
     Vector diagonal = Vector::Zero(most), beside = Vector::Zero(std::max<Eigen::Index>(most - 1, 0));
@@ -64,11 +64,11 @@ double largest_eigenvalue(const MassScaled& pencil, double dt, const Vector& sta
 
 double lanczos_step(const MassScaled& pencil, double guess) {
     const Vector start = random_start(pencil.size());
-    // λ is taken for aΔt + bΔt² through the last two found; a = 0 with one.
+    // λ(Δt) is approximated by aΔt + bΔt² through the last two values found; with only one value, a = 0.
     double dt = guess, last_dt = 0.0, last = 0.0;
     for (int n = 0; n < most_searches; ++n) {
         const double found = largest_eigenvalue(pencil, dt, start, search_steps);
-        if (found == 0.0) return std::numeric_limits<double>::infinity();  // nothing is closed
+        if (found == 0.0) return std::numeric_limits<double>::infinity();  // no closed contact points
         if (std::abs(found / 4.0 - 1.0) < 0.5 * lanczos_search_error) break;
         double a = 0.0;
         if (n > 0) a = (found / dt * last_dt - last / last_dt * dt) / (last_dt - dt);

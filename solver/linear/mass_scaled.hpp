@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Springs and dashpots of a world in mass-scaled coordinates x = M^½ u: M^-½ K M^-½ and M^-½ C M^-½, held degrees of
-// freedom left out (under the guide's law K by its symmetric majorant). What the exact stable step and the vibration
-// modes are found from.
+// Springs and dashpots of a world in mass-scaled coordinates x = M^½ u: M^-½ K M^-½ and M^-½ C M^-½, without held
+// degrees of freedom. Under the DEMseg guide's segment law, K is replaced by its symmetric majorant. The exact stable
+// time step and the vibration modes are computed from these matrices.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
@@ -14,33 +14,40 @@
 
 namespace crackle {
 
+/// Stiffness and damping of a world in mass-scaled coordinates.
 class MassScaled {
   public:
     using Matrix = Eigen::SparseMatrix<double>;
     using Vector = Eigen::VectorXd;
 
+    /// Assembles the matrices. @param which points that count as springs
     MassScaled(const World& world, ClosedPoints which);
 
+    /// Number of free degrees of freedom.
     Eigen::Index size() const { return static_cast<Eigen::Index>(root_.size()); }
+    /// Whether any point has a dashpot.
     bool damped() const;
 
-    /// damping_share·M^-½CM^-½ + stiffness_share·M^-½KM^-½, lower triangle.
+    /// Lower triangle of damping_share·M^-½CM^-½ + stiffness_share·M^-½KM^-½.
     Matrix matrix(double damping_share, double stiffness_share) const;
 
-    /// That matrix times x, without making it: of a million bodies it takes gigabytes.
+    /// Product of matrix() with x, computed without assembling the matrix, which would take gigabytes for a million
+    /// bodies.
     Vector times(double damping_share, double stiffness_share, const Vector& x) const;
 
+    /// Rayleigh quotients of a vector.
     struct Quotient {
-        double damping, stiffness;  ///< xᵀM^-½CM^-½x/xᵀx, 1/s; the same of K, 1/s2
+        double damping, stiffness;  ///< 1/s and 1/s2: Rayleigh quotients xᵀM^-½CM^-½x/xᵀx and xᵀM^-½KM^-½x/xᵀx
     };
+    /// Rayleigh quotients of a vector. @param x nonzero vector with size() components
     Quotient quotient(const Vector& x) const;
 
-    /// Between two steps of what is done with it: Workers::hear() of the world that it is of.
+    /// Calls Workers::while_solving of the world, if set. Call it between the iterations of a solve.
     void hear() const {
         if (while_solving_) while_solving_();
     }
 
-    /// u = M^-½ x per body, the largest component of x taken for 1.
+    /// u = M^-½ x, by body, scaled so that the largest component of x is 1.
     std::vector<BodyMotion> motion(const Vector& x) const;
 
   private:
@@ -53,8 +60,8 @@ class MassScaled {
 
     std::function<void()> while_solving_;
     std::vector<Spring> springs_;
-    std::vector<int> number_;   // per body and degree of freedom: row, -1 where held
-    std::vector<double> root_;  // per row: M^-½
+    std::vector<int> number_;   // row index by body and degree of freedom; -1 if held
+    std::vector<double> root_;  // M^-½, by row
 };
 
 }  // namespace crackle

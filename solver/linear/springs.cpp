@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "solver/contact/dashpot.hpp"
+#include "solver/laws/dashpot.hpp"
 #include "solver/measure/point_view.hpp"
 
 namespace crackle {
@@ -50,7 +50,7 @@ std::vector<Spring> symmetric_majorant(const World& world, const std::vector<Spr
         const double push = scaled_square(world, s.push, s.i, s.j),
                      gradient = scaled_square(world, s.gradient, s.i, s.j);
         if (s.symmetric() || push == 0.0 || gradient == 0.0) {
-            result.push_back(s);  // a product with a motion that cannot be is nothing
+            result.push_back(s);  // the other body is held, and the product with its motion is 0
             result.back().gradient = s.push;
             continue;
         }
@@ -84,7 +84,7 @@ std::vector<Spring> springs_of(const World& world, ClosedPoints which) {
         const OverlapGradient along = closing_gradient(v.normal, v.arm_i, v.arm_j),
                               across = closing_gradient(perpendicular(v.normal), v.arm_i, v.arm_j);
         add(false, v.normal_stiffness, normal_damping(law, root_mass), along, v.overlap_gradient);
-        // A frictionless point slides at once: neither its shear spring nor its dashpot ever acts.
+        // A frictionless point slides immediately, so neither its shear spring nor its shear dashpot ever acts.
         if (v.sticks) add(true, v.shear_stiffness, shear_damping(law, root_mass), across, across);
     }
     return springs;

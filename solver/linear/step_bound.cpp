@@ -1,28 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Guaranteed bound on the stable step, from per-body blocks.
+// Guaranteed bound on the stable step, from one 3 by 3 matrix (block) per body.
 //
 // Leapfrog with the lagged dashpot is stable while 4M - 2Δt·C - Δt²·K is positive definite. Every point contributes
-// ½k(a_i - a_j)² to the energy, a the displacement of each body's material at the point, and for any α > 0
-// (a_i - a_j)² <= (1 + α)a_i² + (1 + 1/α)a_j² (<= a_i² where the partner is held), so K and C are bounded by
-// block-diagonal matrices K_b and C_b. For K, α = w_j/w_i, the ratio of two weights; for C its root, as dashpots go by
-// the root of stiffness. With the bodies' own scaled stiffnesses for weights a light sliver pays hardly anything for
-// its heavy neighbours and equal bodies share by halves; a few rounds that raise the weight of the bodies that limit
-// bring the bound nearer to the exact step. With κ and γ the largest eigenvalues of M^-½ K_b M^-½ and M^-½ C_b M^-½,
-// body b is stable below (sqrt(γ² + 4κ) - γ)/κ; the bound is the least of these. One spring and dashpot against a wall
-// gives the guide's 2 sqrt(m/k)(sqrt(h²+1) - h) exactly.
+// ½k(a_i - a_j)² to the energy, where a is the displacement of each body's material at the point. For any α > 0, (a_i -
+// a_j)² <= (1 + α)a_i² + (1 + 1/α)a_j² (<= a_i² if body j is held), so block-diagonal matrices K_b and C_b bound K and
+// C. For K, α = w_j/w_i is the ratio of two weights; for C it is the square root of this ratio, since dashpots scale
+// with the root of stiffness. The weights start from the bodies' own scaled stiffnesses. A light sliver is then hardly
+// affected by its heavy neighbours, and equal bodies share a point equally. A few rounds that raise the weights of the
+// limiting bodies bring the bound closer to the exact step. With κ and γ the largest eigenvalues of M^-½ K_b M^-½ and
+// M^-½ C_b M^-½, body b is stable below (sqrt(γ² + 4κ) - γ)/κ; the bound is the smallest of these values. For one
+// spring and dashpot at a wall it equals the DEMseg guide's 2 sqrt(m/k)(sqrt(h²+1) - h).
 //
-// Under the guide's law a point pushes along b (its resultant at its place) while its overlap answers to g = ∇δ, so its
-// stiffness is k b gᵀ: unsymmetric, and up to four times k. Every eigenvalue λ of such a sum obeys |λ| <= max |u*Ku| <=
-// that of Σ ½k(s bbᵀ + ggᵀ/s), any s > 0, taken as |g|/|b| in the scaled norm. That sum enters the bound, and every
-// listed disc not yet in contact as a spring of its own. So the bound holds for all real eigenvalues; a complex pair
-// would be flutter, energy that the law itself makes, which no step is short enough for (on the guide's rock such pairs
-// grow by at most 40 a second, dashpots of ratio 0.2 take 9000). Slopes are those of the present: deep on (iii),
-// |α| < t/4, a disc's may grow to 1.5 times what an idle one counts, against the share a derived step leaves.
+// Under the DEMseg guide's segment law a contact point pushes along b (the direction of the resultant at its position),
+// but its overlap changes with g = ∇δ. Its stiffness k b gᵀ is therefore unsymmetric and up to four times k. Every
+// eigenvalue λ of the sum of such terms satisfies |λ| <= max |u*Ku|. This is at most the largest eigenvalue of Σ ½k(s
+// bbᵀ + ggᵀ/s) for any s > 0; s = |g|/|b| in the mass-scaled norm is used. In this sum every listed disc that is not
+// yet in contact counts as a spring of its own. The bound therefore holds for all real eigenvalues. A complex pair
+// means flutter, for which the law itself creates energy; no step is short enough for that. In the DEMseg guide's
+// example rock such pairs grow at a rate of at most 40/s, whereas dashpots with a damping ratio of 0.2 damp at 9000/s.
+// Slopes are taken at the current positions. Deep in case (iii), |α| < t/4, the slope of a disc may grow to 1.5 times
+// that of a disc not yet in contact. The safety factor of an automatic time step covers this growth.
 //
-// In a bonded world those points count that carry load; one that comes to carry load later is found by the contact
-// pass, and only its two bodies are looked at again. In a world without bonds all points within the common skin count,
-// under the guide's law all listed ones, and a body without points counts one against a wall. Geometry is that of the
-// last evaluation, at the latest when the list was built: since then nothing has moved by more than its half skin.
+// In a bonded world the bound counts the points that carry load. When the contact pass finds that further points begin
+// to carry load, only the blocks of their two bodies are updated. In a world without bonds all points within the common
+// skin count, and under the DEMseg guide's segment law all listed points. A body without points is treated as if it had
+// one at a wall. The geometry is that of the last evaluation, at or after the last build of the neighbour list; since
+// then no surface has moved by more than its half skin.
 
 #include "solver/linear/step_bound.hpp"
 
@@ -32,9 +35,9 @@
 #include <limits>
 #include <numbers>
 
-#include "solver/contact/dashpot.hpp"
 #include "solver/contact/point_motion.hpp"
 #include "solver/geometry/geometry.hpp"
+#include "solver/laws/dashpot.hpp"
 #include "solver/linear/springs.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/world/world.hpp"
@@ -46,9 +49,9 @@ namespace {
 struct Block {
     double xx = 0.0, yy = 0.0, rr = 0.0, xy = 0.0, xr = 0.0, yr = 0.0;
 
-    /// Adds s·vvᵀ.
+    /// Adds s·vvᵀ with v = (x, y, r).
     void add(double s, double x, double y, double r) {
-        if (s == 0.0) return;  // no damping, say
+        if (s == 0.0) return;  // for example, without damping
         xx += s * x * x;
         yy += s * y * y;
         rr += s * r * r;
@@ -58,8 +61,9 @@ struct Block {
     }
 };
 
-/// cos(arccos(c)/3), the largest root of 4x³ - 3x = c, by Newton's method, which falls onto it: x = ½ + e, 6e² + 4e³ =
-/// 1 + c, e from √((1 + c)/6) on. The first e is at most 16 % too large, the fourth step leaves rounding.
+/// cos(arccos(c)/3), the largest root x of 4x³ - 3x = c. With x = ½ + e, Newton's method solves 6e² + 4e³ = 1 + c from
+/// above, starting from e = √((1 + c)/6). The first e is at most 16 % too large; after four iterations only round-off
+/// remains.
 double cosine_of_a_third(double c) {
     const double rise = 1.0 + c;
     double e = std::sqrt(rise / 6.0);
@@ -68,7 +72,8 @@ double cosine_of_a_third(double c) {
     return 0.5 + e;
 }
 
-/// Largest eigenvalue by Cardano's formula for symmetric matrices (Smith 1961), raised by its rounding.
+/// Largest eigenvalue by Cardano's formula for symmetric matrices (Smith 1961), increased by the round-off of this
+/// computation.
 double largest_eigenvalue(const Block& m) {
     const double off = m.xy * m.xy + m.xr * m.xr + m.yr * m.yr;
     const double mean = (m.xx + m.yy + m.rr) / 3.0;
@@ -81,7 +86,7 @@ double largest_eigenvalue(const Block& m) {
     return (mean + 2.0 * p * cosine_of_a_third(std::clamp(half_det, -1.0, 1.0))) * (1.0 + 1e-12);
 }
 
-/// Largest eigenvalue from above, at the price of one square root: the formula's cosine is at most 1.
+/// Upper bound on the largest eigenvalue, with only one square root: the cosine in Cardano's formula is at most 1.
 double eigenvalue_at_most(const Block& m) {
     const double off = m.xy * m.xy + m.xr * m.xr + m.yr * m.yr;
     const double mean = (m.xx + m.yy + m.rr) / 3.0;
@@ -93,7 +98,7 @@ struct BodyBlocks {
     Block stiffness, damping;
 };
 
-/// Square roots of a body's inverse masses.
+/// Square roots of a body's inverse masses and inverse moment of inertia.
 struct Roots {
     double x, y, r;
 };
@@ -102,12 +107,12 @@ Roots roots_of(const BodyInertia& inertia) {
     return {std::sqrt(inertia.inverse_mass_x), std::sqrt(inertia.inverse_mass_y), std::sqrt(inertia.inverse_moment)};
 }
 
-/// Where a point acts.
+/// Normal of a contact point, and its arms on the two bodies.
 struct PointArms {
     Vec2 normal, arm_i, arm_j;
 };
 
-/// One side of a point, scaled by the roots: rows of its normal n and of the tangent, at `arm` from the centroid.
+/// One body's side of a contact point, scaled by Roots: rows for the normal n and for the tangent t.
 struct Side {
     double nx, ny, nr, tx, ty, tr;
 };
@@ -118,7 +123,8 @@ Side side_of(const Roots& roots, Vec2 n, Vec2 arm) {
             roots.x * t.x, roots.y * t.y, roots.r * cross(arm, t)};
 }
 
-/// @param normal false where the normal stiffness comes by rows (the guide's law)
+/// Adds one side of a contact point to a body's stiffness. @param normal false if the normal stiffness is added
+/// separately (guide_rows())
 void add_stiffness(Block& block, const Side& side, const ContactLaw& law, double share, bool normal) {
     if (normal) block.add(share * law.normal_stiffness, side.nx, side.ny, side.nr);
     if (law.friction > 0.0) block.add(share * law.shear_stiffness, side.tx, side.ty, side.tr);
@@ -135,17 +141,17 @@ void add_side(BodyBlocks& blocks, const Side& side, const ContactLaw& law, doubl
     add_damping(blocks.damping, side, law, root_mass, 1.0 + std::sqrt(share - 1.0));
 }
 
-/// (sqrt(c² + 4k) - c)/k, written without the cancellation.
+/// (sqrt(c² + 4k) - c)/k, written without cancellation.
 double stable_step_of(double k, double c) {
     return k > 0.0 ? 4.0 / (std::sqrt(c * c + 4.0 * k) + c) : std::numeric_limits<double>::infinity();
 }
 
-/// The least stable step so far and its body.
+/// The smallest stable step so far, and the body that determines it.
 struct Least {
     double bound = std::numeric_limits<double>::infinity();
     BodyIndex body = 0;
 
-    /// Most bodies are ruled out by the cheap estimate.
+    /// Lowers the bound if body b requires it. The cheap estimate rules out most bodies.
     void lower_to(const BodyBlocks& blocks, BodyIndex b) {
         if (stable_step_of(eigenvalue_at_most(blocks.stiffness), eigenvalue_at_most(blocks.damping)) >= bound) return;
         const double exact = stable_step_of(largest_eigenvalue(blocks.stiffness), largest_eigenvalue(blocks.damping));
@@ -153,8 +159,8 @@ struct Least {
     }
 };
 
-/// 1 + α for a side of weight w against that of its partner (0: held); a side that cannot move along the point adds
-/// nothing.
+/// 1 + α for a body of weight `own`; `partner` is the other body's weight (0 if held). A body that cannot move along
+/// the point adds nothing.
 double share_of(double own, double partner) { return own > 0.0 ? 1.0 + partner / own : 1.0; }
 
 bool with_wall(const World& world, PointIndex k) {
@@ -167,7 +173,7 @@ bool has_rows(const World& world, PointIndex k) {
     return k >= world.points.kind_begin[static_cast<std::size_t>(PointKind::disc_segment)] && !with_wall(world, k);
 }
 
-/// Normal stiffness of points under the guide's law.
+/// Springs that represent the normal stiffness of points under the DEMseg guide's segment law.
 std::vector<Spring> guide_rows(const World& world) {
     std::vector<Spring> touching;
     std::vector<Spring> rows;
@@ -190,7 +196,8 @@ void add_row(Block& block, const Roots& roots, const Spring& row, bool second, d
     block.add(share * row.stiffness, roots.x * row.push[d], roots.y * row.push[d + 1], roots.r * row.push[d + 2]);
 }
 
-/// Law of a point and its root mass while the list lasts: faces that slide can come to lap farther.
+/// Law and root mass of a contact point between sliding flat faces, for the largest lap (shared length) that they can
+/// reach before the neighbour list is rebuilt.
 struct LongestLap {
     ContactLaw law;
     double root_mass;  // sqrt(kg)
@@ -208,7 +215,7 @@ LongestLap longest_lap(const World& world, PointIndex k) {
     return {law_with(world, k, world.points.stiffness_share[k] * lap), world.points.root_mass[k] * std::sqrt(lap)};
 }
 
-/// Adds a point's share to body b, one of its two.
+/// Adds a point's contribution to the block of body b, one of its two bodies.
 void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>& weights, PointIndex k, BodyIndex b,
                const Roots& roots, const PointArms& arms) {
     const BodyPair& point = world.points.contact.pairs[k];
@@ -219,8 +226,8 @@ void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>
              share_of(weights[b], partner), !has_rows(world, k));
 }
 
-/// What a body without points is stable with: the first thing it meets, a circle head-on or a corner at the longest
-/// lever it has.
+/// Lowers the bound so that a body without points is stable in its first contact. For a circle the contact is central;
+/// for other bodies it may also be at the longest lever arm.
 void lower_to_first_meeting(Least& least, const World& world, BodyIndex b) {
     const BodyInfo info = world.bodies.info(b);
     const Roots roots = roots_of(world.bodies.inertia[b]);
@@ -228,7 +235,8 @@ void lower_to_first_meeting(Least& least, const World& world, BodyIndex b) {
     const Vec2 along{info.reach, 0.0};
     double root_mass = std::sqrt(world.bodies.inertia[b].mass);
     if (world.settings.units == StiffnessUnits::area) {
-        // At most the share of a face as long as the body is wide, at the distance of its equivalent radius.
+        // Upper bound on the stiffness factor: a face as long as the body is wide, at a distance of its equivalent
+        // radius.
         const double area = world.bodies.inertia[b].mass / world.settings.materials[info.material].density;
         const double share = 2.0 * info.reach / std::sqrt(area / std::numbers::pi);
         law.normal_stiffness *= share;
@@ -244,10 +252,10 @@ void lower_to_first_meeting(Least& least, const World& world, BodyIndex b) {
     least.lower_to(corner, b);
 }
 
-/// What does not change from round to round.
+/// Data that are the same in all rounds of raised().
 struct Surroundings {
     std::vector<Spring> rows;
-    std::vector<bool> met;  // by body: has a point
+    std::vector<bool> met;  // for each body, whether it has a listed point
 };
 
 Surroundings surroundings_of(const World& world) {
@@ -259,15 +267,16 @@ Surroundings surroundings_of(const World& world) {
     return all;
 }
 
-/// Blocks of all bodies from the points that count. Geometry is found again in each round: kept, it would be as much
-/// memory as all that points remember. @param counts  asked with each point and its overlap, m
+/// Blocks of all bodies, from the points for which `counts` returns true. The geometry is computed again in each round,
+/// since storing it would take as much memory as the complete state of the points. @param counts function called with
+/// each point and its overlap, m
 template <class Counts>
 std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>& weights,
                                   const std::vector<Spring>& rows, Counts counts) {
     std::vector<BodyBlocks> blocks(world.bodies.size());
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
-            const ContactPoint point = point_of<K>(world, k);
+            const ContactPoint point = world.points.contact.at<K>(k);
             std::uint32_t feature = point.feature_j;
             const ContactGeometry g = contact_geometry<K>(world, point, feature);
             if (!counts(k, g.overlap)) continue;
@@ -293,9 +302,9 @@ std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>&
 
 constexpr auto every_point = [](PointIndex, double) { return true; };
 
-/// Every free body's own scaled stiffness over all listed points, held bodies 0.
+/// Scaled stiffness of each body from all listed points; 0 for held bodies.
 std::vector<double> first_weights(const World& world, const std::vector<Spring>& rows) {
-    const std::vector<double> alone(world.bodies.size(), 0.0);  // every share 1
+    const std::vector<double> alone(world.bodies.size(), 0.0);  // without partners, share_of() returns 1
     std::vector<double> weights;
     weights.reserve(alone.size());
     for (const BodyBlocks& block : blocks_of(world, alone, rows, every_point))
@@ -313,20 +322,21 @@ Least least_of(const World& world, const std::vector<BodyBlocks>& blocks, const 
     return least;
 }
 
-// On the guide's three specimens more rounds raise the bound by less than 1 %.
+// Largest number of rounds. For the three specimens of the DEMseg guide, more rounds raise the bound by less than 1 %.
 constexpr int weight_rounds = 12;
-// Rounds go on while three of them raise the bound by this share of it.
+// Rounds continue as long as three of them raise the bound by at least this fraction.
 constexpr double worth_three_rounds = 5e-4;
-// By how much a bound may differ from that of the last search and count as the same.
+// A bound counts as unchanged if it differs from that of the last search by less than this fraction.
 constexpr double unchanged = 2e-3;
-// No weight falls below this share of its first value: a point that comes to carry load later between a body that was
-// ruled out and one that was not would cost the latter all the more.
+// Lower limit of a weight, relative to its initial value. A point may later begin to carry load between a body with a
+// low weight and one of normal weight. A very low weight would then reduce the bound for the second body too much.
 constexpr double lowest_weight_share = 0.125;
-// How far a list may differ in length from the one that weights were found for.
+// Weights are reused as long as the length of the neighbour list differs by at most this fraction from that of the list
+// for which they were computed.
 constexpr double like_list = 0.01;
 
-/// Whether there are weights from before for all bodies that can move and meet something: without, they would count as
-/// held.
+/// Whether weights from an earlier search exist for all bodies that can move and have points; without a weight a body
+/// would count as held.
 bool weighed_before(const World& world, const std::vector<bool>& met) {
     if (world.stepping.step_weights.size() != met.size()) return false;
     for (std::size_t b = 0; b < met.size(); ++b)
@@ -334,23 +344,24 @@ bool weighed_before(const World& world, const std::vector<bool>& met) {
     return true;
 }
 
-/// What a derived step asks of the bound, or a given one.
+/// Bound that is sufficient for the automatic or given time step, s.
 double enough_for(const World& world) {
     if (!world.stepping.automatic_step) return world.stepping.time_step;
     return world.bonds.made ? world.stepping.step_goal
                             : world.stepping.time_step * world.stepping.safety_factor / derived_step_share(world);
 }
 
-/// Whether the last search for weights, on a list like this one, has not reached what the step asks for: then
-/// another one is worth its time only where the bound has changed.
+/// Whether the last search for weights, with a list of similar length, did not reach a sufficient bound. Another search
+/// is then worthwhile only if the bound has changed.
 bool search_was_useless(const World& world, double enough) {
     const auto listed = static_cast<double>(world.points.size()),
                then = static_cast<double>(world.stepping.weighed_points);
     return world.stepping.weighed_bound < enough && std::abs(listed - then) <= like_list * then;
 }
 
-/// Raises the weight of the bodies that limit against those that do not, until the bound is enough; keeps the best
-/// round in StepControl::step_weights. The first round has the weights found last, which as a rule do.
+/// Raises the weights of limiting bodies relative to the others until the bound is sufficient, and stores the weights
+/// of the best round in StepControl::step_weights. The first round uses the weights of the last search, which are
+/// usually sufficient.
 template <class Counts>
 Least raised(World& world, const Surroundings& all, Counts counts) {
     const double enough = enough_for(world);
@@ -372,7 +383,8 @@ Least raised(World& world, const Surroundings& all, Counts counts) {
         const auto now = static_cast<std::size_t>(round);
         reached[now] = best.bound;
         if (best.bound >= enough) break;
-        if (!world.bonds.made) {  // they take a small share of it anyway: their own weights do
+        if (!world.bonds.made) {  // only a small fraction of the bound is used without bonds, so the initial weights
+                                  // are good enough
             if (round > 0 || !warm) break;
             trial = first = first_weights(world, all.rows);
             continue;
@@ -394,8 +406,9 @@ Least raised(World& world, const Surroundings& all, Counts counts) {
 
 }  // namespace
 
-/// As loose_step_share, of the consistent integrator: ten discs among walls have a largest closing error of 1.9 %, most
-/// of it what the ledger's mean velocities miss in closed contacts and give back. It is stable up to the bound.
+/// Counterpart of loose_step_share for the consistent integrator. With this value, the energy account of ten discs
+/// between walls has a largest closing error of 1.9 %. Most of the error comes from the mean velocities that the
+/// account uses in closed contacts, and is temporary. The integrator is stable up to the bound.
 constexpr double consistent_step_share = 0.2;
 
 double derived_step_share(const World& world) {
@@ -414,8 +427,8 @@ double stable_step_bound(const World& world, BodyIndex* limiting) {
 }
 
 void find_step_bound(World& world) {
-    // Of loose bodies those that the common skin lists: a fast body's own is wider, but that is no reason for a lower
-    // step.
+    // Points between loose bodies are counted only within the common skin. The wider skin of a fast body is no reason
+    // for a smaller time step.
     const bool by_guide = world.settings.segment_law != SegmentLaw::rounded;
     const double least_overlap = by_guide || (!world.bonds.made && world.list.widest_skin == 0.0)
                                      ? -std::numeric_limits<double>::infinity()
@@ -423,7 +436,7 @@ void find_step_bound(World& world) {
                                                     : -world.list.widest_skin;
     const auto counts = [&](PointIndex k, double overlap) {
         std::uint16_t& flags = world.points.state[k].flags;
-        // Faces of open joints and of those that dilate touch at gaps, too.
+        // Faces of open and of dilating joints can touch across gaps.
         const bool counted =
             (flags & point_bonded) != 0 || overlap > std::min(least_overlap, world.points.bond_overlap[k]);
         flags = static_cast<std::uint16_t>(counted ? flags | point_counted : flags & ~point_counted);
@@ -437,7 +450,8 @@ void find_step_bound(World& world) {
 bool lower_step_bound(World& world) {
     constexpr std::size_t most = 64;
     static_assert(most < std::numeric_limits<decltype(world.workers.marks)::value_type>::max());
-    std::array<BodyIndex, most> gaining{};  // their marks are 1 and on
+    // Bodies that gained points; the body at index k has the entry k + 1 in Workers::marks.
+    std::array<BodyIndex, most> gaining{};
     std::size_t count = 0, uncounted = 0;
     const auto gains = [&](BodyIndex b) {
         if (world.bodies.inertia[b].held() || world.workers.marks[b] != 0) return;
@@ -456,7 +470,7 @@ bool lower_step_bound(World& world) {
         if (!with_wall(world, k)) gains(world.points.contact[k].body_j);
     }
 
-    // Blocks of these bodies from all their counted points.
+    // Blocks of the bodies that gained points, from all their counted points.
     std::array<BodyBlocks, most> blocks{};
     const auto add = [&](PointIndex k, BodyIndex b) {
         if (world.workers.marks[b] == 0) return;
@@ -476,7 +490,7 @@ bool lower_step_bound(World& world) {
     if (uncounted > 0) return false;
     if (least.bound >= world.stepping.step_bound) return true;
     if (world.stepping.step_scale * least.bound < world.stepping.time_step)
-        return false;  // weights that suit the new points may raise it
+        return false;  // new weights suited to the new points may raise the bound
     world.stepping.step_bound = least.bound;
     world.stepping.limiting_body = least.body;
     return true;

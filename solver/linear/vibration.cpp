@@ -19,10 +19,11 @@ using Vector = MassScaled::Vector;
 
 constexpr double tolerance = 1e-8;
 constexpr Eigen::Index restarts = 1000;
-// Of the largest diagonal entry: keeps the factorisation going where motions store no energy.
+// Fraction of the largest diagonal entry that is added to the diagonal, to keep the factorisation regular when some
+// motions store no energy.
 constexpr double shift_share = 1e-12;
 
-/// Multiplies by (A - σ)^-1, as Spectra asks for it; σ < 0 keeps it positive definite.
+/// Multiplies by (A - σ)^-1 as Spectra requires; σ < 0 makes A - σ positive definite.
 class Inverse {
   public:
     using Scalar = double;
@@ -54,7 +55,7 @@ std::vector<VibrationMode> lowest_modes(const World& world, std::int64_t count, 
     const std::int64_t all = count + free_motions;
     if (all > most_modes || all >= system.size()) {
         throw InputError(
-            fmt::format("vibration modes: found {} asked for besides {} motions without energy, expected "
+            fmt::format("vibration modes: found a request for {} modes besides {} motions without energy, expected "
                         "at most {} together and fewer than the {} degrees of freedom; ask for fewer",
                         count, free_motions, most_modes, system.size()));
     }

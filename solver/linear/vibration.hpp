@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lowest undamped vibration modes of a bonded world, K u = ω² M u, driven degrees of freedom held.
+// Lowest undamped vibration modes of a bonded world, K u = ω² M u, with driven degrees of freedom held.
 // Tested by tests/verification/claims_test.cpp and tests/solver/linear/stopped_solve_test.cpp.
 #pragma once
 
@@ -10,17 +10,21 @@
 
 namespace crackle {
 
+/// A vibration mode without damping.
 struct VibrationMode {
     double frequency;               // rad/s
-    std::vector<BodyMotion> shape;  ///< per body, largest mass-scaled component 1
+    std::vector<BodyMotion> shape;  ///< by body; the largest mass-scaled component is 1
 };
 
-/// Most modes (free motions included) that are looked for at once.
+/// Largest number of modes that can be requested, including free motions.
 inline constexpr std::int64_t most_modes = 500;
 
-/// The `count` lowest modes that store energy, rising frequencies; found by Lanczos on the inverse (Spectra, Eigen).
-/// @param free_motions of the same world, see find_free_motions(); they come first and are left out
-/// @throws InputError for more than most_modes with the free motions, or more than there are, or no convergence
+/// The `count` lowest modes that store energy, in order of increasing frequency; found by Lanczos on the inverse
+/// (Spectra, Eigen).
+/// @param free_motions number of free motions of this world (find_free_motions()), which precede these modes and are
+/// omitted
+/// @throws InputError if more than most_modes (including free motions) or more modes than exist are requested, or if
+/// Lanczos does not converge
 std::vector<VibrationMode> lowest_modes(const World& world, std::int64_t count, std::int64_t free_motions);
 
 }  // namespace crackle

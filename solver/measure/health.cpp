@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stops a run that has gone wrong, naming the step, the body and the likely cause.
+// Stops an unstable run with a message that states the step, the body and the likely cause.
 
 #include <fmt/format.h>
 
@@ -47,9 +47,10 @@ void check_bodies(const World& world) {
     }
 }
 
-/// Energy that rounding alone can bring about, J: every spring strained by 64 units in the last place of the largest
-/// coordinate (as many roundings go into an overlap, or have gathered over a few steps), and as much of the large
-/// energies that the account takes from each other. A bonded specimen at rest has no other energy to compare with.
+/// Upper estimate of the energy that round-off alone can produce, J. Each spring is assumed strained by 64 units in the
+/// last place of the largest coordinate, since an overlap accumulates that much round-off over a few steps. Round-off
+/// of the large energies in the account is added. For a bonded specimen at rest there is no other energy to compare
+/// with.
 double rounding_energy(const World& world, const Ledger& ledger) {
     constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
     double farthest = 0.0, stiffness = 0.0;
@@ -77,7 +78,8 @@ std::size_t liveliest_body(const World& world) {
     return fastest;
 }
 
-/// Energy that has come from nowhere: more than all that was there, put in, or fallen.
+/// Throws if energy has appeared without a source: more than the sum of the initial energy, the work supplied and the
+/// energy gained by falling.
 void check_energy(World& world) {
     if (world.stepping.allow_unstable || !world.stepping.forces_current) return;
     const Ledger ledger = measure_ledger(world);
@@ -85,19 +87,21 @@ void check_energy(World& world) {
     const double supply =
         world.account.initial_energy - ledger.potential + ledger.displacement_work + ledger.force_work;
     if (!std::isfinite(mechanical) || !std::isfinite(supply)) {
-        throw UnstableRun(world.stepping.steps, world.bodies.info(liveliest_body(world)).id,
-                          fmt::format("{:.4g} J kinetic and stored where {:.4g} J were put in, beyond the largest "
-                                      "number (this body carries most of the kinetic energy); look for a force, mass "
-                                      "or stiffness that is no size of anything",
-                                      mechanical, supply));
+        throw UnstableRun(
+            world.stepping.steps, world.bodies.info(liveliest_body(world)).id,
+            fmt::format("kinetic and stored energy of {:.4g} J, after an input of {:.4g} J, exceeds the largest "
+                        "number (this body carries most of the kinetic energy); look for a force, mass "
+                        "or stiffness of unrealistic size",
+                        mechanical, supply));
     }
     world.account.largest_supply = std::max({world.account.largest_supply, std::abs(supply), mechanical * 1e-3});
     if (mechanical <= supply + world.account.largest_supply + rounding_energy(world, ledger)) return;
-    throw UnstableRun(world.stepping.steps, world.bodies.info(liveliest_body(world)).id,
-                      fmt::format("runaway energy, {:.4g} J kinetic and stored where {:.4g} J were put in (this body "
-                                  "carries most); the time step "
-                                  "({:.4g} s, bound {:.4g} s) is likely too large",
-                                  mechanical, supply, world.stepping.time_step, world.stepping.step_bound));
+    throw UnstableRun(
+        world.stepping.steps, world.bodies.info(liveliest_body(world)).id,
+        fmt::format("runaway energy, {:.4g} J of kinetic and stored energy after an input of {:.4g} J (this body "
+                    "carries most of the kinetic energy); the time step "
+                    "({:.4g} s, bound {:.4g} s) is likely too large",
+                    mechanical, supply, world.stepping.time_step, world.stepping.step_bound));
 }
 
 }  // namespace

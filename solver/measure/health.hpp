@@ -5,7 +5,8 @@
 
 namespace crackle {
 
-/// @throws UnstableRun on a value that is not a number, runaway energy, or a body that left the world.
+/// Checks the state of a run. @throws UnstableRun if a value is NaN, energy grows without a source, or a body has left
+/// the domain
 void check_health(World& world);
 
 }  // namespace crackle

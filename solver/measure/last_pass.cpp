@@ -5,6 +5,7 @@
 
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/geometry/geometry.hpp"
+#include "solver/world/world.hpp"
 
 namespace crackle {
 namespace {
@@ -19,7 +20,9 @@ BodyState body_at_last_pass(const World& world, BodyIndex b) {
     if (world.bodies.names[b].shape == no_shape) return body;
     const double c = body.shape[0], s = body.shape[1], q = turn * turn;
     double cosine = 1.0 - q * (0.5 - q * (1.0 / 24.0 - q / 720.0)),
-           sine = turn * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q / 5040.0)));  // as bodies are turned
+           sine =
+               turn *
+               (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q / 5040.0)));  // same polynomials as in motion_kernels.cpp
     if (std::abs(turn) >= 0.01) {
         cosine = correctly_rounded::cos(turn);
         sine = correctly_rounded::sin(turn);

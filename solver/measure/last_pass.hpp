@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What springs bore in the last force pass, for those who look after the step: between steps shear springs are those of
-// that pass, while bodies have moved on by a drift. They are taken back by it, which is exact to rounding.
+// Spring forces in the last force pass, for observers that run after a step. After a step the shear springs still have
+// the state of the last force pass, but the bodies have moved by one drift. The drift is therefore subtracted, which is
+// exact up to round-off.
 // Tested by tests/solver/measure/last_pass_test.cpp.
 #pragma once
 
@@ -8,19 +9,21 @@
 
 namespace crackle {
 
-/// One contact point in the last force pass.
+/// Load of one contact point in the last force pass.
 struct PointLoad {
-    Vec2 force;   // N, of its springs on body_i, less the back-tension of its bond; body_j has the opposite
-    Vec2 place;   // m, midway between the two surfaces
+    Vec2 force;  // N, force of the point's springs on body_i, without the back-tension of its bond; body_j receives the
+                 // opposite force
+    Vec2 place;  // m, position midway between the two surfaces
     Vec2 normal;  // unit, from i to j
 };
+/// Load of a contact point's springs in the last force pass; there must have been one.
 PointLoad load_of_last_pass(const World& world, PointIndex point);
-/// Whether it can have borne anything.
+/// Whether a contact point may have carried load in the last force pass.
 inline bool bore_in_last_pass(const World& world, PointIndex point) {
     return (world.points.state[point].flags & (point_touching | point_bonded)) != 0;
 }
 
-/// s, of the last force pass.
+/// Time of the last force pass, s.
 double time_of_last_pass(const World& world);
 
 }  // namespace crackle

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The account of energy. Between force pass and kick everything is known at time n: positions x(n), the mean velocity
-// v(n) = v(n-½) + ½a(n)Δt, forces, and the losses and works up to x(n), each taken by the trapezoidal rule over the
-// drifts. Leapfrog then closes the account to second order in the step; what is left is the closing error. Under the
-// consistent integrator the strain energy contains what its points have yet to settle.
+// Energy account. Between the force pass and the kick, all quantities are known at time n: positions x(n), the mean
+// velocity v(n) = v(n-½) + ½a(n)Δt, and forces. Losses and work are known up to x(n), each by the trapezoidal rule over
+// the drifts. With leapfrog the energies then balance to second order in the step; the remainder is the closing error.
+// With the consistent integrator, the strain energy includes the energy defects of the contact points.
 
 #include <cmath>
 
-#include "solver/contact/law.hpp"
 #include "solver/contact/opening.hpp"
 #include "solver/geometry/geometry.hpp"
+#include "solver/laws/law.hpp"
 #include "solver/measure/ledger.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
 namespace {
 
-// The guide's kinds lie side by side.
+// The point kinds of the DEMseg guide's segment law are adjacent in PointKind.
 constexpr auto first_guide_kind = static_cast<std::size_t>(PointKind::disc_segment);
 constexpr std::size_t guide_kinds = 2;
 static_assert(by_guide(PointKind::disc_segment) && by_guide(PointKind::segment_segment));
@@ -34,7 +34,7 @@ double kinetic_energy(const World& world) {
         const double omega = body.omega + share * force.torque * inertia.inverse_moment;
         sum += 0.5 * (inertia.mass * (vx * vx + vy * vy) + world.bodies.info(b).moment * omega * omega);
     }
-    // Driving forces accelerate too.
+    // The forces of drives also accelerate bodies.
     for (const ControlState& control : world.bodies.controls) {
         const BodyState& body = world.bodies.state[control.body];
         const BodyInertia& inertia = world.bodies.inertia[control.body];
@@ -76,11 +76,12 @@ double energy_at(const World& world, PointIndex k, double overlap) {
 }
 
 double strain_of_points(const World& world) {
+    const BodyView bodies(world);  // made once: overlap_at() would make one for each point
     double sum = 0.0;
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
             if ((world.points.state[k].flags & point_touching) == 0) continue;
-            const double overlap = overlap_at<K>(world, world.points.contact[k]);
+            const double overlap = overlap_at<K>(bodies, world.points.contact[k]);
             const bool bonded = (world.points.state[k].flags & point_bonded) != 0;
             if (bonded || overlap > world.points.bond_overlap[k]) sum += energy_at(world, k, overlap);
         }

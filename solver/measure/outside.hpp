@@ -9,8 +9,8 @@
 
 namespace crackle {
 
-/// Centroid beyond a wall in a direction in which the body can move. Held bodies may lie anywhere: a container's
-/// centroid, say, or a platen parked behind the wall.
+/// Whether a body's centroid is beyond a wall, in a direction in which the body is free to move. Held bodies may lie
+/// anywhere: examples are a container, and a platen parked behind the wall.
 inline bool outside_domain(const World& world, std::size_t b) {
     const Domain& d = world.settings.domain;
     const BodyState& body = world.bodies.state[b];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Looking at the world: one contact point with all its numbers, forces on walls, positions in the input's terms.
+// Queries of a world: all values of one contact point, forces on walls, positions of elements in input order.
 
 #include <fmt/format.h>
 
@@ -82,7 +82,7 @@ PointView view_point(const World& world, PointIndex k) {
     view.sliding = (world.points.state[k].flags & point_sliding) != 0;
     view.slid = (world.points.state[k].flags & point_slid) != 0;
     view.normal_stiffness = law.normal_stiffness;
-    view.sticks = law.friction > 0.0 || (view.bonded && world.settings.bond_law == BondLaw::coulomb);
+    view.sticks = law.friction > 0.0 || (view.bonded && facts_of(world.settings.bond_law).sticks);
     view.shear_stiffness = view.sticks ? law.shear_stiffness : 0.0;
     view.friction = law.friction;
     view.bond_overlap = world.points.bond_overlap[k];
@@ -95,17 +95,18 @@ BodyIndex body_of_id(const World& world, int id) {
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         if (world.bodies.info(b).id == id) return static_cast<BodyIndex>(b);
     }
-    throw InputError(
-        fmt::format("body {}: found no such body, expected one of the {} of this scene", id, world.bodies.size()));
+    throw InputError(fmt::format("body {}: found no body with this number, expected one of the {} bodies of this scene",
+                                 id, world.bodies.size()));
 }
 
 void forget_point_forces(World& world) {
     world.points.keep_forces = false;
-    Array<PointForce>().swap(world.points.force);  // `= {}` would keep the room
+    Array<PointForce>().swap(world.points.force);  // assigning `{}` would not free the memory
 }
 
 std::array<Vec2, 4> measure_wall_forces(const World& world) {
-    if (!world.points.keep_forces) throw std::logic_error("measure_wall_forces: this world keeps no forces of points");
+    if (!world.points.keep_forces)
+        throw std::logic_error("measure_wall_forces: this world does not store point forces");
     std::array<Vec2, 4> sums{};
     for (PointIndex k = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
          k < world.points.size(); ++k) {

@@ -11,8 +11,9 @@ Vec2 place_of(const World& world, const MembranePoint& point) {
     return Vec2{body.x, body.y} + turned(body, {point.x, point.y, 0.0, 0.0});
 }
 
-/// Calls visit(point, place, force) with every point of a chain.
-/// @return its part of the area, less what its ends sweep where they are platens' @param parted set where a piece has
+/// Calls visit(point, position, force) for every point of a chain.
+/// @return contribution of the chain to the area, minus the area swept by its ends on platens @param parted set to true
+/// if a piece has become too long
 template <class Visit>
 double visit_chain(const World& world, std::size_t begin, std::size_t end, bool closed, bool& parted, Visit&& visit) {
     const Membrane& membrane = world.membrane;
@@ -24,7 +25,7 @@ double visit_chain(const World& world, std::size_t begin, std::size_t end, bool 
     };
     const Vec2 first = at(begin), last = at(end - 1);
     double area = closed ? -0.5 * (last.x + first.x) * (first.y - last.y) : last.x * last.y - first.x * first.y;
-    Vec2 before{};  // half force of the piece that leads to the point
+    Vec2 before{};  // half of the force on the piece of the chain that ends at the point
     if (closed) {
         before = half_force(last, first);
         look(last, first, begin);
@@ -44,7 +45,7 @@ double visit_chain(const World& world, std::size_t begin, std::size_t end, bool 
     return area;
 }
 
-/// @return the area
+/// Calls visit(point, position, force) for the points of all chains. @return enclosed area, m²
 template <class Visit>
 double visit_points(const World& world, bool& parted, Visit&& visit) {
     const Membrane& membrane = world.membrane;

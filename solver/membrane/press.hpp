@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a membrane does to the bodies that it lies on.
+// Forces of a membrane on the bodies that it touches.
 //
-// Of a piece from a to b, clockwise about the bodies, each end has half the pressure on its length, inwards:
+// The membrane is a chain of straight pieces that runs clockwise around the bodies. Each end of a piece from a to b
+// receives half of the inward pressure force on the piece:
 //     f = ½ p (b.y - a.y, a.x - b.x)
-// so a point between a and c has ½ p rot(c - a): minus the gradient of p times the enclosed area, which is quadratic in
-// the places. The work of the forces over a step, by the trapezoidal rule, is therefore -p ΔA to rounding, as long as
-// the chain stays the same. What platens sweep with their faces is not the membrane's: A is less by it.
-// Tested by tests/solver/membrane/membrane_test.cpp.
+// A point between a and c therefore receives ½ p rot(c - a). This is minus the gradient of p times the enclosed area,
+// which is quadratic in the positions. Hence, by the trapezoidal rule, the work of the forces over a step is -p ΔA up
+// to round-off, as long as the points of the chain stay the same. The area swept by the faces of platens is subtracted
+// from A. Tested by tests/solver/membrane/membrane_test.cpp.
 #pragma once
 
 #include "solver/world/world.hpp"
 
 namespace crackle {
 
-/// Adds the membrane's forces to Bodies::force, and its work to the account. Between clearing forces and the force
-/// pass.
+/// Adds the membrane's forces to Bodies::force and its work to the energy account. Call it after clearing the forces
+/// and before the force pass.
 void press_membrane(World& world);
 
-/// m², enclosed by the chains as the bodies lie now, less what platens sweep: Membrane::area.
+/// Area enclosed by the chains at the current positions, minus the area swept by the platens (Membrane::area), m².
 double membrane_area(const World& world);
 
-/// Of the membrane on a body now; nothing without one.
+/// Current force of the membrane on a body; zero without a membrane.
 BodyForce membrane_force_on(const World& world, BodyIndex body);
 
 }  // namespace crackle

@@ -18,15 +18,16 @@
 namespace crackle {
 namespace {
 
-/// What the disc rolls on: a circle, or a point of an outline.
+/// An obstacle around which the disc rolls: a circle, or a point on an outline.
 struct Lump {
     BodyIndex body;
-    double x, y;  // m, in the body's frame
-    Vec2 at;      // m
+    double x, y;  // m, position in the body frame
+    Vec2 at;      // m, position in world axes (x may be reversed)
     double radius;
 };
 
-/// @param mirrored as seen from behind, x the other way: the right side is walked as the left one
+/// Lumps of all bodies that the membrane may touch. @param mirrored whether x is reversed, so that the right side can
+/// be traced like the left side
 std::vector<Lump> lumps_of(const World& world, double probe, bool mirrored) {
     const Membrane& membrane = world.membrane;
     std::vector<Lump> lumps;
@@ -61,14 +62,15 @@ std::vector<Lump> lumps_of(const World& world, double probe, bool mirrored) {
     return lumps;
 }
 
-/// The disc's way about the lumps: its centre goes along the circles about them whose radius is larger by its own,
-/// clockwise, from one to the first that it meets.
+/// Path of the disc around the lumps. While rolling, its centre moves clockwise along circles around the lumps, whose
+/// radii are enlarged by the disc's radius, and changes to the first other circle that it meets.
 class Walk {
   public:
     Walk(const std::vector<Lump>& lumps, double probe) : lumps_(lumps), probe_(probe), grid_(make_grid()) {}
 
-    /// From where the disc, moved along the floor from the left, meets a lump, to the ceiling. Heaps that it gets over
-    /// back to the floor are not the specimen's. Empty where nothing holds it.
+    /// Path of a disc from floor to ceiling. It starts at the first lump that the disc meets when it moves along the
+    /// floor from the left. Heaps from which the disc returns to the floor are not part of the specimen. @return empty
+    /// if the disc can pass through
     std::vector<std::size_t> from_floor(double floor, double ceiling) const {
         const double level = floor + probe_;
         double passed = -std::numeric_limits<double>::infinity();
@@ -92,7 +94,7 @@ class Walk {
         }
     }
 
-    /// Once around the largest group of lumps between which the disc does not pass.
+    /// Path once around the largest group of lumps between which the disc cannot pass.
     std::vector<std::size_t> around() const {
         const std::vector<std::size_t> group = largest_group();
         const std::size_t start =
@@ -107,10 +109,10 @@ class Walk {
     struct Way {
         std::vector<std::size_t> lumps;
         End end = End::nowhere;
-        Vec2 centre{};  // m, of the disc there
+        Vec2 centre{};  // m, centre of the disc at the end of the path
     };
 
-    /// Calls visit(k) with the lumps whose circles may cross that of one.
+    /// Calls visit(k) for the lumps whose enlarged circles may intersect that of a given lump.
     template <class Visit>
     void visit_near(std::size_t on, Visit&& visit) const {
         const Vec2 about = lumps_[on].at;
@@ -163,7 +165,7 @@ class Walk {
         return {layout, lumps_.size(), [this](std::size_t k) { return lumps_[k].at; }};
     }
 
-    /// Clockwise from direction a to direction b, 0 to 2π.
+    /// Clockwise angle from direction a to direction b, in [0, 2π).
     static double clockwise(Vec2 a, Vec2 b) {
         const double turn = correctly_rounded::atan2(b.x * a.y - b.y * a.x, dot(a, b));
         return turn < 0.0 ? turn + 2.0 * std::numbers::pi : turn;
@@ -171,19 +173,20 @@ class Walk {
 
     struct Meeting {
         std::size_t lump = 0;
-        Vec2 centre;  // m, of the disc
+        Vec2 centre;  // m, centre of the disc at the meeting
         double turn = std::numeric_limits<double>::infinity();
         bool ceiling = false, floor = false;
     };
 
-    /// The next that the disc meets on its way about a lump. @param from the lump it came from
+    /// The next lump that the disc meets while rolling around the lump `on`. @param from the lump from which the disc
+    /// came
     Meeting next(std::size_t on, std::size_t from, Vec2 centre, double floor, double ceiling) const {
         const Vec2 about = lumps_[on].at, now = centre - about;
         const double reach = reach_of(on);
         Meeting first;
         const auto consider = [&](Meeting one, bool departing) {
             one.turn = clockwise(now, one.centre - about);
-            // The meeting that it is in now is behind it.
+            // Do not count the current contact with the previous lump again.
             if (departing && one.turn > 2.0 * std::numbers::pi - least_turn) one.turn = 0.0;
             if (departing && one.turn < least_turn) return;
             if (one.turn < first.turn) first = one;
@@ -196,7 +199,7 @@ class Walk {
                 Meeting one;
                 one.centre = {about.x + side, y};
                 (is_ceiling ? one.ceiling : one.floor) = true;
-                consider(one, !is_ceiling);  // it may have begun at the floor
+                consider(one, !is_ceiling);  // the disc may be at the floor now, where its path started
             }
         };
         level(ceiling - probe_, true);
@@ -205,10 +208,10 @@ class Walk {
             const Vec2 apart = lumps_[k].at - about;
             const double other = reach_of(k), distance = norm(apart);
             if (distance == 0.0) return;
-            // Where both circles cross: the first of the two that the disc would meet.
+            // The circles intersect twice; the disc meets this intersection first.
             const double along = (distance * distance + reach * reach - other * other) / (2.0 * distance);
             const double square = reach * reach - along * along;
-            if (square < 0.0) return;  // one within the other
+            if (square < 0.0) return;  // one circle lies inside the other
             const Vec2 unit = (1.0 / distance) * apart;
             const Vec2 across{-unit.y, unit.x};
             for (const double side : {-1.0, 1.0}) {
@@ -225,13 +228,13 @@ class Walk {
         const bool closed = !std::isfinite(ceiling);
         Way way{{start}, End::nowhere, centre};
         std::size_t on = start, from = start;
-        const std::size_t most = 4 * lumps_.size();  // none is passed more often than it has neighbours in between
+        const std::size_t most = 4 * lumps_.size();  // the path visits a lump at most once per neighbour
         for (std::size_t step = 0; step < most; ++step) {
             const Meeting met = next(on, from, way.centre, floor, ceiling);
             const Vec2 about = lumps_[on].at;
             if (closed && on == start && way.lumps.size() > 1 &&
                 clockwise(way.centre - about, centre - about) <= met.turn) {
-                way.lumps.pop_back();  // the start again
+                way.lumps.pop_back();  // the last entry repeats the first
                 way.end = End::start;
                 return way;
             }
@@ -255,7 +258,7 @@ class Walk {
     CellGrid grid_;
 };
 
-/// Height of a platen's face, m: of its upper one if it is the lower platen.
+/// Height of the face of a platen that touches the specimen, m: the upper face of the lower platen, and vice versa.
 double face_of(const World& world, BodyIndex platen, bool lower) {
     const BodyInfo info = world.bodies.info(platen);
     double face = lower ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
@@ -273,7 +276,7 @@ MembranePoint on_platen(const World& world, BodyIndex platen, Vec2 place) {
     return {platen, place.x - body.x, place.y - body.y, 0.0};
 }
 
-/// Points of one side, from the lower platen up; empty if the disc gets through.
+/// Membrane points of one side of the specimen, from the lower platen upwards; empty if the disc can pass through.
 std::vector<MembranePoint> side(const World& world, bool mirrored) {
     const Membrane& membrane = world.membrane;
     const std::vector<Lump> lumps = lumps_of(world, membrane.probe, mirrored);
@@ -284,7 +287,7 @@ std::vector<MembranePoint> side(const World& world, bool mirrored) {
     const auto x_of = [&](std::size_t k) { return mirrored ? -lumps[k].at.x : lumps[k].at.x; };
     const double probe = 2.0 * membrane.probe;
     std::vector<MembranePoint> points{on_platen(world, membrane.bottom, {x_of(way.front()), floor})};
-    double before = 0.0;  // m, radius of the lump before
+    double before = 0.0;  // m, radius of the previous lump
     for (std::size_t n = 0; n < way.size(); ++n) {
         points.push_back(point_of(lumps[way[n]]));
         points.back().longest = before + lumps[way[n]].radius + probe;
@@ -295,7 +298,7 @@ std::vector<MembranePoint> side(const World& world, bool mirrored) {
     return points;
 }
 
-/// The same points the other way; each piece keeps its longest length.
+/// The points in reverse order; each piece keeps its `longest` value.
 std::vector<MembranePoint> reversed(std::vector<MembranePoint> points) {
     for (std::size_t k = 0; k + 1 < points.size(); ++k) points[k].longest = points[k + 1].longest;
     std::ranges::reverse(points);
@@ -329,7 +332,7 @@ bool find_points(World& world) {
 void wrap_membrane(World& world) {
     Membrane& membrane = world.membrane;
     const double before = membrane.known ? membrane_area(world) : 0.0;
-    if (membrane.known) {  // what the old chain has done up to here
+    if (membrane.known) {  // account for the work of the old chain up to now
         const double work = -membrane.pressure * (before - membrane.area);
         membrane.work += work;
         world.account.force_work += work;
@@ -363,11 +366,11 @@ void add_membrane(World& world, double pressure, double probe, BodyIndex bottom,
     membrane.top = top;
     wrap_membrane(world);
     if (membrane.points.empty()) {
-        throw InputError(
-            fmt::format("membrane: found a way for a disc of radius {:.3g} m through the specimen, expected particles "
-                        "that close it "
-                        "on either side; pack it more densely",
-                        probe));
+        throw InputError(fmt::format(
+            "membrane: found that a disc of radius {:.3g} m passes through the specimen, expected particles "
+            "without such gaps "
+            "on either side; pack the specimen more densely",
+            probe));
     }
     velocities_changed(world);
 }

@@ -21,7 +21,8 @@ namespace {
 
 constexpr PointIndex no_point = std::numeric_limits<PointIndex>::max();
 
-/// Walks the listed points of a kind in the order of their keys; those of element_outline lie in two runs.
+/// Iterates over the old points of one kind, sorted by key. Points of the kind element_outline are stored in two sorted
+/// ranges.
 class OldPoints {
   public:
     OldPoints(const World& world, PointKind kind) : world_(world), kind_(kind) {
@@ -60,22 +61,22 @@ class OldPoints {
     PointKind kind_;
     PointIndex first_, first_end_, second_, second_end_;
     bool of_first_ = false;
-    PointKey key_{};  // of the point at hand
+    PointKey key_{};  // key of the current point
 };
 
-/// Points of a new list and which points of the old one they are.
+/// Points of a new list, with the indices of the same points in the old list.
 struct MergedList {
     Array<ContactPoint> points;
-    std::vector<PointIndex> old;  // no_point: was not listed
+    std::vector<PointIndex> old;  // for each point, its index in the old list; no_point if it was not listed
 };
 
-/// An old point that stays though it is not listed again.
+/// An old point that is kept although it is not listed again.
 struct KeptPoint {
-    std::size_t place;  // before the point here
+    std::size_t place;  // index of the new point before which the kept point is inserted
     PointIndex old;
 };
 
-/// Inserts kept points, which come in order.
+/// Inserts kept points into the list; they must be in ascending order.
 void insert_kept(const World& world, const std::vector<KeptPoint>& kept, MergedList& next) {
     std::size_t from = next.points.size(), to = from + kept.size();
     next.points.resize(to);
@@ -92,9 +93,10 @@ void insert_kept(const World& world, const std::vector<KeptPoint>& kept, MergedL
     }
 }
 
-/// The new list of a kind, in the room of the points found. A bond is carried over whether its point was found or not:
-/// it lasts until the force pass finds it broken, and intact ones hold at any opening. So is a point that had a bond
-/// and keeps properties from it: what it is must not depend on when the list was built.
+/// Merges the new list of a kind with the old one. A bonded point is carried over even if it is not in the new list,
+/// since its bond lasts until the force pass finds it broken. Unbreakable bonds hold at any opening. A point that keeps
+/// properties from an earlier bond is also carried over, since these properties must not depend on when the list was
+/// built.
 MergedList merge_lists(World& world, PointKind kind, Array<ContactPoint> found) {
     MergedList next{std::move(found), {}};
     next.old.resize(next.points.size());
@@ -109,8 +111,8 @@ MergedList merge_lists(World& world, PointKind kind, Array<ContactPoint> found) 
     std::vector<KeptPoint> kept;
     OldPoints old(world, kind);
     const auto pass_unlisted = [&] {
-        // One that touched a step ago has its last force to settle, however far it has gone. Flat faces that their
-        // circles have turned touch over a gap.
+        // A point that touched one step ago is kept, however far it has opened, because its energy account is not yet
+        // complete. Flat faces of circles that have rotated can touch across a gap.
         const bool settles = (consistent ? !by_guide(kind) : kind == PointKind::face_face) &&
                              flagged(old.at(), point_touching) && !closed;
         if (flagged(old.at(), point_bonded) || (flagged(old.at(), point_had_bond) && !closed) || settles) {
@@ -140,7 +142,7 @@ MergedList merge_lists(World& world, PointKind kind, Array<ContactPoint> found) 
     return next;
 }
 
-/// The pairs with four points go first. @return how many points these have
+/// Moves groups of four points between the same two bodies to the front. @return number of points in these groups
 PointIndex put_fours_first(MergedList& next) {
     MergedList others;
     std::size_t fours = 0;
@@ -162,7 +164,7 @@ PointIndex put_fours_first(MergedList& next) {
     return static_cast<PointIndex>(fours);
 }
 
-/// Puts one kind behind another, in the room of the larger.
+/// Appends the values of one kind of point to those of earlier kinds, reusing the memory of the larger array.
 template <class Numbers>
 void append(Numbers& all, Numbers more) {
     if (all.size() < more.size()) {
@@ -173,7 +175,7 @@ void append(Numbers& all, Numbers more) {
     }
 }
 
-/// @param circles  so many are of circle_circle
+/// Converts points to a ContactList. @param circles number of points of kind circle_circle
 ContactList compact(Array<ContactPoint> points, PointIndex circles) {
     ContactList list;
     list.pairs.resize(points.size());
@@ -184,7 +186,8 @@ ContactList compact(Array<ContactPoint> points, PointIndex circles) {
     return list;
 }
 
-/// One remembered quantity in the new order; nothing in a world that does not keep it.
+/// Reorders an array of point values to match the new list. @param old index of each new point in the old list @param
+/// kept whether the world keeps this array; otherwise the result is empty
 template <class T>
 void carry_over(Array<T>& values, const std::vector<PointIndex>& old, bool kept = true) {
     Array<T> now(kept ? old.size() : 0, T{});
@@ -196,7 +199,7 @@ void carry_over(Array<T>& values, const std::vector<PointIndex>& old, bool kept 
     values = std::move(now);
 }
 
-/// Faces of an open joint lie apart; contacts across it are without force so far.
+/// Lets new contacts across an open joint with an aperture start without force.
 void open_new_contacts(World& world, const std::vector<PointIndex>& old) {
     if (std::ranges::none_of(world.settings.joints, [](const Joint& joint) { return joint.aperture > 0.0; })) return;
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
@@ -206,8 +209,8 @@ void open_new_contacts(World& world, const std::vector<PointIndex>& old) {
     }
 }
 
-/// The defects of points that left the list go to another of their bodies' points: written off, it would pile up,
-/// for such points are more often left with a debt than with a credit.
+/// Transfers the energy defects of points that have left the list to other points of the same bodies. Dropping them
+/// would accumulate errors, since the defects of such points are more often negative than positive.
 void pass_on_defects(World& world) {
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         if (!has_opening(static_cast<PointKind>(kind))) continue;
@@ -222,7 +225,7 @@ void pass_on_defects(World& world) {
     }
 }
 
-/// sqrt of m_i m_j/(m_i + m_j); a partner held in translation counts as infinitely heavy.
+/// Square root of m_i m_j/(m_i + m_j), sqrt(kg); a body that is held in translation counts as infinitely heavy.
 double root_effective_mass(const World& world, BodyIndex i, BodyIndex j) {
     const auto inverse = [&](BodyIndex b) {
         const BodyInertia& inertia = world.bodies.inertia[b];
@@ -232,8 +235,8 @@ double root_effective_mass(const World& world, BodyIndex i, BodyIndex j) {
     return sum > 0.0 ? 1.0 / std::sqrt(sum) : 0.0;
 }
 
-/// Of a point between two bodies where there are joints: that of the joint across which it was bonded, or of the one
-/// that parts its bodies.
+/// Law of a point between two bodies in a world with joints. A point that is or was bonded keeps the law of its bond;
+/// otherwise the joint between the bodies determines the law.
 std::size_t jointed_law(const World& world, PointIndex k, BodyIndex i, BodyIndex j) {
     const PointState& state = world.points.state[k];
     const std::size_t rock = law_between(world, i, j);
@@ -245,7 +248,7 @@ std::size_t jointed_law(const World& world, PointIndex k, BodyIndex i, BodyIndex
     return joint == no_joint ? rock : world.settings.joint_law(rock, joint);
 }
 
-/// Of each point the pair of materials and the effective mass.
+/// Sets the law and the effective mass of each point from its bodies.
 void find_pairs(World& world) {
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     const bool jointed = !world.settings.joints.empty();
@@ -263,14 +266,15 @@ void find_pairs(World& world) {
     }
 }
 
-/// In StiffnessUnits::area, of a contact without a bond.
+/// Stiffness factor of an unbonded contact for StiffnessUnits::area.
 template <PointKind K>
 float contact_stiffness_share(const World& world, PointIndex k) {
     const ContactShare contact = share_of_contact(world, K, world.points.contact[k]);
     return static_cast<float>(contact.stiffness() * series_shares(world, k, contact.distance).normal);
 }
 
-/// Points::lap of points that neither hold nor touch: where faces do, their last force went by it.
+/// Sets Points::lap, the shared length of two flat faces, for points that are neither bonded nor in contact. Other
+/// points keep the lap that was used to compute their last force.
 void find_laps(World& world) {
     if (world.points.lap.empty()) return;
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
@@ -285,7 +289,7 @@ void find_laps(World& world) {
     });
 }
 
-/// Points::shear_root of points that have none yet, contacts without a bond.
+/// Sets Points::shear_root of points that have none yet; these are unbonded contacts.
 void find_shear_roots(World& world) {
     if (world.points.shear_root.empty()) return;
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
@@ -300,7 +304,8 @@ void find_shear_roots(World& world) {
     });
 }
 
-/// Of points that have none yet, the shares of a contact without a bond; and of each its part in the effective mass.
+/// Sets the stiffness and strength factors of points that have none yet to the values for unbonded contacts, and
+/// includes the stiffness factor of each point in its root mass.
 void find_shares(World& world) {
     if (!world.settings.own_shares()) return;
     const bool by_area = world.settings.units == StiffnessUnits::area;
@@ -317,7 +322,7 @@ void refuse_more_than_countable(std::size_t points) {
     constexpr std::size_t most = no_point - 1;
     if (points > most)
         throw InputError(
-            fmt::format("found {} contact points, expected at most {}; take a smaller scene", points, most));
+            fmt::format("found {} contact points, expected at most {}; use a smaller scene", points, most));
 }
 
 }  // namespace
@@ -343,7 +348,7 @@ void exchange_points(World& world, PointLists& lists) {
         kind_begin[number + 1] = static_cast<PointIndex>(next.points.size());
     }
     const bool consistent = world.settings.integrator == Integrator::consistent;
-    world.points.contact = {};  // its room is needed
+    world.points.contact = {};  // frees memory for the new list
     world.points.contact = compact(std::move(next.points), kind_begin[1]);
     visit_remembered(world.points, [&](auto& values, Remembered remembered) {
         carry_over(values, next.old, keeps(world, remembered));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A new list takes the place of the old one. What a point remembers (shear spring, bond, flags) is carried over by one
-// linear merge of the two, which have the same order (world/point_order.hpp).
+// Replaces the neighbour list with a new one. The state of each point (shear spring, bond, flags) is carried over by a
+// linear merge of the two lists, which are sorted in the same way (world/point_order.hpp).
 // Tested by tests/solver/neighbours/neighbours_test.cpp.
 #pragma once
 
@@ -9,11 +9,12 @@
 
 namespace crackle {
 
-/// Replaces the points of the world, carrying over what the old ones remember. @param lists left empty
+/// Replaces the points of the world and carries over the state of points that were already listed. @param lists the new
+/// points; empty on return
 void exchange_points(World& world, PointLists& lists);
 
-/// Of each point its law, its shares where it has none yet, and its effective mass: to be called where bonds were made
-/// or held.
+/// Determines the law, the effective mass and, if still missing, the stiffness and strength factors of each point. Call
+/// this after bonds have been made or set to be unbreakable.
 void find_point_properties(World& world);
 
 }  // namespace crackle

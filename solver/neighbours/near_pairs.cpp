@@ -30,7 +30,8 @@ Box bounding_box(const World& world, std::size_t b) {
     return box;
 }
 
-/// Cells of about a body; larger where few bodies are spread over a wide area, so that memory stays linear.
+/// Grid with cells about as large as a body. Cells are larger if few bodies are spread over a wide area, so that memory
+/// stays proportional to the number of bodies.
 CellLayout layout_for(const World& world) {
     Box box;
     double mean_reach = 0.0;
@@ -46,8 +47,8 @@ CellLayout layout_for(const World& world) {
             static_cast<std::size_t>(height / size) + 1};
 }
 
-/// Bounding radii, m, from the largest body to the smallest, and 0 behind it. A pair is found by its larger body, which
-/// looks no further than the next smaller one reaches.
+/// Bounding radii in descending order, m, followed by 0. Each pair is found from its larger body, which searches only
+/// as far as the next smaller body reaches.
 std::vector<double> reaches_by_rank(const World& world) {
     std::vector<double> reaches(world.bodies.size() + 1, 0.0);
     for (std::size_t b = 0; b < world.bodies.size(); ++b) reaches[world.list.size_rank[b]] = world.bodies.info(b).reach;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which bodies are near enough to each other for contact points between them to be listed.
+// Finds the pairs of bodies that are close enough for their contact points to be listed.
 //
-// Bodies lie in a uniform grid by their centroids. A pair is found by its larger body, which searches its own bounding
-// box widened by the reach of the next smaller body: any mixture of sizes, platens and containers included, needs no
-// user hint.
+// Bodies are sorted into a uniform grid by centroid. Each pair is found from its larger body, which searches its
+// bounding box enlarged by the bounding radius of the next smaller body. This works without user settings for any
+// mixture of sizes, including platens and containers.
 // Tested by tests/solver/neighbours/neighbours_test.cpp.
 #pragma once
 
@@ -14,14 +14,16 @@
 
 namespace crackle {
 
+/// Centroid of a body, m.
 inline Vec2 centre_of(const BodyState& body) { return {body.x, body.y}; }
 
-/// How far the surfaces of a listed pair may be apart beyond what they touch at, m.
+/// Neighbour-list skin of a pair of bodies, m: the pair is listed as long as its gap is at most this value.
 inline double skin_between(const World& world, BodyIndex i, BodyIndex j) {
     return world.list.half_skin_of(i) + world.list.half_skin_of(j);
 }
 
-/// Pairs of bodies whose bounding boxes and circles come within thick + skin, as i << 32 | j with i < j, sorted.
+/// Pairs of bodies whose bounding boxes and bounding circles are closer than thick + skin. A pair i < j is stored as i
+/// << 32 | j; the list is sorted.
 std::vector<std::uint64_t> near_pairs(const World& world);
 
 }  // namespace crackle

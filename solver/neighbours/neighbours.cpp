@@ -15,23 +15,24 @@
 namespace crackle {
 namespace {
 
-/// Steps that a list of a bonded world is to last. Building it, with the bound on the step, costs what some 30 steps
-/// do: at 200 that was 8 % of a test of 300 discs. Longer, polygons list corners that nothing brings together.
+/// Number of steps for which a neighbour list should last in a bonded world. Building a list and computing the bound on
+/// the time step cost as much as 30 steps. With lists for 200 steps, these rebuilds took 8 % of the time of a test with
+/// 300 discs. Lists for many more steps need a wider skin, which would include corners of polygons that never touch.
 constexpr double list_lasts = 1000.0;
-/// Steps between two looks whether a narrower skin would do.
+/// Number of steps between checks whether a narrower skin would suffice.
 constexpr std::int64_t look_interval = 64;
-constexpr double narrowest_share = 0.01;  // of the widest skin
-// A body that moves by p reaches a step and has a half skin of h reaches lasts h/p steps and lists about as many
-// points more by the share of h (discs in a dense packing: 0.8 to 1 of those that touch a reach). With a rebuild worth
-// R steps the sum h + R p/h is least at h = √(R p).
+constexpr double narrowest_share = 0.01;  // narrowest skin as a fraction of the widest
+// A list lasts h/p steps if bodies move by p bounding radii per step and the half skin is h bounding radii. The number
+// of listed points, and with it the cost of a step, grows by a fraction of about h (0.8 to 1 times h in a dense packing
+// of discs). If a rebuild costs as much as R steps, the total extra cost h + R p/h is smallest for h = √(R p).
 constexpr double rebuild_steps = 45.0;
-constexpr double widest_own = 0.5;  // of the median reach: half skins of fast bodies
+constexpr double widest_own = 0.5;  // largest half skin of a fast body, relative to the median bounding radius
 
-/// How far surface points can have gone since the list was built.
+/// Distances that surface points may have moved since the list was built.
 struct Ways {
-    double longest = 0.0;  // m
-    double left = 0.0;     // m, least that any has left of its half skin
-    bool used_up = false;  // some has hardly anything left
+    double longest = 0.0;  // m, largest distance
+    double left = 0.0;     // m, smallest remaining part of a body's half skin
+    bool used_up = false;  // whether some body has nearly used up its half skin
 };
 
 Ways ways_since_list(const World& world) {
@@ -52,20 +53,22 @@ Ways ways_since_list(const World& world) {
 
 bool skin_follows(const World& world) { return world.bonds.made && world.list.widest_skin > 0.0; }
 
-/// The skin that lasts for list_lasts steps like those since the list was built. @param way the longest since then, m
+/// Skin with which a list would last for list_lasts steps at the current rate of motion. @param way largest
+/// displacement since the list was built, m
 double skin_for(const World& world, double way) {
     const double pace =
         way / static_cast<double>(std::max<std::int64_t>(1, world.stepping.steps - world.list.built_at));
     return std::clamp(2.0 * list_lasts * pace, narrowest_share * world.list.widest_skin, world.list.widest_skin);
 }
 
-/// Half skins of all bodies by how fast they are now. Where no skin is wide enough a body's own speed counts; under the
-/// guide's law every listed disc bounds the step, so that none is listed early.
+/// Sets the half skins of all bodies. If even the widest common skin is too narrow, each body's half skin follows from
+/// its own speed. Under the DEMseg guide's segment law all half skins are equal, because every listed disc lowers the
+/// bound on the time step.
 void choose_half_skins(World& world) {
     const double half = 0.5 * world.list.skin;
     world.list.half_skin = half;
     world.list.own_half_skins = {};
-    // Before there is a step, ramps have no velocity yet.
+    // Before the first time step is known, the velocities of displacement ramps are not set.
     const bool own =
         world.stepping.time_step > 0.0 && world.list.widest_skin > 0.0 && world.list.skin == world.list.widest_skin;
     if (!own || world.settings.segment_law != SegmentLaw::rounded) return;
@@ -97,7 +100,7 @@ void rebuild(World& world) {
     {
         const PhaseTimer timer(world.workers.profile, Phase::listing);
         PointLists lists = list_points(world, pairs);
-        std::vector<std::uint64_t>().swap(pairs);  // the lists need the room
+        std::vector<std::uint64_t>().swap(pairs);  // frees memory for the new points
         exchange_points(world, lists);
         world.workers.plan.valid = false;
         world.workers.marks.resize(world.bodies.size());
@@ -117,7 +120,8 @@ bool update_neighbour_list(World& world) {
         const std::int64_t age = world.stepping.steps - world.list.built_at;
         const bool look = skin_follows(world) && age > 0 && age % look_interval == 0;
         if (!look && world.list.travelled <= world.list.free_way) return false;
-        // The bound is used up: look how far bodies really went, and rebuild if one has little left of its skin.
+        // The upper bound on displacements has reached the half skin, so the actual displacements are computed. The
+        // list is rebuilt if a body has nearly used up its half skin.
         const Ways ways = ways_since_list(world);
         world.list.travelled = 0.0;
         world.list.free_way = ways.left;

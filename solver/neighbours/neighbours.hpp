@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Neighbour list: every contact point that could close before something has moved half the skin.
+// Neighbour list: all contact points that could come into contact before a body has moved by half the skin.
 //
-// In a bonded world the skin is as narrow as the motion allows, so that points which nothing brings together cost
-// nothing: a mesh has many corners that face each other over a gap. A body that is fast beyond that has a wider skin of
-// its own: a few fragments in flight, or a flow, would have the list rebuilt every few steps. Everything depends on
-// positions and steps alone, never on the number of threads.
+// In a bonded world the skin is as narrow as the motion allows, so that few points are listed that never touch. A mesh
+// has many such points, where corners face each other across a gap. Fast bodies have a wider skin of their own;
+// otherwise a few flying fragments would cause a rebuild every few steps. The list depends only on positions and on the
+// step count, not on the number of threads.
 #pragma once
 
 #include "solver/world/world.hpp"
 
 namespace crackle {
 
-/// Rebuilds the list if something has moved half the skin since it was built (always when it is not valid). The bound
-/// on the step then has to be found again (stepping/time_step.hpp). @return whether it was rebuilt
-/// @throws UnstableRun if bodies were pressed through one another (pierced.hpp)
+/// Rebuilds the neighbour list if a body has moved by half the skin since the last build, or if the list is invalid.
+/// After a rebuild the bound on the time step must be computed again (stepping/time_step.hpp). @return whether the list
+/// was rebuilt @throws UnstableRun if one body was pressed through another (pierced.hpp)
 bool update_neighbour_list(World& world);
 
 }  // namespace crackle

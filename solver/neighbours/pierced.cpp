@@ -13,7 +13,7 @@
 namespace crackle {
 namespace {
 
-/// A body's place: centroid, and its frame's axes.
+/// Position of a body: centroid, and cosine and sine of the rotation of its frame.
 struct Place {
     Vec2 centre;
     double c, s;
@@ -31,7 +31,7 @@ Place place_now(const World& world, BodyIndex b) {
     return {{body.x, body.y}, body.shape[0], body.shape[1]};
 }
 
-/// Where it was when the list was built.
+/// Position of a body when the list was built.
 Place place_then(const World& world, BodyIndex b) {
     const ListReference& then = world.list.reference[b];
     const std::uint32_t shape = world.bodies.names[b].shape;
@@ -42,7 +42,7 @@ Place place_then(const World& world, BodyIndex b) {
     return {{then.x, then.y}, c * now.c - s * now.s, s * now.c + c * now.s};
 }
 
-/// Distance from the edge's line, positive outwards; 0 beyond its ends, where one may pass.
+/// Distance from the edge's line, m, positive outwards; 0 beyond the ends of the edge, where bodies may pass.
 double side_of(const Edge& edge, Vec2 p) {
     const double dx = p.x - edge.x, dy = p.y - edge.y;
     const double along = dx * edge.tx + dy * edge.ty;
@@ -62,7 +62,8 @@ bool inside(const World& world, const BodyInfo& outline, Vec2 p) {
     return false;
 }
 
-/// Number of the segment of an open chain that lies between the two places, from 1; 0: none.
+/// Number, counted from 1, of the segment of an open chain that a point moving from `then` to `now` has crossed; 0 if
+/// there is none.
 std::uint32_t segment_between(const World& world, const BodyInfo& chain, Vec2 then, Vec2 now) {
     for (std::uint32_t n = 0; n < chain.piece_count; ++n) {
         const Edge& edge = world.bodies.edges[world.bodies.pieces[chain.first_piece + n].first_edge];
@@ -71,15 +72,15 @@ std::uint32_t segment_between(const World& world, const BodyInfo& chain, Vec2 th
     return 0;
 }
 
-/// Any of these lets bodies through each other; which of them it was is not known here.
+/// End of a message: possible reasons why a body passed through another. Which reason applies is not known here.
 std::string likely_cause(const World& world) {
     return fmt::format(
-        "; the impact is too fast or the load too high for its stiffness and thickness, or the time step of {:.3g} s "
-        "(bound {:.3g} s) too large: try half of it",
+        "; the impact is too fast or the load too high for its stiffness and thickness, or the time step, {:.3g} s "
+        "(bound {:.3g} s), is too large; try half this time step",
         world.stepping.time_step, world.stepping.step_bound);
 }
 
-/// A body's outline or circle bulges outwards all round, so that its centroid is in its midst.
+/// Whether a body is convex, so that its centroid lies inside it.
 bool convex(const BodyInfo& body) { return body.single_circle || (body.closed && body.piece_count == 1); }
 
 }  // namespace
@@ -102,7 +103,7 @@ void refuse_piercing(const World& world) {
             if (!inside(world, target, j_now.inwards(i_now.centre))) continue;
             if (inside(world, target, place_then(world, j).inwards(place_then(world, i).centre))) continue;
             throw UnstableRun(world.stepping.steps, world.bodies.info(i).id,
-                              fmt::format("its centroid has got inside body {}{}", target.id, likely_cause(world)));
+                              fmt::format("its centroid moved into body {}{}", target.id, likely_cause(world)));
         }
         const Element element = element_of(world, i, world.points.contact[k].element_i);
         const Vec2 at{element.x, element.y};

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bodies that have been pressed through one another. The distance from an open segment has no sign, so that a circle or
-// corner that got past the middle is pushed out behind; a corner deep in an outline is pushed out at the nearest side,
-// whichever it came by. Energy is kept all the while, so no other check would notice.
-// Tested by tests/solver/neighbours/neighbours_test.cpp.
+// Detects bodies that have been pressed through each other. The distance from an open segment is unsigned, so a circle
+// or corner that has passed the segment's centre line is pushed out on the far side. A corner deep inside an outline is
+// pushed out at the nearest edge, wherever it entered. Energy is conserved in both cases, so no other check would
+// notice. Tested by tests/solver/neighbours/neighbours_test.cpp.
 #pragma once
 
 #include "solver/world/world.hpp"
 
 namespace crackle {
 
-/// Compares places now with those when the list was built: a circle or corner on the other side of a segment, or the
-/// centroid of a convex body inside an outline that it was outside of. To be called before the list is built again,
-/// which is before anything has moved a tenth of a body's size. The rounded law only: the guide's lets discs through by
-/// its own rules. Two circles are not looked at, packing presses them deep, nor two
-/// bodies that are held: they go where they are told to.
-/// @throws UnstableRun naming both bodies (not with allow_unstable)
+/// Compares the current positions with those at the last build of the neighbour list. It detects a circle or corner
+/// that has changed to the other side of a segment, and the centroid of a convex body that has entered an outline. Call
+/// this before every rebuild of the list, which happens before any body has moved by a tenth of its size. The check
+/// applies only to the rounded law, since the DEMseg guide's segment law lets discs pass through. Pairs of circles are
+/// skipped, because packing can press them deep into each other. Pairs of held bodies are skipped, because they move as
+/// prescribed.
+/// @throws UnstableRun naming both bodies, unless allow_unstable is set
 void refuse_piercing(const World& world);
 
 }  // namespace crackle

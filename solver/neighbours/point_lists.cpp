@@ -22,7 +22,7 @@ ContactPoint new_point(BodyIndex i, BodyIndex j, std::uint32_t element, std::uin
     return point;
 }
 
-/// Circles on opposite sides of a joint meet by their flat faces alone.
+/// Lists the contact of two single circles. Circles on opposite sides of a joint touch only through their flat faces.
 void add_single_circles(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
     if (!world.bodies.flat_faces.empty() && trace_between(world, i, j)) return;
     const BodyState &a = world.bodies.state[i], &b = world.bodies.state[j];
@@ -30,7 +30,7 @@ void add_single_circles(const World& world, BodyIndex i, BodyIndex j, PointLists
     lists[static_cast<std::size_t>(PointKind::circle_circle)].push_back(new_point(i, j, own_circle, own_circle));
 }
 
-/// Circles of two bodies of which one is a clump.
+/// Lists contacts between the circles of two bodies, at least one of which is a clump.
 void add_circle_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
     const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
     const double skin = skin_between(world, i, j);
@@ -46,7 +46,7 @@ void add_circle_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& 
     }
 }
 
-/// Elements of i against the outline of j.
+/// Lists contacts of the elements of i with the outline of j.
 void add_outline_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
     const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
     const BodyState &own = world.bodies.state[i], &target = world.bodies.state[j];
@@ -63,7 +63,7 @@ void add_outline_points(const World& world, BodyIndex i, BodyIndex j, PointLists
     }
 }
 
-/// Circles of i against the segments of j, by the guide's law.
+/// Lists contacts of the circles of i with the segments of j under the DEMseg guide's segment law.
 void add_circle_segment_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
     const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
     const BodyState& own = world.bodies.state[i];
@@ -82,7 +82,8 @@ void add_circle_segment_points(const World& world, BodyIndex i, BodyIndex j, Poi
     }
 }
 
-/// Segments of i against those of j, by the guide's law: where an end of one comes near the other.
+/// Lists contacts between segments of i and j under the DEMseg guide's segment law. A contact exists if an end of one
+/// segment is close to the other segment.
 void add_segment_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
     const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
     const Vec2 to_j = centre_of(world.bodies.state[j]) - centre_of(world.bodies.state[i]);
@@ -104,7 +105,8 @@ void add_segment_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists&
     }
 }
 
-/// @param i, j two bodies at least one of which is a chain
+/// Lists the contacts of two bodies under the DEMseg guide's segment law. @param i, j bodies, at least one of which is
+/// a chain
 void add_guide_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
     const bool chain_i = world.bodies.info(i).piece_count > 0, chain_j = world.bodies.info(j).piece_count > 0;
     if (chain_i && chain_j) {
@@ -144,7 +146,7 @@ void add_wall_points(const World& world, BodyIndex i, PointLists& lists) {
     }
 }
 
-/// Whether two bodies have no contacts because both are driven (DrivenContacts).
+/// Whether contacts between two bodies are not computed because both are driven (DrivenContacts).
 bool left_out(const World& world, BodyIndex i, BodyIndex j) {
     const DrivenContacts wanted = world.settings.driven_contacts;
     if (wanted == DrivenContacts::all) return false;
@@ -156,15 +158,15 @@ bool left_out(const World& world, BodyIndex i, BodyIndex j) {
     return driven(i) && driven(j);
 }
 
-/// A face of a circle along its part of a trace, now.
+/// Current position of a flat face along the straight part of the trace on which it lies.
 struct FaceNow {
     std::uint32_t piece;
     bool right;
-    double from, to;  // m
+    double from, to;  // m, extent of the face, widened by the half skin at each end
     std::uint32_t face;
 };
 
-/// By part of a trace, and along it.
+/// Current positions of all faces, sorted by straight part of a trace and then along it.
 std::vector<FaceNow> faces_now(const World& world) {
     std::vector<FaceNow> faces;
     faces.reserve(world.bodies.flat_faces.size());
@@ -178,7 +180,8 @@ std::vector<FaceNow> faces_now(const World& world) {
     return faces;
 }
 
-/// Flat faces that lap, or could before the list is built again, and are as near.
+/// Lists pairs of flat faces that are close to each other and have a lap (shared length), or could have one before the
+/// list is rebuilt.
 void add_face_points(const World& world, PointLists& lists) {
     auto& list = lists[static_cast<std::size_t>(PointKind::face_face)];
     const auto meet = [&](std::uint32_t one, std::uint32_t other) {
@@ -188,7 +191,8 @@ void add_face_points(const World& world, PointLists& lists) {
         if (flat_face_contact(world, point).closed > -skin_between(world, a, b)) list.push_back(point);
     };
     const std::vector<FaceNow> faces = faces_now(world);
-    std::vector<FaceNow> open[2];  // of either side, those that reach to where the sweep is
+    std::vector<FaceNow>
+        open[2];  // for each side of the trace, faces that extend beyond the current position of the sweep
     for (const FaceNow& face : faces) {
         const auto behind = [&](const FaceNow& other) { return other.piece != face.piece || other.to < face.from; };
         for (std::vector<FaceNow>& side : open) std::erase_if(side, behind);
@@ -204,7 +208,7 @@ PointLists list_points(const World& world, const std::vector<std::uint64_t>& pai
     PointLists lists;
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         const PointIndex listed = world.points.kind_begin[kind + 1] - world.points.kind_begin[kind];
-        lists[kind].reserve(listed + listed / 64);  // few more than before
+        lists[kind].reserve(listed + listed / 64);  // room for slightly more points than in the current list
     }
     for (const std::uint64_t pair : pairs) {
         const auto i = static_cast<BodyIndex>(pair >> 32), j = static_cast<BodyIndex>(pair & 0xffffffffu);

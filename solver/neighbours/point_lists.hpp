@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contact points that a pair of near bodies, or a body and a wall, can have.
+// Lists the possible contact points of a pair of close bodies, or of a body and a wall.
 // Tested by tests/solver/neighbours/neighbours_test.cpp.
 #pragma once
 
@@ -11,10 +11,11 @@
 
 namespace crackle {
 
-/// By kind, in the order of the pairs.
+/// Contact points by kind; within a kind, sorted by pair of bodies.
 using PointLists = std::array<Array<ContactPoint>, point_kinds>;
 
-/// @param pairs as near_pairs() finds them
+/// Lists the possible contact points of all near pairs, and of bodies with walls. @param pairs pairs of bodies from
+/// near_pairs()
 PointLists list_points(const World& world, const std::vector<std::uint64_t>& pairs);
 
 }  // namespace crackle

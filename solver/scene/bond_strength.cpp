@@ -15,7 +15,7 @@
 namespace crackle {
 namespace {
 
-/// Root of a monotonous function between two arguments, to the last digits.
+/// Root of a monotonic function in an interval, to full precision.
 template <class F>
 double root_between(F f, double low, double high) {
     std::uintmax_t tries = 200;
@@ -24,7 +24,8 @@ double root_between(F f, double low, double high) {
     return 0.5 * (a + b);
 }
 
-/// Mean and coefficient of variation of a normal distribution of mean 1 and deviation s, truncated at 0.
+/// Mean and coefficient of variation of a normal distribution truncated at 0. Before truncation, its mean is 1 and its
+/// standard deviation is s.
 std::pair<double, double> truncated_normal(double s) {
     const double density = correctly_rounded::exp(-0.5 / (s * s)) / std::sqrt(2.0 * std::numbers::pi);
     const double ratio = density / correctly_rounded::normal_share_below(1.0 / s);
@@ -32,7 +33,7 @@ std::pair<double, double> truncated_normal(double s) {
     return {mean, std::sqrt(variance) / mean};
 }
 
-/// Weyl sequence and mixer of SplitMix64 (Steele, Lea, Flood 2014).
+/// Mixing function of SplitMix64, with its Weyl sequence (Steele, Lea, Flood 2014).
 std::uint64_t mixed(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15u;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -40,31 +41,7 @@ std::uint64_t mixed(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-constexpr StrengthDistribution all_distributions[] = {StrengthDistribution::none, StrengthDistribution::normal,
-                                                      StrengthDistribution::lognormal, StrengthDistribution::weibull};
-
 }  // namespace
-
-const char* name_of(StrengthDistribution distribution) {
-    switch (distribution) {
-        case StrengthDistribution::none:
-            return "none";
-        case StrengthDistribution::normal:
-            return "normal";
-        case StrengthDistribution::lognormal:
-            return "lognormal";
-        case StrengthDistribution::weibull:
-            break;
-    }
-    return "weibull";
-}
-
-StrengthDistribution strength_distribution_named(const std::string& where, const std::string& word) {
-    for (const StrengthDistribution distribution : all_distributions)
-        if (word == name_of(distribution)) return distribution;
-    throw InputError(
-        fmt::format("{}: found \"{}\", expected \"none\", \"normal\", \"lognormal\" or \"weibull\"", where, word));
-}
 
 double weibull_modulus(double cv) {
     return root_between(
@@ -85,7 +62,7 @@ StrengthFactors::StrengthFactors(StrengthDistribution distribution, double cv, s
                                      highest, name_of(distribution)));
     }
     if (distribution == StrengthDistribution::normal) {
-        // Of the deviation over the mean before truncation; the mode is at that mean.
+        // s is the ratio of the standard deviation to the mean before truncation. That mean equals the mode.
         const double s = root_between([&](double x) { return truncated_normal(x).second - cv; }, 0.5e-4, 1e6);
         first_ = 1.0 / truncated_normal(s).first;
         second_ = s * first_;
@@ -138,7 +115,7 @@ double StrengthFactors::between(int id_a, int id_b) const {
                high = static_cast<std::uint32_t>(std::max(id_a, id_b));
     const std::uint64_t pair = (static_cast<std::uint64_t>(low) << 32) | high;
     const std::uint64_t bits = mixed(mixed(static_cast<std::uint64_t>(seed_)) ^ pair);
-    // In the middle of one of 2^53 equal parts: never 0 or 1.
+    // Centre of one of 2^53 equal intervals, so that p is never 0 or 1.
     const double p = (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
     return quantile(p);
 }

@@ -49,7 +49,7 @@ std::vector<Ring> cut_ears(std::span<const Vec2> p, Ring ring) {
     return triangles;
 }
 
-/// The union of two counter-clockwise rings across a shared edge; empty where they share none.
+/// Union of two counter-clockwise rings along a shared edge; empty if they share no edge.
 Ring joined(const Ring& a, const Ring& b) {
     for (std::size_t i = 0; i < a.size(); ++i) {
         for (std::size_t j = 0; j < b.size(); ++j) {

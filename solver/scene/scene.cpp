@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mass properties of bodies and the one place where a scene is checked; everything after it relies on what passed here.
+// Computes mass properties of bodies, and validates scenes. All later code relies on these checks.
 
 #include "solver/scene/scene.hpp"
 
@@ -38,7 +38,7 @@ void require_finite(const std::string& where, double value) {
 }
 
 double signed_area(std::span<const Vec2> corners) {
-    // Relative to the first corner, so that a body far from the origin loses no digits.
+    // The area is computed relative to the first corner, to keep full precision for a body far from the origin.
     double twice = 0.0;
     for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
         twice += cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
@@ -100,6 +100,19 @@ MassProperties clump_properties(std::span<const CircleElement> circles, double d
     return result;
 }
 
+/// @param whose  of whom the friction angle is, for the message @param friction_angle largest residual one, degrees
+void validate_bond_constants(const std::string& name, const BondConstants& constants, const char* whose,
+                             double friction_angle) {
+    for (const BondConstant& constant : all_bond_constants()) {
+        const std::optional<double> value = constants.*constant.given;
+        if (!value) continue;
+        const std::string what = name + constant.spoken();
+        if (!constant.is_angle) require_not_negative(what, *value, "N");
+        if (constant.is_angle && !(*value >= 0.0 && *value <= friction_angle))
+            refuse(what, *value, fmt::format("degrees from 0 to the friction angle{}, {:g}", whose, friction_angle));
+    }
+}
+
 void validate_material(const Material& material, std::size_t index) {
     const std::string name = fmt::format("material {}: ", index + 1);
     require_positive(name + "density", material.density, "kg/m2");
@@ -111,38 +124,38 @@ void validate_material(const Material& material, std::size_t index) {
     if (!(material.friction_angle >= 0.0 && material.friction_angle < 90.0)) {
         refuse(name + "friction angle", material.friction_angle, "degrees in 0 <= φ < 90");
     }
-    require_not_negative(name + "tensile strength", material.tensile_strength, "N");
-    require_not_negative(name + "cohesion", material.cohesion, "N");
-    if (!(material.residual_friction_angle >= 0.0 && material.residual_friction_angle <= material.friction_angle)) {
-        refuse(name + "residual friction angle", material.residual_friction_angle,
-               fmt::format("degrees from 0 to the friction angle, {:g}", material.friction_angle));
-    }
+    validate_bond_constants(name, material.bond_constants(), "", material.friction_angle);
 }
 
-/// What the laws of bonds and faces do not go with.
+/// Refuses combinations of options that the bond laws and joints do not support.
 void validate_laws(const Scene& scene) {
     const auto any_material = [&](auto has) { return std::ranges::any_of(scene.materials, has); };
     const auto any_pair = [&](auto has) { return std::ranges::any_of(scene.material_pairs, has); };
     const auto guide = [&] { return scene.segment_law != SegmentLaw::rounded; };
-    if (scene.bond_law == BondLaw::coulomb) {
-        if (guide()) throw InputError("bond law: found coulomb with the guide's segments, expected the rounded law");
-        if (any_material([](const Material& m) { return m.shear_stiffness == 0.0; }) ||
-            any_pair([](const MaterialPair& p) { return p.shear_stiffness == 0.0; }))
-            throw InputError("shear stiffness: found 0 with coulomb bonds, expected a number > 0; they hold in shear");
-    } else if (any_material([](const Material& m) { return m.tensile_strength > 0.0 || m.cohesion > 0.0; }) ||
-               any_pair([](const MaterialPair& p) {
-                   return p.tensile_strength || p.cohesion || p.residual_friction_angle;
-               })) {
+    const BondLawFacts& bonds = facts_of(scene.bond_law);
+    const char* law = name_of(scene.bond_law);
+    if (guide() && !bonds.with_guide_segments)
+        throw InputError(fmt::format("bond law: found {} with the guide's segments, expected the rounded law", law));
+    if (bonds.sticks && (any_material([](const Material& m) { return m.shear_stiffness == 0.0; }) ||
+                         any_pair([](const MaterialPair& p) { return p.shear_stiffness == 0.0; })))
         throw InputError(
-            "materials: found a tensile strength or a cohesion with back-tension bonds, whose strength is their "
-            "overlap, expected the bond law coulomb");
+            fmt::format("shear stiffness: found 0 with {} bonds, expected a number > 0; these bonds carry shear", law));
+    for (const BondConstant& constant : all_bond_constants()) {
+        if (bonds.constant(constant.key) != nullptr) continue;
+        // A material always has a residual friction angle, which is 0 if not given.
+        if (any_material(
+                [&](const Material& m) { return !constant.is_angle && m.bond_constants().*constant.given > 0.0; }) ||
+            any_pair([&](const MaterialPair& p) { return (p.bond.*constant.given).has_value(); }))
+            throw InputError(fmt::format("materials: found a {} with {} bonds, expected the bond law {}",
+                                         constant.spoken(), law, laws_with(&BondLawFacts::strengths_are_given)));
     }
     if (scene.units == StiffnessUnits::area) {
-        if (guide()) throw InputError("units: found area with the guide's segments, expected the rounded law");
+        if (guide())
+            throw InputError("units: found area with the segment law of DEMseg's guide, expected the rounded law");
         if (any_material([](const Material& m) {
                 return !m.damping_ratio && (m.normal_damping > 0.0 || m.shear_damping > 0.0);
             }))
-            throw InputError("materials: found dashpots by value in area units, expected a damping ratio");
+            throw InputError("materials: found dashpot coefficients in area units, expected a damping ratio");
     }
 }
 
@@ -156,29 +169,24 @@ void validate_pairs(const Scene& scene) {
                 refuse(name + "material", m + 1, fmt::format("1 to {}", scene.materials.size()));
         }
         if (!seen.insert(std::minmax(pair.a, pair.b)).second)
-            throw InputError(fmt::format("{}found materials {} and {} a second time, expected one entry a pair", name,
+            throw InputError(fmt::format("{}found materials {} and {} a second time, expected one entry per pair", name,
                                          pair.a + 1, pair.b + 1));
         if (pair.normal_stiffness) require_positive(name + "normal stiffness", *pair.normal_stiffness, "N/m");
         if (pair.shear_stiffness) require_not_negative(name + "shear stiffness", *pair.shear_stiffness, "N/m");
         if (pair.friction_angle && !(*pair.friction_angle >= 0.0 && *pair.friction_angle < 90.0))
             refuse(name + "friction angle", *pair.friction_angle, "degrees in 0 <= φ < 90");
-        if (pair.tensile_strength) require_not_negative(name + "tensile strength", *pair.tensile_strength, "N");
-        if (pair.cohesion) require_not_negative(name + "cohesion", *pair.cohesion, "N");
         const auto friction = [&](int m) { return scene.materials[static_cast<std::size_t>(m)].friction_angle; };
-        const double angle = pair.friction_angle.value_or(std::min(friction(pair.a), friction(pair.b)));
-        const double residual = pair.residual_friction_angle.value_or(0.0);
-        if (!(residual >= 0.0 && residual <= angle))
-            refuse(name + "residual friction angle", residual,
-                   fmt::format("degrees from 0 to the friction angle of the pair, {:g}", angle));
+        validate_bond_constants(name, pair.bond, " of the pair",
+                                pair.friction_angle.value_or(std::min(friction(pair.a), friction(pair.b))));
     }
 }
 
-/// Smallest friction angles of what has faces on traces, degrees.
+/// Smallest friction angles of the materials that have faces on traces, degrees.
 struct SmallestAngles {
     double bonded = 90.0, residual = 90.0;
 };
 
-/// How far the faces of joints lie apart at most, m: in a mesh by its gap, of circles by the radius of the smallest.
+/// Largest allowed aperture of a joint, m: the segment thickness in a mesh, the smallest radius among circles.
 double farthest_apart(const Scene& scene) {
     if (scene.trace_pieces.empty()) return scene.thick;
     return std::ranges::min(scene.circles, {}, &CircleElement::radius).radius;
@@ -198,20 +206,20 @@ void validate_joint(const Scene& scene, const Joint& joint, const std::string& n
     if (joint.residual_friction_angle)
         in_quadrant("residual friction angle", *joint.residual_friction_angle,
                     joint.friction_angle.value_or(rock.bonded));
-    // With more a joint that slides would give away energy.
+    // With a larger dilation angle, a sliding joint would create energy.
     const double slides_at = joint.friction_angle.value_or(rock.residual);
     in_quadrant("dilation angle", joint.dilation_angle, joint.residual_friction_angle.value_or(slides_at));
     if (!(joint.dilation_slip > 0.0)) refuse(name + "dilation slip", joint.dilation_slip, "a length > 0 in m");
     require_not_negative(name + "aperture", joint.aperture, "m");
-    if (joint.aperture > 0.0 && joint.bonded) refuse(name + "aperture", joint.aperture, "0 of a bonded joint");
+    if (joint.aperture > 0.0 && joint.bonded) refuse(name + "aperture", joint.aperture, "0 for a bonded joint");
     if (joint.aperture > farthest_apart(scene))
         refuse(name + "aperture", joint.aperture,
                scene.trace_pieces.empty()
-                   ? fmt::format("at most the thickness, {} m, by which the faces lie apart", scene.thick)
+                   ? fmt::format("at most the thickness, {} m, the gap between the faces", scene.thick)
                    : fmt::format("at most the radius of the smallest circle, {:.6g} m", farthest_apart(scene)));
 }
 
-/// Traces among circles.
+/// Checks the straight parts of traces that lie between circles.
 void validate_pieces(const Scene& scene) {
     if (scene.trace_pieces.empty()) return;
     const auto traces = std::ssize(scene.trace_joints);
@@ -221,34 +229,37 @@ void validate_pieces(const Scene& scene) {
             require_finite("trace: place", number);
         if (!known || !(norm(piece.to - piece.from) > 0.0))
             throw InputError(
-                fmt::format("traces: found a part of trace {} from ({}, {}) to ({}, {}), expected a length > 0 and one "
-                            "of {} traces",
+                fmt::format("traces: found a part of trace {} from ({}, {}) to ({}, {}), expected a length > 0 and a "
+                            "trace number below {}",
                             piece.trace, piece.from.x, piece.from.y, piece.to.x, piece.to.y, traces));
     }
     const bool circles = std::ranges::any_of(scene.bodies, [](const Body& body) { return body.circle_count == 1; });
     const auto clump = std::ranges::find_if(scene.bodies, [](const Body& body) { return body.circle_count > 1; });
     if (clump != scene.bodies.end())
-        throw InputError(fmt::format(
-            "joints: found body {}, a clump, expected single circles: only these have faces on traces", clump->id));
-    if (!circles) throw InputError("joints: found traces among circles, and no circle, expected one");
+        throw InputError(
+            fmt::format("joints: found body {}, a clump, expected single circles, since a clump has no face on a trace",
+                        clump->id));
+    if (!circles) throw InputError("joints: found traces among circles but no circle, expected at least one circle");
 }
 
 void validate_joints(const Scene& scene) {
     if (scene.joints.empty() && scene.edge_sides.empty() && scene.trace_pieces.empty()) return;
     validate_pieces(scene);
-    if (scene.bond_law != BondLaw::coulomb || scene.units != StiffnessUnits::area) {
-        if (!scene.joints.empty())
-            throw InputError("joints: found them with another law, expected coulomb bonds in area units");
-    }
+    if (!scene.joints.empty() && (!facts_of(scene.bond_law).across_joints || scene.units != StiffnessUnits::area))
+        throw InputError(
+            fmt::format("joints: found another bond law or other units, expected the bond law {} and area units",
+                        laws_with(&BondLawFacts::across_joints)));
     const auto joints = static_cast<std::int32_t>(scene.joints.size());
     if (std::ranges::any_of(scene.trace_joints, [&](std::int32_t j) { return j < -1 || j >= joints; }))
-        throw InputError(fmt::format("traces: found a joint that there is not, expected one of {}, or -1", joints));
+        throw InputError(
+            fmt::format("traces: found a joint that does not exist, expected a number below {}, or -1", joints));
     const auto sides = 2 * static_cast<TraceSide>(scene.trace_joints.size());
     if ((!scene.edge_sides.empty() && scene.edge_sides.size() != scene.vertices.size()) ||
         std::ranges::any_of(scene.edge_sides, [&](TraceSide s) { return s < no_side || s >= sides; }))
-        throw InputError(fmt::format(
-            "edges: found {} sides of traces for {} vertices, or one of a trace that there is not, expected one each",
-            scene.edge_sides.size(), scene.vertices.size()));
+        throw InputError(
+            fmt::format("edges: found {} sides of traces for {} vertices, or a side of a trace that does not exist, "
+                        "expected one side for each vertex",
+                        scene.edge_sides.size(), scene.vertices.size()));
     SmallestAngles smallest;
     for (const Body& body : scene.bodies) {
         const bool circle = !scene.trace_pieces.empty() && body.circle_count == 1;
@@ -265,11 +276,11 @@ void validate_joints(const Scene& scene) {
         validate_joint(scene, scene.joints[k], fmt::format("joint {}: ", k + 1), smallest);
 }
 
-/// Turns the outline of a body round.
+/// Reverses the order of a body's corners.
 void turn_round(Scene& scene, const Body& body, std::span<Vec2> corners) {
     std::ranges::reverse(corners);
-    if (scene.edge_sides.size() != scene.vertices.size()) return;  // validate_joints() refuses it
-    // The edge from a corner is now the one that led to it.
+    if (scene.edge_sides.size() != scene.vertices.size()) return;  // validate_joints() refuses such a scene
+    // The edge that starts at a corner is now the edge that ended there before.
     std::ranges::reverse(std::span(scene.edge_sides).subspan(body.first_vertex, corners.size() - 1));
 }
 
@@ -278,7 +289,7 @@ void validate_chain(Scene& scene, const Body& body) {
     const std::span<Vec2> corners(scene.vertices.data() + body.first_vertex, body.vertex_count);
     if (corners.size() < (body.closed ? 3u : 2u)) {
         refuse(name + "corners", static_cast<double>(corners.size()),
-               body.closed ? "at least 3 of a closed chain" : "at least 2 of an open chain");
+               body.closed ? "at least 3 for a closed chain" : "at least 2 for an open chain");
     }
     for (const Vec2 corner : corners) {
         require_finite(name + "corner x", corner.x);
@@ -295,7 +306,7 @@ void validate_chain(Scene& scene, const Body& body) {
     const double area = signed_area(corners);
     double perimeter = 0.0;
     for (std::size_t k = 0; k < edges; ++k) perimeter += norm(corners[(k + 1) % corners.size()] - corners[k]);
-    // Below this the centroid of a sliver has lost half its digits.
+    // For a sliver with a smaller area, the centroid would lose half its digits.
     if (std::abs(area) < 1e-10 * perimeter * perimeter)
         refuse(name + "area of the closed chain", area, "more than 1e-10 of its perimeter squared");
     if (area < 0.0) turn_round(scene, body, corners);
@@ -310,9 +321,11 @@ void validate_chain(Scene& scene, const Body& body) {
     }
 }
 
-/// Far from the origin neighbouring numbers lie so far apart that a body would move in jerks, or not at all.
+/// Refuses bodies so far from the origin that floating-point numbers are too widely spaced there: they would move in
+/// jerks, or not at all.
 void require_room_to_move(const Scene& scene, const Body& body) {
-    constexpr double largest_share = 1e-9;  // of the body's size; contact overlaps are 1e-6 of it and more
+    constexpr double largest_share =
+        1e-9;  // largest number spacing relative to the body's size; contact overlaps are at least 1e-6 of that size
     double farthest = 0.0, size = std::numeric_limits<double>::infinity();
     const auto visit = [&](Vec2 p) { farthest = std::max({farthest, std::abs(p.x), std::abs(p.y)}); };
     for (std::uint32_t k = 0; k < body.circle_count; ++k) {
@@ -321,7 +334,7 @@ void require_room_to_move(const Scene& scene, const Body& body) {
         size = std::min(size, circle.radius);
     }
     if (body.vertex_count > 0) {
-        size = 0.0;  // of the whole outline: meshes may have edges of any shortness
+        size = 0.0;  // size of the whole outline, since edges in a mesh may be arbitrarily short
         for (std::uint32_t k = 0; k < body.vertex_count; ++k) {
             visit(scene.vertices[body.first_vertex + k]);
             size = std::max(size, norm(scene.vertices[body.first_vertex + k] - scene.vertices[body.first_vertex]));
@@ -329,10 +342,10 @@ void require_room_to_move(const Scene& scene, const Body& body) {
     }
     const double gap = std::nextafter(farthest, std::numeric_limits<double>::infinity()) - farthest;
     if (gap <= largest_share * size) return;
-    throw InputError(fmt::format(
-        "body {}: found coordinates up to {:.6g} m, where numbers lie {:.2g} m apart, expected at most {} of "
-        "the body's size, {:.4g} m; shift the origin towards the bodies",
-        body.id, farthest, gap, largest_share, size));
+    throw InputError(
+        fmt::format("body {}: found coordinates up to {:.6g} m, where floating-point numbers are {:.2g} m apart, "
+                    "expected at most {} of the body's size, {:.4g} m; shift the origin towards the bodies",
+                    body.id, farthest, gap, largest_share, size));
 }
 
 void validate_body(Scene& scene, const Body& body) {
@@ -364,52 +377,6 @@ void validate_body(Scene& scene, const Body& body) {
 }
 
 }  // namespace
-
-const char* name_of(SegmentLaw law) {
-    switch (law) {
-        case SegmentLaw::rounded:
-            return "rounded";
-        case SegmentLaw::demseg:
-            return "demseg";
-        case SegmentLaw::demseg_mean:
-            break;
-    }
-    return "demseg_mean";
-}
-
-SegmentLaw segment_law_named(const std::string& where, const std::string& word) {
-    for (const SegmentLaw law : {SegmentLaw::rounded, SegmentLaw::demseg, SegmentLaw::demseg_mean}) {
-        if (word == name_of(law)) return law;
-    }
-    throw InputError(fmt::format("{}: found \"{}\", expected \"rounded\", \"demseg\" or \"demseg_mean\"", where, word));
-}
-
-const char* name_of(Integrator integrator) { return integrator == Integrator::consistent ? "consistent" : "leapfrog"; }
-
-Integrator integrator_named(const std::string& where, const std::string& word) {
-    for (const Integrator integrator : {Integrator::leapfrog, Integrator::consistent}) {
-        if (word == name_of(integrator)) return integrator;
-    }
-    throw InputError(fmt::format("{}: found \"{}\", expected \"leapfrog\" or \"consistent\"", where, word));
-}
-
-const char* name_of(BondLaw law) { return law == BondLaw::coulomb ? "coulomb" : "back_tension"; }
-
-BondLaw bond_law_named(const std::string& where, const std::string& word) {
-    for (const BondLaw law : {BondLaw::back_tension, BondLaw::coulomb}) {
-        if (word == name_of(law)) return law;
-    }
-    throw InputError(fmt::format("{}: found \"{}\", expected \"back_tension\" or \"coulomb\"", where, word));
-}
-
-const char* name_of(StiffnessUnits units) { return units == StiffnessUnits::area ? "area" : "point"; }
-
-StiffnessUnits stiffness_units_named(const std::string& where, const std::string& word) {
-    for (const StiffnessUnits units : {StiffnessUnits::point, StiffnessUnits::area}) {
-        if (word == name_of(units)) return units;
-    }
-    throw InputError(fmt::format("{}: found \"{}\", expected \"point\" or \"area\"", where, word));
-}
 
 std::uint32_t Scene::add_circle_body(int id, int material, const CircleElement& circle) {
     Body body;
@@ -461,8 +428,8 @@ void validate(Scene& scene) {
     };
     if (std::ranges::any_of(scene.materials, by_ratio) && std::ranges::any_of(scene.materials, by_value)) {
         throw InputError(
-            "materials: found damping by ratio in one and by value in another, expected one way for all; two such "
-            "dashpots in series have no common form");
+            "materials: found a damping ratio in one and dashpot coefficients in another, expected the same kind for "
+            "all, since the two kinds cannot be combined in a contact");
     }
     validate_laws(scene);
     if (scene.bodies.empty()) throw InputError("bodies: found none, expected at least one particle");
@@ -514,8 +481,8 @@ std::vector<std::string> scene_notices(const Scene& scene) {
     const auto segment = std::ranges::find_if(scene.bodies, open);
     if (scene.thick == 0.0 && segment != scene.bodies.end() && std::ranges::count_if(scene.bodies, chain) > 1) {
         notices.push_back(
-            fmt::format("thick: found 0 with open segments (body {}) and corners of other bodies; neither has an "
-                        "inside, so they never touch each other; give a thickness > 0 if they should",
+            fmt::format("thick: found 0 with open segments (body {}) and corners of other bodies, which then never "
+                        "touch each other; give a thickness > 0 if they should touch",
                         segment->id));
     }
     return notices;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bonding. By back-tension every contact of overlap δ0 > 0 gets f_b = -k_n δ0, so a packing under pressure becomes a
-// stress-free solid without added springs; stiffness is the same before and after breakage, tensile strength is k_n δ0.
-// Source: DEMseg guide. Coulomb bonds start without force likewise, at gaps too, and have strengths of their own.
+// Bonding. A back-tension bond gives every contact with an overlap δ0 > 0 the force f_b = -k_n δ0, so that a packing
+// under pressure becomes a stress-free solid without additional springs. The stiffness is the same before and after
+// breakage, and the tensile strength is k_n δ0. Source: DEMseg guide. Coulomb bonds also start without force; they can
+// bridge gaps, and their strengths are given.
 
 #include <fmt/format.h>
 
@@ -27,7 +28,8 @@
 namespace crackle {
 namespace {
 
-constexpr std::int64_t events_at_once = 1024;  // for which there is room before steps allocate any
+// Number of events for which memory is reserved in advance; only further events allocate memory within a step.
+constexpr std::int64_t events_at_once = 1024;
 
 std::int64_t count_interfaces(const World& world) {
     std::vector<std::uint64_t> pairs;
@@ -41,10 +43,13 @@ std::int64_t count_interfaces(const World& world) {
     return std::distance(pairs.begin(), std::unique(pairs.begin(), pairs.end()));
 }
 
-/// Of the mean radius: rounding. Flat faces lie flush; of ones that hardly lap nothing would be left as they slide.
+/// Limits for bonding the flat faces of two circles. flush_share is the largest gap between the faces, relative to the
+/// sum of the two circles' radii; it only allows for round-off, since the faces are flush. least_lap_share is the
+/// smallest lap (shared length of the two faces), relative to the mean radius of the circles; slight sliding would
+/// separate faces with a smaller lap.
 constexpr double flush_share = 1e-9, least_lap_share = 0.01;
 
-/// m, at which a point is still bonded.
+/// Largest gap at which a point is bonded, m.
 double largest_gap(const World& world, PointIndex k, const PointView& view, const Bonding& bonding) {
     if (view.kind == PointKind::face_face) {
         const double radii = world.bodies.state[view.body_i].shape[0] + world.bodies.state[view.body_j].shape[0];
@@ -55,7 +60,7 @@ double largest_gap(const World& world, PointIndex k, const PointView& view, cons
     return bonding.range * 0.5 * radii;
 }
 
-/// The list reaches as far as bonds do.
+/// Widens the skin so that the neighbour list includes all pairs that may be bonded.
 void widen_skin(World& world, const Bonding& bonding) {
     double reach = bonding.gap;
     if (bonding.range > 0.0)
@@ -63,36 +68,39 @@ void widen_skin(World& world, const Bonding& bonding) {
             if (const BodyInfo info = world.bodies.info(b); info.single_circle)
                 reach = std::max(reach, bonding.range * info.reach);
     if (reach == 0.0 || world.list.skin > 1.01 * reach) return;
-    world.list.skin = 1.01 * reach;  // lists leave out what is just beyond
+    world.list.skin = 1.01 * reach;  // slightly wider, since lists omit pairs whose gap is just above the skin
     world.list.valid = false;
 }
 
-/// What bonding finds, and does not clear.
+/// Whether bonding sets the values of an array, which must therefore not be cleared afterwards.
 bool of_shares(Remembered remembered) {
     return remembered == Remembered::own_shares || remembered == Remembered::own_shear ||
            remembered == Remembered::between_faces;
 }
 
 bool bonded(const World& world, PointIndex k) { return (world.points.state[k].flags & point_bonded) != 0; }
-/// Bonded, or left without a bond where there would have been one.
+/// Whether a point is bonded, was left unbonded, or had a bond that has broken.
 bool of_face(const World& world, PointIndex k) {
     return (world.points.state[k].flags & (point_bonded | point_had_bond)) != 0;
 }
 
-/// m, by which the overlap without force of a point that is left open is beyond that at which it lies.
+/// Aperture of an unbonded point across a joint, m: the overlap at which its force is zero, minus its current overlap.
+/// It is 0 for all other points.
 double aperture_of(const World& world, PointIndex k) {
     const std::size_t law = world.points.state[k].law;
     return bonded(world, k) || law < world.settings.first_joint_law() ? 0.0 : world.settings.joint_of_law(law).aperture;
 }
 
-/// Of one bonded point of a pair; of a face divided equally among its points. In StiffnessUnits::point 1.
+/// Factors of one bonded point of a pair of bodies. The factors of a face are divided equally among its points. All
+/// factors are 1 for StiffnessUnits::point.
 struct PointShare {
     double stiffness = 1.0;
     double length = 1.0;      // m
     double shear_root = 1.0;  // Points::shear_root
 };
 
-/// @param face of the pair of a polygon and another, if they have one @param count of its bonded points
+/// Factors of point k. @param face the face between two polygons, if the pair has one @param count the number of the
+/// pair's bonded points
 PointShare share_of_point(const World& world, PointIndex k, const std::optional<ContactShare>& face,
                           std::int64_t count) {
     if (world.settings.units == StiffnessUnits::point) return {};
@@ -104,18 +112,19 @@ PointShare share_of_point(const World& world, PointIndex k, const std::optional<
     return {share.stiffness() / points * left.normal, share.length * lap / points, left.root_of_shear()};
 }
 
-/// Points get a share of shear stiffness of their own with the world's first bonds.
+/// Allocates Points::shear_root when the world gets its first bonds.
 void begin_shear_roots(World& world) {
     if (world.settings.own_shear() && world.points.shear_root.empty())
         world.points.shear_root.assign(world.points.size(), 0.0F);
 }
 
-/// Shares of the bonded points of one pair, which are all from begin to end; that of strength with the random factor of
-/// the pair.
+/// Sets the stiffness and strength factors of a pair's bonded points. The points from `begin` up to, but not including,
+/// `end` are those of the pair. The strength factor includes the pair's random factor.
 void share_pair(World& world, const Bonding& bonding, PointIndex begin, PointIndex end) {
     const auto is_chain = [&](BodyIndex b) { return world.bodies.info(b).piece_count > 0; };
     std::int64_t count = 0;
-    double gap = std::numeric_limits<double>::infinity();  // m, of the faces: corners overhang
+    double gap = std::numeric_limits<double>::infinity();  // m, smallest gap of the pair's points, since a corner
+                                                           // beyond the end of the facing edge has a larger one
     for (PointIndex k = begin; k < end; ++k) {
         if (!of_face(world, k)) continue;
         ++count;
@@ -135,7 +144,7 @@ void share_pair(World& world, const Bonding& bonding, PointIndex begin, PointInd
     }
 }
 
-/// The same of all pairs.
+/// Sets the factors of the bonded points for all pairs of bodies.
 void share_faces(World& world, const Bonding& bonding) {
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     for (PointIndex begin = 0; begin < walls;) {
@@ -145,7 +154,8 @@ void share_faces(World& world, const Bonding& bonding) {
     }
 }
 
-/// Strengths by factors, and whether the envelopes have their apex.
+/// Computes strengths from the strength factors, and checks that no tensile strength is beyond the apex of its failure
+/// envelope.
 void set_strengths(World& world, const Bonding& bonding) {
     const std::size_t pairs = world.settings.pair_count();
     if ((bonding.tensile_factor || bonding.cohesion_factor) && !world.settings.intact.no_breaking) {
@@ -158,10 +168,10 @@ void set_strengths(World& world, const Bonding& bonding) {
         }
         const double mean = count > 0 ? sum / static_cast<double>(count) : 0.0;
         if (count > 0 && !(mean > 0.0)) {
-            throw InputError(fmt::format(
-                "strength factors: found a mean back-tension of {:.6g} N, expected one > 0 to take a share of; cells "
-                "bond without overlap, give tensile_strength and cohesion",
-                mean));
+            throw InputError(
+                fmt::format("strength factors: found a mean back-tension of {:.6g} N, expected a value > 0 to "
+                            "multiply; cells bond without overlap, so give tensile_strength and cohesion",
+                            mean));
         }
         for (std::size_t number = 0; number < pairs; ++number) {
             ContactLaw& law = world.settings.laws[number];
@@ -170,26 +180,21 @@ void set_strengths(World& world, const Bonding& bonding) {
         }
     }
     derive_joint_laws(world.settings);
-    constexpr double rounding = 1e-12;
     for (std::size_t number = 0; number < world.settings.laws.size(); ++number) {
         if (number >= pairs && number < world.settings.first_joint_law()) continue;
-        const ContactLaw& law = world.settings.laws[number];
-        if (!(law.bond_friction * law.tensile_strength > law.cohesion * (1.0 + rounding))) continue;
-        throw InputError(fmt::format(
-            "strengths: found a tensile strength of {:.6g} beyond the apex of the envelope, cohesion over friction, "
-            "{:.6g}, expected at most that; give more cohesion, or less tensile strength",
-            law.tensile_strength, law.cohesion / law.bond_friction));
+        check_strengths(world.settings.laws[number], "strengths");
     }
 }
 
-/// Laps of flat faces as they lie.
+/// Sets Points::lap of flat faces at the current positions.
 void take_laps(World& world) {
     constexpr auto kind = static_cast<std::size_t>(PointKind::face_face);
     for (PointIndex k = world.points.kind_begin[kind]; k < world.points.kind_begin[kind + 1]; ++k)
         world.points.lap[k] = flat_face_contact(world, world.points.contact[k]).lap();
 }
 
-/// The joint across which each point between bodies would be bonded; empty without joints.
+/// For each point between bodies: index of the joint across which the point would be bonded, or no_joint. Empty without
+/// joints.
 std::vector<std::int32_t> joints_of_points(const World& world, const Bonding& bonding) {
     std::vector<std::int32_t> joints;
     if (world.settings.joints.empty()) return joints;
@@ -213,11 +218,12 @@ std::vector<std::int32_t> joints_of_points(const World& world, const Bonding& bo
     return joints;
 }
 
-/// Of the thickness: rounding. Corners that overhang lie farther apart, and would bear at a slant.
+/// Round-off allowed in the gap of a point, relative to the segment thickness. Corners beyond the end of the facing
+/// edge have a larger gap and would push at an angle.
 constexpr double facing_share = 1e-6;
 
-/// Leaves a point of an open joint without a bond, at the overlap at which its faces touch; one that overhangs is as
-/// any contact that is met later.
+/// Leaves a point of an open joint unbonded and stores the overlap at which the joint's faces touch. A corner beyond
+/// the end of the facing edge is treated like a contact that forms later.
 void open_point(World& world, PointIndex k, const Joint& joint, const PointView& view, bool pressed) {
     const double overlap = view.overlap;
     if (view.kind != PointKind::face_face && overlap < -facing_share * world.settings.thick) return;
@@ -274,7 +280,8 @@ std::int64_t bond_all(World& world, const Bonding& bonding) {
             }
         }
         if (bonding.leaves && bonding.leaves(view.body_i, view.body_j)) {
-            // As where a bond has broken: without force as they lie, and they may push and rub.
+            // The point is left as if its bond had broken: it has no force at its current position, and can push and
+            // rub.
             world.points.bond_overlap[k] = std::max(view.overlap, 0.0);
             world.points.state[k].flags = point_had_bond;
             continue;
@@ -287,7 +294,7 @@ std::int64_t bond_all(World& world, const Bonding& bonding) {
     }
     if (world.settings.own_shares()) share_faces(world, bonding);
     find_point_properties(world);
-    if (world.settings.bond_law == BondLaw::coulomb) set_strengths(world, bonding);
+    if (facts_of(world.settings.bond_law).strengths_are_given) set_strengths(world, bonding);
     if (world.list.skin != skin) {
         world.list.skin = skin;
         world.list.valid = false;
@@ -298,11 +305,11 @@ std::int64_t bond_all(World& world, const Bonding& bonding) {
 }
 
 std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double gap) {
-    if (gap > 0.0 && world.settings.bond_law == BondLaw::back_tension)
-        throw InputError(fmt::format(
-            "gap: found {:g} m under back-tension, expected 0, for a bond there is as strong as its contact overlaps; "
-            "bond across gaps with bond.law = \"coulomb\"",
-            gap));
+    if (gap > 0.0 && !facts_of(world.settings.bond_law).bonds_across_gaps)
+        throw InputError(
+            fmt::format("gap: found {:g} m under {}, expected 0, since the strength of such a bond follows from its "
+                        "overlap; bond across gaps with bond.law = {}",
+                        gap, name_of(world.settings.bond_law), laws_with(&BondLawFacts::bonds_across_gaps)));
     const auto ordered = [](BodyIndex i, BodyIndex j) { return std::pair(std::min(i, j), std::max(i, j)); };
     std::vector<std::pair<BodyIndex, BodyIndex>> asked;
     for (const BodyPair& pair : pairs) {
@@ -314,8 +321,8 @@ std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double ga
     std::ranges::sort(asked);
     refresh_neighbours(world);
     struct Fresh {
-        PointIndex point, begin, end;  // among those of its pair
-        bool alone;                    // no point of the pair has a bond yet
+        PointIndex point, begin, end;  // point to be bonded, and the range of points between its two bodies
+        bool alone;                    // whether no point of the pair is bonded yet
         double overlap;
     };
     std::vector<Fresh> fresh;
@@ -330,10 +337,10 @@ std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double ga
             const double overlap = overlap_of(world, k);
             if (bonded(world, k) || overlap + gap <= 0.0) continue;
             if (!alone && world.settings.own_shares()) {
-                throw InputError(fmt::format(
-                    "bond: found bodies {} and {} with bonds between them, expected none: these share their face among "
-                    "themselves; bond pairs whose bonds have all broken",
-                    world.bodies.info(pair.body_i).id, world.bodies.info(pair.body_j).id));
+                throw InputError(
+                    fmt::format("bond: found intact bonds on the face between bodies {} and {}, expected a pair "
+                                "without bonds, or whose bonds have all broken",
+                                world.bodies.info(pair.body_i).id, world.bodies.info(pair.body_j).id));
             }
             fresh.push_back({k, begin, end, alone, overlap});
         }
@@ -346,7 +353,7 @@ std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double ga
         world.points.bond_overlap[one.point] = one.overlap;
         world.points.state[one.point].flags = point_bonded | point_touching;
     }
-    PointIndex last = walls;  // pair counted last, by its first point
+    PointIndex last = walls;  // last pair counted, identified by its first point
     for (const Fresh& one : fresh) {
         if (one.begin == last) continue;
         last = one.begin;
@@ -359,7 +366,7 @@ std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double ga
     world.bonds.interfaces_initial += interfaces;
     visit_remembered(world.points, [&]<class T>(Array<T>& values, Remembered remembered) {
         if (remembered == Remembered::always || of_shares(remembered) || !keeps(world, remembered)) return;
-        values.resize(world.points.size());  // there are none of some before the world's first bonds
+        values.resize(world.points.size());  // some arrays are empty until the first bonds are made
         for (const Fresh& one : fresh) values[one.point] = T{};
     });
     restart_account(world);
@@ -389,7 +396,7 @@ void finish_bonding(World& world) {
     world.bonds.slips.clear();
     world.bonds.events.reserve(static_cast<std::size_t>(std::min<std::int64_t>(world.bonds.initial, events_at_once)));
     restart_account(world);
-    world.stepping.drift = 0.0;  // nothing has moved since
+    world.stepping.drift = 0.0;  // nothing has moved since bonding
     world.stepping.forces_current = false;
     if (world.settings.intact.no_new_contacts) {
         world.list.valid = false;

@@ -12,42 +12,46 @@
 
 namespace crackle {
 
-/// Which points are bonded, and how strongly.
+/// Which points are bonded, and the strengths of the bonds.
 struct Bonding {
     double thick = 0.0;  ///< segment thickness, m
-    /// Share of the mean radius of two discs up to whose gap they are bonded; such bonds have δ0 < 0.
+    /// Largest gap at which two discs are bonded, as a fraction of their mean radius; bonds across a gap have δ0 < 0.
     double range = 0.0;
-    /// m; corners whose gap to an outline is at most this are bonded, at their own δ0.
+    /// Largest gap at which a corner and an outline are bonded, m. Each point has its own δ0.
     double gap = 0.0;
     StrengthFactors factors;
-    /// Strengths of BondLaw::coulomb as factors of k_n δ0 averaged over all bonds, in place of the materials' own.
+    /// Strengths of a law with BondLawFacts::strengths_are_given, as factors on the mean of k_n δ0 over all bonds; they
+    /// replace the materials' strengths.
     std::optional<double> tensile_factor, cohesion_factor;
-    /// Whether a bond at a place between two bodies can never break; none where not given.
+    /// Whether a bond at a position between two bodies is unbreakable. If not set, all bonds can break.
     std::function<bool(Vec2 position, BodyIndex i, BodyIndex j)> holds;
-    /// Whether two bodies are left without bonds, as if theirs had broken, under BondLaw::coulomb; none where not
-    /// given.
+    /// Whether two bodies are left unbonded, as if their bonds had already broken; only with
+    /// BondLawFacts::from_rest_overlap. If not set, all are bonded.
     std::function<bool(BodyIndex i, BodyIndex j)> leaves;
-    /// Whether linear solutions take open joints without an aperture for closed and sticking, as under pressure.
+    /// Whether linear solutions treat open joints without an aperture as closed and sticking, as under compression.
     bool pressed = true;
 };
 
-/// Bonds points between bodies, by back-tension those of overlap δ > 0; each gets δ0 = δ and loses its shear spring.
-/// Walls stay unbonded, as do the faces of open joints, which may push and rub from where they lie, once an aperture
-/// has closed. Sets the segment thickness first. @return points bonded.
-/// @throws InputError where the strengths that result have μT > C, and factors that no mean overlap makes a strength of
+/// Bonds points between bodies, after setting the segment thickness. For back-tension bonds the overlap δ must be > 0.
+/// Each bonded point gets δ0 = δ, and its shear force is set to 0. Contacts with walls are not bonded, nor are the
+/// faces of open joints. Such faces can push and rub from their current positions, after the joint's aperture has
+/// closed. @return the number of bonded points
+/// @throws InputError if the resulting strengths have μT > C, or if strength factors are given but the mean
+/// back-tension is not positive
 std::int64_t bond_all(World& world, const Bonding& bonding);
+/// Likewise, with a segment thickness in m and default values for everything else.
 std::int64_t bond_all(World& world, double thick);
-/// Bonds the points of these pairs of bodies that have no bond, where the overlap is more than -gap: as bond_all()
-/// does, by back-tension as strong as they overlap, under BondLaw::coulomb with the laws' own strengths. What their
-/// springs have stored until then is gone: the account of energy begins again. @return points bonded
-/// @throws InputError for a pair of one body, one with bonds that share its face (Settings::own_shares()), and a gap >
-/// 0 under back-tension, whose bonds would have a strength < 0; UnstableRun where a given time step is too large for
-/// them
+/// Bonds points between the given pairs of bodies if they are unbonded and have an overlap above -gap. Strengths that
+/// are not given follow from the overlap, as in bond_all(). The energy stored in the springs of these points is
+/// discarded, and the energy account restarts. @return the number of bonded points
+/// @throws InputError if a body is paired with itself, if bonds of the pair already share its face
+/// (Settings::own_shares()), or if gap > 0 without BondLawFacts::bonds_across_gaps @throws UnstableRun if a given time
+/// step is too large for the new bonds
 std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double gap);
-/// After bonds have been entered in the points (flags, bond_overlap), by bond_all() or a reader of back-tensions:
-/// counts them, clears what was remembered of the time before, and starts the account of energy again.
+/// Completes bonding after bonds have been written to the points (flags, bond_overlap), by bond_all() or from a file of
+/// back-tensions. It counts the bonds, clears values stored before bonding, and restarts the energy account.
 void finish_bonding(World& world);
-/// Changes the segment thickness and invalidates the list.
+/// Changes the segment thickness and invalidates the neighbour list.
 void set_thickness(World& world, double thick);
 
 }  // namespace crackle

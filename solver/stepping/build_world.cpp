@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scene to world: bodies renumbered along space, outlines taken into body frames, material pairs turned into contact
-// laws.
+// Builds a world from a scene: orders bodies by position, transforms outlines into body frames, and derives contact
+// laws from material pairs.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -26,12 +25,12 @@
 namespace crackle {
 namespace {
 
-/// Diameter of the disc with a body's moment of inertia, m.
+/// Diameter of a disc with the same radius of gyration as the body, m.
 double equivalent_diameter(const MassProperties& body) { return std::sqrt(8.0 * body.moment / body.mass); }
 
-/// Scene indices row by row, rows as high as the median body and along the shorter side of the scene: the neighbours
-/// of bodies in succession are bodies in succession, of one row and the next. A million discs take
-/// 0.6 of the time in Morton order, for the memory is read as the processor foresees it.
+/// Scene indices of bodies, sorted in rows along the shorter side of the scene; the height of a row is the median
+/// diameter. Consecutive bodies then have consecutive neighbours in the same row and in the next. For a million discs a
+/// step takes 0.6 times as long as with Morton order, because memory is read in an order that the processor predicts.
 std::vector<std::uint32_t> spatial_order(const std::vector<MassProperties>& properties) {
     Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
     std::vector<double> diameters;
@@ -73,12 +72,12 @@ std::vector<std::vector<std::uint32_t>> pieces_of(int id, std::span<const Vec2> 
     }
 }
 
-/// @param ring the edges of a convex piece, counterclockwise
+/// Sets Edge::cone for the edges of a convex piece. @param ring the edges of the piece, counter-clockwise
 void set_cones(std::span<Edge> ring) {
     for (std::size_t e = 0; e < ring.size(); ++e) {
         Edge &edge = ring[e], &next = ring[(e + 1) % ring.size()];
         const double sine = edge.tx * next.ty - edge.ty * next.tx, cosine = edge.tx * next.tx + edge.ty * next.ty;
-        // Where the outline goes straight on, the corner is closest to nothing.
+        // If the outline continues straight, no point has this corner as its closest point.
         const double cotangent = sine > 0.0 ? cosine / sine : std::numeric_limits<double>::max();
         edge.cone[1] = -cotangent;
         next.cone[0] = cotangent;
@@ -105,7 +104,8 @@ void add_pieces(World& world, const BodyName& name, BodyShape& shape, std::span<
     shape.piece_count = static_cast<std::uint32_t>(world.bodies.pieces.size()) - shape.first_piece;
 }
 
-/// Kernels look at edges of one-piece outlines without a search where the edge faced last still is the one.
+/// Sets Edge::outline_of for outlines that are one convex piece. For these outlines, kernels need no search as long as
+/// the edge faced last is still the closest edge.
 void mark_outlines(World& world) {
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         const BodyInfo info = world.bodies.info(b);
@@ -118,7 +118,8 @@ void mark_outlines(World& world) {
                                                [](const Edge& edge) { return edge.outline_of != no_body; });
 }
 
-/// Elements of a chain are its vertices, of a circle body its circles; radii of vertices follow the thickness.
+/// Adds the elements of a body: the vertices of a chain, or the circles of a clump. The radii of vertices follow from
+/// the thickness.
 void add_elements(World& world, const Scene& scene, const Body& body, const MassProperties& properties,
                   const BodyName& name, BodyState& state) {
     BodyShape shape{};
@@ -150,7 +151,7 @@ void add_elements(World& world, const Scene& scene, const Body& body, const Mass
     world.bodies.shapes.push_back(shape);
 }
 
-/// The guide's law goes by the segments of the outline itself, whatever convex pieces it falls into.
+/// Adds the segments for the DEMseg guide's segment law, which uses the outline itself instead of its convex pieces.
 void add_segments(World& world, const BodyInfo& info) {
     for (std::uint32_t e = 0; e < info.element_count; ++e) {
         const Element& a = world.bodies.elements[info.first_element + e];
@@ -166,8 +167,9 @@ void add_segments(World& world, const BodyInfo& info) {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Driving a body only takes from its inverse masses. A contact lies within the overlap, so within the reach of both
-/// its bodies; a tenth more stands for what an extreme overlap does to that.
+/// Sets upper bounds on inverse masses and lever arms. Driving a body can only reduce its inverse masses. A contact
+/// position lies within the overlap, and thus within the bounding radius of both bodies; 10 % is added for extreme
+/// overlaps.
 void bound_pushes(Bodies& bodies) {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         const BodyInertia& inertia = bodies.inertia[b];
@@ -199,10 +201,11 @@ void add_body(World& world, const Scene& scene, const Body& body, const MassProp
         add_segments(world, world.bodies.info(world.bodies.size() - 1));
 }
 
-/// Springs in series, k = 2k₁k₂/(k₁+k₂). Equal ones give their own, which the formula may miss in the last bit.
+/// Combined value k = 2k₁k₂/(k₁+k₂) of two springs in series, twice the series stiffness. Equal values are returned
+/// unchanged, since the formula could change the last bit.
 double in_series(double a, double b) { return a == b ? a : 2.0 * a * b / (a + b); }
 
-/// Its bonds cannot break.
+/// Makes the bonds of a law unbreakable.
 void hold(ContactLaw& law) {
     law.break_overlap = -infinite;
     law.tensile_strength = law.cohesion = infinite;
@@ -212,7 +215,7 @@ ContactLaw law_between(const Material& a, const Material& b, const MaterialPair&
     ContactLaw law{};
     law.normal_stiffness = pair.normal_stiffness.value_or(in_series(a.normal_stiffness, b.normal_stiffness));
     law.shear_stiffness = pair.shear_stiffness.value_or(in_series(a.shear_stiffness, b.shear_stiffness));
-    // A material's ratio stands for dashpots of its own stiffness; two materials combine as their dashpots would.
+    // A material's damping ratio defines dashpots for its own stiffness; the dashpots of two materials act in series.
     const auto ratio_term = [](const Material& m, double stiffness) {
         return m.damping_ratio ? 2.0 * *m.damping_ratio * std::sqrt(stiffness) : 0.0;
     };
@@ -224,21 +227,19 @@ ContactLaw law_between(const Material& a, const Material& b, const MaterialPair&
     law.normal_damping = in_series(a.damping_ratio ? 0.0 : a.normal_damping, b.damping_ratio ? 0.0 : b.normal_damping);
     law.shear_damping = in_series(a.damping_ratio ? 0.0 : a.shear_damping, b.damping_ratio ? 0.0 : b.shear_damping);
     const double angle = pair.friction_angle.value_or(std::min(a.friction_angle, b.friction_angle));
-    law.friction = correctly_rounded::tan(angle * std::numbers::pi / 180.0);
-    law.tensile_strength = pair.tensile_strength.value_or(std::min(a.tensile_strength, b.tensile_strength));
-    law.cohesion = pair.cohesion.value_or(std::min(a.cohesion, b.cohesion));
-    law.bond_friction = law.friction;
-    if (settings.bond_law == BondLaw::coulomb) {
-        const double weaker = std::min(a.residual_friction_angle, b.residual_friction_angle);
-        const double residual = std::min(pair.residual_friction_angle.value_or(weaker), angle);
-        law.friction = correctly_rounded::tan(residual * std::numbers::pi / 180.0);
+    law.friction = law.bond_friction = friction_coefficient(angle);
+    for (const BondConstant& constant : facts_of(settings.bond_law).constants) {
+        const std::optional<double> weaker =
+            std::min(a.bond_constants().*constant.given, b.bond_constants().*constant.given);
+        const double value = (pair.bond.*constant.given).value_or(*weaker);
+        law.*constant.of_law = constant.in_law(constant.is_angle ? std::min(value, angle) : value);
     }
     if (settings.intact.no_sliding) law.friction = infinite;
     if (settings.intact.no_breaking) hold(law);
     return law;
 }
 
-/// What the scene says of two materials; nothing where it is silent.
+/// The scene's entry for a pair of materials; an empty entry if the scene has none.
 MaterialPair pair_of(const Scene& scene, std::size_t a, std::size_t b) {
     const std::pair<int, int> wanted = std::minmax(static_cast<int>(a), static_cast<int>(b));
     for (const MaterialPair& pair : scene.material_pairs)
@@ -246,7 +247,7 @@ MaterialPair pair_of(const Scene& scene, std::size_t a, std::size_t b) {
     return {};
 }
 
-/// In the order that Settings::laws states.
+/// Builds the contact laws in the order required by Settings::laws.
 void build_laws(World& world, const Scene& scene) {
     Settings& settings = world.settings;
     const std::vector<Material>& materials = settings.materials;
@@ -256,19 +257,19 @@ void build_laws(World& world, const Scene& scene) {
     for (std::size_t pair = 0; pair < settings.pair_count(); ++pair) {
         ContactLaw law = settings.laws[pair];
         hold(law);
-        law.friction = infinite;  // and sticks
+        law.friction = infinite;  // with sliding switched off, contacts always stick
         settings.laws.push_back(law);
     }
-    // A domain wall has the touching body's own stiffness, damping and friction.
+    // A domain wall has the stiffness, damping and friction of the body that touches it.
     for (const Material& a : materials) settings.laws.push_back(law_between(a, a, {}, settings));
     derive_joint_laws(settings);
     if (world.settings.laws.size() > std::numeric_limits<std::uint16_t>::max()) {
-        throw InputError(
-            settings.joints.empty()
-                ? fmt::format("materials: found {}, expected at most 255", settings.materials.size())
-                : fmt::format("joints: found {} of {} materials, {} contact laws, expected at most {}; take fewer",
-                              settings.joints.size(), settings.materials.size(), settings.laws.size(),
-                              std::numeric_limits<std::uint16_t>::max()));
+        throw InputError(settings.joints.empty()
+                             ? fmt::format("materials: found {}, expected at most 255", settings.materials.size())
+                             : fmt::format("joints: found {} with {} materials, which need {} contact laws, expected "
+                                           "at most {} laws; use fewer joints or materials",
+                                           settings.joints.size(), settings.materials.size(), settings.laws.size(),
+                                           std::numeric_limits<std::uint16_t>::max()));
     }
 }
 
@@ -300,8 +301,8 @@ void choose_time_step(World& world, const Scene& scene) {
     world.stepping.automatic_step = scene.time_step == 0.0;
     if (world.stepping.automatic_step && !std::isfinite(world.stepping.step_bound)) {
         throw InputError(
-            "time step: found 0 (to be derived), expected a number > 0 in s; every body is held, so that no stiffness "
-            "bounds it");
+            "time step: found 0 (automatic), expected a number > 0 in s; every body is held, so a time step cannot be "
+            "derived");
     }
     world.stepping.time_step =
         world.stepping.automatic_step ? derived_step_share(world) * world.stepping.step_bound : scene.time_step;
@@ -309,8 +310,8 @@ void choose_time_step(World& world, const Scene& scene) {
         world.stepping.time_step > world.stepping.step_bound) {
         throw InputError(
             fmt::format("time step: found {} s, expected at most the stable bound of this scene, {:.6g} s; give a "
-                        "smaller one, leave it out to "
-                        "have it chosen, or run with --allow-unstable to see the limit",
+                        "smaller time step, omit it for an automatic step, or run with --allow-unstable to find the "
+                        "limit",
                         world.stepping.time_step, world.stepping.step_bound));
     }
 }
@@ -367,11 +368,12 @@ World build_world(Scene scene) {
     world.bodies.force.assign(world.bodies.size(), BodyForce{});
     build_laws(world, scene);
     rank_by_size(world);
-    build_controls(world, scene, internal_of);  // inverse masses of driven bodies enter m_eff and the bound
+    // Controls must be built first, since the inverse masses of driven bodies affect m_eff and the stable bound.
+    build_controls(world, scene, internal_of);
     refuse_bodies_outside(world);
     refresh_neighbours(world);
     choose_time_step(world, scene);
-    build_controls(world, scene, internal_of);  // ramp velocities need the time step
+    build_controls(world, scene, internal_of);  // built again, since ramp velocities depend on the time step
     return world;
 }
 

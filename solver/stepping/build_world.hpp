@@ -7,7 +7,8 @@
 
 namespace crackle {
 
-/// Validates the scene and lays it out. @throws InputError (a time step above the bound included, naming both).
+/// Validates a scene and builds a world from it. @throws InputError if the scene is not valid, or if the time step is
+/// above the stable bound; the message then states both values
 World build_world(Scene scene);
 
 }  // namespace crackle

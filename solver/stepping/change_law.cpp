@@ -2,12 +2,12 @@
 #include "solver/stepping/change_law.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <vector>
 
-#include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/contact/joint_law.hpp"
 #include "solver/stepping/time_step.hpp"
@@ -17,56 +17,42 @@ namespace {
 
 constexpr double right_angle = 90.0;  // degrees
 
-double tangent(double degrees) { return correctly_rounded::tan(degrees * std::numbers::pi / 180.0); }
-
-/// A stiffness with the term of its damping ratio, which goes by its root.
+/// Sets a stiffness and scales the corresponding damping ratio term with its square root.
 void stiffen(double& stiffness, double& ratio_term, double value) {
     ratio_term = stiffness > 0.0 ? ratio_term * std::sqrt(value / stiffness) : 0.0;
     stiffness = value;
 }
 
-/// The law with the number changed; of a pair whose bonds cannot break strengths stay infinite.
+/// Sets a property in one law. @param held whether the law's bonds are unbreakable; their strengths then stay infinite
 void enter(const Settings& settings, ContactLaw& law, const std::string& name, double value, bool held) {
     if (name == "normal_stiffness") stiffen(law.normal_stiffness, law.normal_damping_ratio_term, value);
     if (name == "shear_stiffness") stiffen(law.shear_stiffness, law.shear_damping_ratio_term, value);
     if (held || settings.intact.no_sliding) return;
-    const bool coulomb = settings.bond_law == BondLaw::coulomb;
-    if (name == "friction_angle") (coulomb ? law.bond_friction : law.friction) = tangent(value);
-    if (name == "residual_friction_angle") law.friction = tangent(value);
-    if (settings.intact.no_breaking) return;
-    if (name == "tensile_strength") law.tensile_strength = value;
-    if (name == "cohesion") law.cohesion = value;
+    const BondLawFacts& bonds = facts_of(settings.bond_law);
+    if (name == "friction_angle") law.*bonds.friction = friction_coefficient(value);
+    const BondConstant* constant = bonds.constant(name);
+    if (constant == nullptr || (settings.intact.no_breaking && !constant->is_angle)) return;
+    law.*constant->of_law = constant->in_law(value);
 }
 
 void check(const Settings& settings, const std::string& name, double value) {
-    const auto& keys = law_keys();
-    if (std::ranges::none_of(keys, [&](const LawKey& key) { return name == key.name; })) {
-        std::string known;
-        for (const LawKey& key : keys) known += std::string(known.empty() ? "" : ", ") + key.name;
-        throw InputError(fmt::format("property: found '{:.40}', expected one of {}", name, known));
+    std::vector<std::string> known{"normal_stiffness", "shear_stiffness", "friction_angle"};
+    for (const BondConstant& constant : all_bond_constants()) {
+        known.emplace_back(constant.key);
+        if (name == constant.key && facts_of(settings.bond_law).constant(name) == nullptr)
+            throw InputError(fmt::format("{}: found it with bond.law = \"{}\", expected bond.law = {}", name,
+                                         name_of(settings.bond_law), laws_with(&BondLawFacts::strengths_are_given)));
     }
+    if (std::ranges::count(known, name) == 0)
+        throw InputError(fmt::format("property: found '{:.40}', expected one of {}", name, fmt::join(known, ", ")));
     const bool angle = name.ends_with("angle"), positive = name == "normal_stiffness";
     if (!is_a_size(value) || value < 0.0 || (positive && value == 0.0) || (angle && value >= right_angle)) {
         throw InputError(fmt::format("{}: found {}, expected a number {} 0{}", name, value,
                                      positive ? ">" : ">=", angle ? " and < 90, in degrees" : ""));
     }
-    const bool coulomb_only = name == "tensile_strength" || name == "cohesion" || name == "residual_friction_angle";
-    if (coulomb_only && settings.bond_law != BondLaw::coulomb) {
-        throw InputError(
-            fmt::format("{}: found it under back-tension, expected bond.law = \"coulomb\"; a back-tension bond is as "
-                        "strong as its stiffness times its overlap",
-                        name));
-    }
 }
 
 }  // namespace
-
-const std::vector<LawKey>& law_keys() {
-    static const std::vector<LawKey> all{{"normal_stiffness", "N/m"},   {"shear_stiffness", "N/m"},
-                                         {"friction_angle", "degrees"}, {"residual_friction_angle", "degrees"},
-                                         {"tensile_strength", "N"},     {"cohesion", "N"}};
-    return all;
-}
 
 void change_law(World& world, std::size_t a, std::size_t b, const std::string& name, double value) {
     Settings& settings = world.settings;
@@ -77,18 +63,11 @@ void change_law(World& world, std::size_t a, std::size_t b, const std::string& n
     const std::size_t pair = pair_number(a, b);
     if (name == "shear_stiffness" && value == 0.0 && settings.laws[pair].shear_damping_ratio_term > 0.0) {
         throw InputError(fmt::format(
-            "{}: found 0, expected > 0 where contacts have a damping ratio: nothing would be left to keep it by",
-            name));
+            "{}: found 0, expected a number > 0, since the damping ratio of the contacts is undefined for 0", name));
     }
     ContactLaw changed = settings.laws[pair];
     enter(settings, changed, name, value, false);
-    constexpr double rounding = 1e-12;
-    if (changed.bond_friction * changed.tensile_strength > changed.cohesion * (1.0 + rounding)) {
-        throw InputError(fmt::format(
-            "{}: found {}, which puts the tensile strength {:.6g} beyond the apex of the envelope, cohesion over "
-            "friction, {:.6g}; give more cohesion first, or less",
-            name, value, changed.tensile_strength, changed.cohesion / changed.bond_friction));
-    }
+    check_strengths(changed, name);
     settings.laws[pair] = changed;
     enter(settings, settings.laws[settings.pair_count() + pair], name, value, true);
     if (a == b) enter(settings, settings.laws[2 * settings.pair_count() + a], name, value, false);

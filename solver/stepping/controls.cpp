@@ -19,15 +19,15 @@ double ramp_velocity(const ControlState& control, int dof, std::int64_t step, do
     return over ? 0.0 : control.dof[dof].value / (static_cast<double>(control.ramp_steps) * time_step);
 }
 
-/// Position a ramp asks for after `step` steps: x_0 + value·n/N.
+/// Position prescribed by a ramp at step number `step`: x_0 + value·n/N.
 double ramp_position(const ControlState& control, int dof, std::int64_t step) {
     const std::int64_t n = std::min(step - control.first_step, control.ramp_steps);
     return control.start[dof] +
            control.dof[dof].value * static_cast<double>(n) / static_cast<double>(control.ramp_steps);
 }
 
-/// Sets a held velocity. The drive brings the kinetic energy at once, so it is displacement work: its force is
-/// infinitely large for no time and shows in no reaction.
+/// Sets a prescribed velocity. The drive supplies the change of kinetic energy instantaneously, so it counts as
+/// displacement work. The force is an impulse and does not appear in the reaction.
 void set_velocity(World& world, BodyIndex b, int dof, double velocity) {
     double& now = velocity_of(world.bodies.state[b], dof);
     const double weight = dof < 2 ? world.bodies.inertia[b].mass : world.bodies.info(b).moment;
@@ -135,7 +135,7 @@ void place_controls(World& world) {
     for (ControlState& control : world.bodies.controls) {
         BodyState& body = world.bodies.state[control.body];
         for (int d = 0; d < 3; ++d) {
-            // A ramp's end is met to the last digit; the outline has turned by the same angle up to rounding.
+            // Places the body exactly on the ramp. The body's outline has rotated by the same angle, up to round-off.
             if (control.dof[d].drive == Drive::displacement)
                 position_of(body, d) = ramp_position(control, d, world.stepping.steps);
             control.last_move[d] = velocity_of(body, d) * world.stepping.drift;

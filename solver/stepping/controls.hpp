@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Driven bodies: held or moved at a given velocity, moved along a ramp, or pushed by a given force, a degree of freedom
-// each. A degree of freedom driven in displacement or velocity has inverse mass 0, so the bulk kernels need no branch
-// for it.
+// Driven bodies. Each driven degree of freedom is held, moved at a prescribed velocity, moved along a displacement
+// ramp, or loaded with a prescribed force. The inverse mass of a degree of freedom with a prescribed displacement or
+// velocity is 0, so the kernels need no branch for it.
 // Tested by tests/verification/two_bodies_test.cpp.
 #pragma once
 
@@ -10,23 +10,26 @@
 
 namespace crackle {
 
-/// Enters the scene's controls into the world: zero inverse masses, prescribed velocities, starts of ramps.
-/// @param internal_of body numbering: scene index to world index.
+/// Transfers the scene's controls to the world. For driven motions, inverse masses become zero, velocities take their
+/// prescribed values, and the positions at which ramps start are recorded.
+/// @param internal_of the index in the world of each body of the scene
 void build_controls(World& world, const Scene& scene, const std::vector<BodyIndex>& internal_of);
-/// Drives a body again from the present position on (replacing what drove it before).
+/// Drives a body from its current position on. The new control replaces the body's previous control.
 void set_control(World& world, BodyIndex body, const DofControl (&dof)[3], std::int64_t ramp_steps);
-/// Whether the last control of a body has Drive::velocity in a degree of freedom: 0 x, 1 y, 2 rotation.
+/// Whether the most recently set control of a body has Drive::velocity in a degree of freedom. @param dof the degree of
+/// freedom: 0 x, 1 y, 2 rotation
 bool driven_at_velocity(const World& world, BodyIndex body, int dof);
-/// Changes the prescribed velocity of a driven degree of freedom from the coming drift on; what that adds to the body's
-/// kinetic energy is displacement work. @param dof 0 x, 1 y, 2 rotation; driven by Drive::velocity
+/// Changes the prescribed velocity of a degree of freedom from the next drift on. The change of the body's kinetic
+/// energy counts as displacement work. @param dof the degree of freedom (0 x, 1 y, 2 rotation), which must have
+/// Drive::velocity
 void change_velocity(World& world, BodyIndex body, int dof, double velocity);
-/// Springs of all drives by a force count from where their bodies are now.
+/// Makes the current position of each body the zero position of its Drive::force springs.
 void relax_drives(World& world);
-/// Work of the drives over the last drift, by the trapezoidal rule.
+/// Adds the work done by the drives during the last drift, by the trapezoidal rule.
 void account_controls(World& world);
-/// Velocities of the coming drift. @param kick length of the kick, s
+/// Sets the velocities of driven bodies for the next drift. @param kick the length of the kick, s
 void kick_controls(World& world, double kick);
-/// Puts bodies on ramps exactly at the ramp's position, and notes how far every drive moved.
+/// Places bodies on displacement ramps exactly at the ramp's position, and records the displacement of every drive.
 void place_controls(World& world);
 
 }  // namespace crackle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// When, where and between which bodies something happened to a bond: what breaks and slips record alike.
+// Time, position and bodies of a bond event: the fields that BreakEvent and SlipEvent have in common.
 // Tested by tests/solver/stepping/record_breaks_test.cpp.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace crackle {
 
-/// Direction of a normal without its sense, in (-π/2, π/2].
+/// Angle of a normal, regardless of its sense, rad, in (-π/2, π/2].
 inline double orientation_of(Vec2 normal) {
     double angle = correctly_rounded::atan2(normal.y, normal.x);
     if (angle > 0.5 * std::numbers::pi) angle -= std::numbers::pi;
@@ -20,7 +20,7 @@ inline double orientation_of(Vec2 normal) {
     return angle;
 }
 
-/// @tparam Event BreakEvent or SlipEvent
+/// Creates an event and sets the common fields. @tparam Event either BreakEvent or SlipEvent
 template <class Event>
 Event event_at(const World& world, const PointView& view) {
     Event event{};

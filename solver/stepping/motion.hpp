@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Kick and drift of bodies, compiled for what the scene has and for an instruction set: v += a·kick, x += v·Δt.
+// Kick and drift of bodies, compiled for the features of a scene and for an instruction set: v += a·kick, x += v·Δt.
 // Tested by tests/solver/stepping/sweep_test.cpp.
 #pragma once
 
@@ -11,19 +11,20 @@
 
 namespace crackle {
 
-/// Moves bodies `begin` to `end`. @param kick s
+/// Moves the bodies from index `begin` up to, but not including, `end`. @param kick the length of the kick, s
 using MoveRange = Speeds (*)(World& world, double kick, std::int64_t begin, std::int64_t end);
-/// Moves the bodies of a list and clears their forces, if they are not needed in the next pass.
+/// Moves the listed bodies and, if compiled to do so, clears their forces. @param kick the length of the kick, s
 using MoveListed = Speeds (*)(World& world, double kick, const BodyIndex* bodies, std::int64_t count);
 
-/// @param turning some bodies have a frame that turns with them
+/// @param turning whether some bodies have a frame that rotates with them
 template <InstructionSet>
 MoveRange move_range_of(bool gravity, bool turning);
-/// @param clear Bodies::force of these bodies are left as 0: not where the consistent integrator looks at them again
+/// @param clear whether to set Bodies::force of these bodies to 0; must be false for the consistent integrator, which
+/// reads the forces again
 template <InstructionSet>
 MoveListed move_listed_of(bool gravity, bool turning, bool clear);
 
-/// Those that suit a world.
+/// The functions compiled for the features of a world.
 MoveRange move_range_for(const World& world);
 MoveListed move_listed_for(const World& world, bool turning, bool clear);
 

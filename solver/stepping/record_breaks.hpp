@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bonds that the last force pass found broken become events.
+// Records an event for each bond found broken in the last force pass.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace crackle {
 
-/// Appends one event a broken bond in the order of the points, books its energy and releases the point.
+/// Appends one event per broken bond, in point order, adds its energy to the account, and marks the point as unbonded.
 void record_breaks(World& world);
 
 }  // namespace crackle

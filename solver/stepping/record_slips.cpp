@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// First arrival of bonds at their Coulomb limit: the shear damage that no break tells of.
+// Records when bonds first reach their Coulomb limit: shear damage that is not counted as a break.
 
 #include "solver/stepping/record_slips.hpp"
 

@@ -6,8 +6,9 @@
 
 namespace crackle {
 
-/// Appends Bonds::slips where back-tension bonds have reached their Coulomb limit for the first time, in the order of
-/// points. After a force pass, before bodies move; linear in listed points, for worlds with Bonds::watch_slips.
+/// Appends an event to Bonds::slips for each back-tension bond that has reached its Coulomb limit for the first time,
+/// in point order. Call it after a force pass and before bodies move, in worlds with Bonds::watch_slips. The computing
+/// time is proportional to the number of listed points.
 void record_slips(World& world);
 
 }  // namespace crackle

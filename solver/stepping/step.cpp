@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One step of the simulation, readable from top to bottom.
+// One step of the simulation.
 //
-// compute_forces() brings the neighbour list up to date, lets every contact point compute its force from x(n) and
-// v(n-½), adds up each body's forces in a fixed order, and records broken bonds. Observers may look now: everything is
-// known at time n. advance() is leapfrog: v(n+½) = v(n-½) + a(n)Δt, x(n+1) = x(n) + v(n+½)Δt, driven bodies as their
-// controls prescribe. step() does both, in one sweep where nothing is measured in between (solver/stepping/sweep.hpp).
+// compute_forces() updates the neighbour list, computes the force of every contact point from x(n) and v(n-½), sums the
+// forces on each body in a fixed order, and records broken bonds. Observers may then read the state, since everything
+// is known at time n. advance() is leapfrog: v(n+½) = v(n-½) + a(n)Δt, x(n+1) = x(n) + v(n+½)Δt; driven bodies follow
+// their controls. step() does both in one sweep if nothing is measured in between (solver/stepping/sweep.hpp).
 
 #include <omp.h>
 
@@ -30,10 +30,10 @@ namespace {
 
 constexpr std::int64_t block_bodies = 512;
 
-/// s, of the kick that joins the middles of two drifts.
+/// Length of the kick from the middle of one drift to the middle of the next, s.
 double kick_now(const World& world) { return kick_before(world.stepping) + 0.5 * world.stepping.time_step; }
 
-/// Kick and drift of all bodies.
+/// Kicks and drifts all bodies. @return the speeds of the bodies
 Speeds move_bodies(World& world, double kick) {
     const auto count = static_cast<std::int64_t>(world.bodies.size());
     const MoveRange move = move_range_for(world);
@@ -49,7 +49,7 @@ Speeds move_bodies(World& world, double kick) {
     return {fastest, excess};
 }
 
-/// Adds up what the blocks of the force pass report, in their order.
+/// Sums the losses of the blocks of the force pass in index order.
 void sum_blocks(World& world) {
     std::uint32_t broken = 0, gained = 0;
     for (const LossBlock& block : world.account.blocks) {
@@ -72,7 +72,7 @@ void sample_geometry(World& world) {
     geometry_pass(world);
 }
 
-/// The bound on the step and the neighbour list, where points came to carry load or bodies have used up their skin.
+/// Updates the stable bound if points have begun to carry load, and the neighbour list if bodies have used up the skin.
 void update_neighbours(World& world) {
     if (world.stepping.points_gained) {
         count_new_points(world);
@@ -81,8 +81,7 @@ void update_neighbours(World& world) {
     refresh_neighbours(world);
 }
 
-/// Who does which points, how far joints have opened as they slid, and sums of forces that can be added to: what a
-/// membrane presses comes first.
+/// Divides the points among threads, clears the summed forces, opens joints that slide, and adds the membrane's forces.
 void prepare_forces(World& world) {
     plan_sweep(world);
     clear_forces(world);
@@ -94,7 +93,7 @@ void prepare_forces(World& world) {
     if (world.workers.profile != nullptr) sample_geometry(world);
 }
 
-/// Breaks, losses, driven bodies: what the force pass has left to be written down at time n.
+/// Records breaks, losses and the work of driven bodies after the force pass, at time n.
 void account_forces(World& world) {
     const PhaseTimer timer(world.workers.profile, Phase::bookkeeping);
     sum_blocks(world);
@@ -110,11 +109,13 @@ struct SweepMotion {
 };
 
 SweepMotion motion_of_sweep(const World& world) {
-    const bool clears = world.settings.integrator != Integrator::consistent;  // it looks at the last pass's forces
+    // The consistent integrator reads the forces of the last pass.
+    const bool clears = world.settings.integrator != Integrator::consistent;
     return {clears, move_listed_for(world, world.workers.plan.free_ones_turn, clears), kick_now(world)};
 }
 
-/// Bodies that the sweep has left in place: after a break, and driven ones. @return of all bodies
+/// Moves the bodies that the sweep has left in place: driven bodies, and others after a break. @return the speeds of
+/// all bodies
 Speeds move_remaining(World& world, const SweepMotion& motion) {
     Speeds speeds = move_the_rest(world, motion.move, motion.kick);
     kick_controls(world, motion.kick);
@@ -123,7 +124,7 @@ Speeds move_remaining(World& world, const SweepMotion& motion) {
     return speeds;
 }
 
-/// All but the motion of bodies itself. @param speeds of all bodies
+/// Completes a step after all bodies have moved. @param speeds the speeds of all bodies
 void end_step(World& world, const Speeds& speeds) {
     world.list.fastest = std::sqrt(speeds.checked());
     world.stepping.drift = world.stepping.time_step;
@@ -136,7 +137,7 @@ void end_step(World& world, const Speeds& speeds) {
     if (!(world.list.fastest * world.stepping.time_step < world.list.fastest_allowed_move)) check_health(world);
 }
 
-/// The energy that the account starts from is that of the first force pass.
+/// Starts the energy account: measures its initial energy in the first force pass.
 void begin_account(World& world) {
     world.account.begun = true;
     world.account.initial_energy = 0.0;
@@ -149,7 +150,7 @@ void compute_forces(World& world) {
     if (world.stepping.forces_current) return;
     update_neighbours(world);
     prepare_forces(world);
-    sweep(world, features_of(world), nullptr, 0.0);
+    chosen_sweep()(world, {world, features_of(world)}, nullptr, 0.0);
     world.bodies.forces_clear = false;
     account_forces(world);
     world.stepping.forces_current = true;
@@ -168,15 +169,16 @@ void step(World& world) {
         compute_forces(world);
         return advance(world);
     }
-    update_neighbours(world);  // list of contact points, bound on the step
-    prepare_forces(world);     // order of the sweep, forces set to 0
+    update_neighbours(world);  // updates the list of contact points and the stable bound
+    prepare_forces(world);     // divides the points among threads and clears forces
     const SweepMotion motion = motion_of_sweep(world);
-    sweep(world, features_of(world), motion.move, motion.kick);  // contact forces, their sums, motion of free bodies
+    // Computes and sums forces, and moves free bodies.
+    chosen_sweep()(world, {world, features_of(world)}, motion.move, motion.kick);
     world.bodies.forces_clear = motion.clears_forces;
-    account_forces(world);  // breaks, losses, work of driven bodies
+    account_forces(world);  // records breaks, losses and the work of driven bodies
     const PhaseTimer timer(world.workers.profile, Phase::integrate);
-    const Speeds speeds = move_remaining(world, motion);  // bodies held back by a break, driven bodies
-    end_step(world, speeds);                              // time, way travelled, controls' places, health
+    const Speeds speeds = move_remaining(world, motion);  // moves driven bodies and those left in place
+    end_step(world, speeds);                              // updates time and driven bodies, and checks the run
 }
 
 }  // namespace crackle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One step of the simulation, and its two halves for those who look between them.
+// One step of the simulation, and its two halves for callers that observe the state between them.
 // Tested by tests/solver/stepping/sweep_test.cpp.
 #pragma once
 
@@ -7,11 +7,12 @@
 
 namespace crackle {
 
-/// Brings the neighbour list up to date and does the force pass at the present positions; idempotent until advance().
+/// Updates the neighbour list and computes forces at the current positions. Calling it again before advance() has no
+/// effect.
 void compute_forces(World& world);
-/// Kick and drift: controls, velocities, positions, time. Needs compute_forces().
+/// Kick and drift: updates controls, velocities, positions and time. Call compute_forces() first.
 void advance(World& world);
-/// One step: compute_forces() and advance().
+/// One full step: compute_forces() and then advance().
 void step(World& world);
 
 }  // namespace crackle

@@ -12,11 +12,12 @@
 namespace crackle {
 namespace {
 
-/// So many that forces are added up, and bodies moved, while they are in the first cache.
+/// Number of bodies in a chunk; their data fit in the first-level cache while forces are summed and the bodies are
+/// moved.
 constexpr std::uint32_t bodies_of_chunk = 128;
 
-/// Calls visit(point, body) for each contribution of the points of the largest kind to a body, in the order in which
-/// they are added up.
+/// Calls visit(point, body) for each force contribution of a point of the largest kind to a body, in the order of
+/// summation.
 template <class Visit>
 void for_each_contribution(const World& world, Visit visit) {
     const std::size_t kind = world.workers.plan.largest_kind;
@@ -28,7 +29,8 @@ void for_each_contribution(const World& world, Visit visit) {
     }
 }
 
-/// Blocks of the largest kind that have a body's points; of one that has none, any.
+/// Range of blocks of the largest kind in which a body has points. For a body without such points, the range is one
+/// arbitrary block.
 struct BlockSpan {
     PointIndex first, last;
 };
@@ -50,7 +52,7 @@ std::vector<BlockSpan> block_spans(const World& world, PointIndex blocks) {
     return spans;
 }
 
-/// Who adds to which body, and where the others leave what they have for it.
+/// Determines which thread adds the forces on each body, and where other threads store their contributions to it.
 void plan_deferred(World& world, const std::vector<BlockSpan>& spans, PointIndex blocks) {
     SweepPlan& plan = world.workers.plan;
     const auto threads = static_cast<std::size_t>(world.workers.threads);
@@ -97,11 +99,12 @@ void plan_sweep(World& world) {
     plan.largest_kind = 0;
     for (std::size_t kind = 1; kind < point_kinds; ++kind)
         if (points_of(kind) > points_of(plan.largest_kind)) plan.largest_kind = kind;
-    // Where there are no points one empty block stands for them.
+    // Without points there is one empty block.
     const PointIndex blocks = std::max(PointIndex{1}, blocks_of_kind(world, plan.largest_kind));
     const std::vector<BlockSpan> spans = block_spans(world, blocks);
 
-    // Bodies by the block they are finished after, then late ones, then driven ones; alike ones by number.
+    // Bodies are sorted by the block after which their force is complete. Late bodies follow, then driven bodies.
+    // Within each group, bodies are sorted by index.
     const PointIndex late = blocks, driven = blocks + 1;
     std::vector<PointIndex> finishing(spans.size());
     for (std::size_t b = 0; b < spans.size(); ++b) {
@@ -149,8 +152,8 @@ void clear_forces(World& world) {
     for (const ControlState& control : world.bodies.controls) world.bodies.force[control.body] = {};
 }
 
-void sweep(World& world, const ContactFeatures& features, MoveListed move, double kick) {
-    of_chosen_set([&]<InstructionSet S>() { sweep_of<S>(world, features, move, kick); });
+Sweep chosen_sweep() {
+    return of_chosen_set([]<InstructionSet S>() -> Sweep { return &sweep_of<S>; });
 }
 
 Speeds move_the_rest(World& world, MoveListed move, double kick) {

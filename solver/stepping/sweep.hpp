@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces, their sums and the motion of bodies in one sweep over the points, while all of it is in the cache.
+// Computes forces, sums them and moves bodies in one sweep over the points, while the data are in the cache.
 //
-// Points of the smaller kinds (platens, walls) are done first, then those of the largest, which lie in the order of
-// their lower body: a body whose last point is done has its whole force, no point still to come looks at it, and it can
-// move at once. That is also the order in which a body's forces are added up. Each thread has a run of blocks of the
-// largest kind; what it finds for a body whose first points belong to another thread is added after that one's, so that
-// the bytes of a sum do not depend on the threads.
+// Points of the smaller kinds (platens, walls) are processed first, then those of the largest kind, which are sorted by
+// their lower body index. Once its last point is processed, the force on a body is complete and no later point uses the
+// body, so it can move at once. The forces on a body are summed in this order. Each thread processes a range of blocks
+// of the largest kind. If the first points of a body belong to another thread, that thread's forces are added first, so
+// that sums do not depend on the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -17,23 +17,26 @@
 
 namespace crackle {
 
-/// Workers::plan again if the list, the driven bodies or the threads have changed since.
+/// Updates Workers::plan if the neighbour list, the driven bodies or the number of threads have changed.
 void plan_sweep(World& world);
 
-/// Makes Bodies::force ready to be added to.
+/// Prepares Bodies::force for summing the forces of a force pass.
 void clear_forces(World& world);
 
-/// Forces of all points, their sums, and the motion of all bodies but the driven ones, on the threads of the world;
-/// after plan_sweep() and clear_forces(). Where a thread meets a broken bond it moves no body from there on, and none
-/// at all where slips are watched: events are to be recorded as all was at time n.
-/// @param move null: bodies stay
-void sweep(World& world, const ContactFeatures& features, MoveListed move, double kick);
-
-/// The same, as compiled for an instruction set.
+/// Computes the forces of all points, sums them, and moves all bodies except driven ones, on all threads of the world.
+/// Call plan_sweep() and clear_forces() first. A body moves only after its last point. A thread that finds a
+/// broken bond moves no further bodies, so that no body of a broken bond has moved; no body is moved if slips are
+/// watched. Events are thus recorded with bodies at time n.
+/// @param view a view of this world, with the features of its contacts @param move the function that moves bodies; null
+/// to leave them in place
+using Sweep = void (*)(World& world, const PassView& view, MoveListed move, double kick);
 template <InstructionSet>
-void sweep_of(World& world, const ContactFeatures& features, MoveListed move, double kick);
+void sweep_of(World& world, const PassView& view, MoveListed move, double kick);
 
-/// Moves those that have been kept in place. @return of all bodies but the driven ones
+/// Returns sweep_of() for the chosen instruction set.
+Sweep chosen_sweep();
+
+/// Moves the bodies that the sweep has left in place. @return largest speed of all bodies except driven ones
 Speeds move_the_rest(World& world, MoveListed move, double kick);
 
 }  // namespace crackle

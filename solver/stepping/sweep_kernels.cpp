@@ -14,16 +14,17 @@
 namespace crackle {
 namespace {
 
-/// Of a point's record what acts on i: the record itself. Its fourth number is nothing to a body.
+/// Force of a point on body i: the point's record itself, whose fourth number is not used.
 CRACKLE_INLINE Quad on_i(const PointForce& force) { return load_as<Quad>(&force); }
-/// The other side of what acts on i.
+/// Force of a point on body j, opposite to the force on body i.
 CRACKLE_INLINE Quad on_j(const Quad& record) {
     return __builtin_shufflevector(record, record, 0, 1, 3, 2) * Quad{-1.0, -1.0, 1.0, 1.0};
 }
 CRACKLE_INLINE void add(BodyForce& sum, const Quad& force) { store_as(&sum, load_as<Quad>(&sum) + force); }
 
-/// Calls visit(body, force) for each contribution of some points of one kind, in the order of for_each_contribution().
-/// @param forces of point `begin` and on @param fours_end as by end_of_fours()
+/// Calls visit(body, force) for each force contribution of the points from `begin` to `end` of one kind, in the order
+/// of for_each_contribution().
+/// @param forces the forces of the points from `begin` on @param fours_end the result of end_of_fours()
 template <bool Partner, class Visit>
 CRACKLE_INLINE void visit_contributions(const World& world, PointIndex begin, PointIndex fours_end, PointIndex end,
                                         const PointForce* forces, Visit visit) {
@@ -48,7 +49,7 @@ CRACKLE_INLINE void visit_contributions(const World& world, PointIndex begin, Po
     }
 }
 
-/// The same of a kind that is known at run time alone.
+/// Visits the force contributions of a kind known only at run time.
 template <class Visit>
 CRACKLE_INLINE void visit_contributions(const World& world, std::size_t kind, PointIndex begin, PointIndex end,
                                         const PointForce* forces, Visit visit) {
@@ -58,14 +59,14 @@ CRACKLE_INLINE void visit_contributions(const World& world, std::size_t kind, Po
         visit_contributions<false>(world, begin, begin, end, forces, visit);
 }
 
-/// One share of a sweep, by whichever thread: do_smaller_kinds(), then do_largest_kind(), then finish_late_bodies(),
-/// each once all shares have done the one before.
+/// One share of a sweep, in three phases: do_smaller_kinds(), do_largest_kind(), finish_late_bodies(). A phase starts
+/// only after all shares have completed the previous one. Any thread can process a share.
 class Sweeper {
   public:
-    Sweeper(World& world, const ContactFeatures& features, MoveListed move, double kick, std::size_t thread)
+    Sweeper(World& world, const PassView& view, MoveListed move, double kick, std::size_t thread)
         : world_(world),
           plan_(world.workers.plan),
-          features_(features),
+          view_(view),
           move_(move),
           kick_(kick),
           thread_(thread),
@@ -77,22 +78,28 @@ class Sweeper {
     }
 
     void do_smaller_kinds() {
-        std::size_t before = 0;  // points of kinds passed
+        std::size_t before = 0;  // number of points of the smaller kinds already processed
         for (std::size_t kind = 0; kind < point_kinds; ++kind) {
             const PointIndex blocks = blocks_of_kind(world_, kind);
             if (kind == plan_.largest_kind || blocks == 0) continue;
-            const ForceKernel kernel = force_kernel_of<InstructionSet::CRACKLE_SET>(features_, kind);
+            const ForceKernel kernel = force_kernel_of<InstructionSet::CRACKLE_SET>(view_.features, kind);
             PointForce at_hand[block_points];
             const PointIndex end = share_begin(blocks, thread_ + 1, threads_);
-            for (PointIndex b = share_begin(blocks, thread_, threads_); b < end; ++b) {
+            const PointIndex first = share_begin(blocks, thread_, threads_);
+            for (PointIndex b = first; b < end; ++b) {
                 PointForce* const kept = plan_.smaller_kinds.data() + before + std::size_t{b} * block_points;
                 const PointBlock block =
                     threads_ == 1 ? block_to_fill(kind, b, at_hand) : block_of(world_, kind, b, kept);
-                compute(kernel, block);
-                if (threads_ > 1) continue;  // added up when all threads have found theirs
+                {
+                    const PhaseTimer timer(profile_, Phase::force);
+                    kernel(view_, block);
+                }
+                // With several threads, forces are summed after all threads have computed theirs.
+                if (threads_ > 1) continue;
                 const PhaseTimer timer(profile_, Phase::gather);
                 add_all(block, kind);
             }
+            world_.workers.blocks_done[thread_] += end - first;
             before += world_.points.kind_begin[kind + 1] - world_.points.kind_begin[kind];
         }
     }
@@ -103,20 +110,25 @@ class Sweeper {
                   thread_ == 0 ? 0 : end_of_chunks(plan_, thread_ - 1),
                   world_.bonds.watch_slips || smaller_kinds_broke()};
         const std::size_t kind = plan_.largest_kind, first_block = first_block_of(world_, kind);
-        const ForceKernel kernel = force_kernel_of<InstructionSet::CRACKLE_SET>(features_, kind);
+        const ForceKernel kernel = force_kernel_of<InstructionSet::CRACKLE_SET>(view_.features, kind);
         const PointIndex blocks = blocks_of_kind(world_, kind);
         PointForce at_hand[block_points];
         PointIndex b = share_begin(blocks, thread_, threads_);
         std::uint32_t body = share_.moved_end;
         for (std::uint32_t c = plan_.thread_chunks[thread_]; c < plan_.thread_chunks[thread_ + 1]; ++c) {
             const SweepPlan::Chunk& chunk = plan_.chunks[c];
-            const PointIndex first = b, end = std::min(chunk.end_block, blocks);  // none where the kind has no points
+            // The range of blocks is empty if the kind has no points.
+            const PointIndex first = b, end = std::min(chunk.end_block, blocks);
             for (; b < end; ++b) {
                 const PointBlock block = block_to_fill(kind, b, at_hand);
-                compute(kernel, block);
+                {
+                    const PhaseTimer timer(profile_, Phase::force);
+                    kernel(view_, block);
+                }
                 const PhaseTimer timer(profile_, Phase::gather);
                 threads_ > 1 && plan_.defers[b] != 0 ? add_or_defer(block, kind) : add_all(block, kind);
             }
+            world_.workers.blocks_done[thread_] += end - first;
             share_.held = share_.held || some_broke(first_block + first, first_block + end);
             if (move_ != nullptr && !share_.held) {
                 move_on(body, chunk.end_body);
@@ -150,7 +162,8 @@ class Sweeper {
                some_broke(first + blocks_of_kind(world_, plan_.largest_kind), world_.account.blocks.size());
     }
 
-    /// Each thread goes through all of them and adds to the bodies it owns.
+    /// Adds the forces of the smaller kinds. Every thread reads all their points, but adds forces only to the bodies
+    /// that it owns.
     void add_smaller_kinds() {
         const PointForce* force = plan_.smaller_kinds.data();
         for (std::size_t kind = 0; kind < point_kinds; ++kind) {
@@ -171,17 +184,12 @@ class Sweeper {
                   world_.points.force.begin() + world_.points.kind_begin[plan_.largest_kind + 1]);
     }
 
-    /// A block whose forces go to where they are read later, else to where they are at hand.
+    /// The block to compute. Its forces are stored in a shared array if other threads need them, otherwise in
+    /// `at_hand`.
     PointBlock block_to_fill(std::size_t kind, PointIndex b, PointForce* at_hand) {
         PointBlock block = block_of(world_, kind, b, at_hand);
         if (!world_.points.force.empty()) block.forces = world_.points.force.data() + block.begin;
         return block;
-    }
-
-    void compute(ForceKernel kernel, const PointBlock& block) {
-        const PhaseTimer timer(profile_, Phase::force);
-        kernel(world_, features_, block);
-        ++world_.workers.blocks_done[thread_];
     }
 
     void add_all(const PointBlock& block, std::size_t kind) {
@@ -214,7 +222,7 @@ class Sweeper {
 
     World& world_;
     SweepPlan& plan_;
-    const ContactFeatures& features_;
+    const PassView& view_;
     MoveListed move_;
     double kick_;
     std::size_t thread_, threads_;
@@ -226,22 +234,22 @@ class Sweeper {
 }  // namespace
 
 template <>
-void sweep_of<InstructionSet::CRACKLE_SET>(World& world, const ContactFeatures& features, MoveListed move,
-                                           double kick) {
+void sweep_of<InstructionSet::CRACKLE_SET>(World& world, const PassView& view, MoveListed move, double kick) {
     const std::size_t shares = world.workers.plan.shares.size();
-    if (shares == 1) {  // needs no team: its barriers would cost a tenth of a small scene's step
-        Sweeper sweeper(world, features, move, kick, 0);
+    if (shares == 1) {  // no thread team: its barriers would cost a tenth of a step in a small scene
+        Sweeper sweeper(world, view, move, kick, 0);
         sweeper.do_smaller_kinds();
         return sweeper.do_largest_kind();
     }
     const bool smaller_kinds = !world.workers.plan.smaller_kinds.empty();
 #pragma omp parallel num_threads(world.workers.threads)
     {
-        // A team can be smaller than was asked for (OMP_THREAD_LIMIT, OMP_DYNAMIC): its threads then do several shares.
+        // A team can be smaller than requested (OMP_THREAD_LIMIT, OMP_DYNAMIC); its threads then process several shares
+        // each.
         const auto team = static_cast<std::size_t>(omp_get_num_threads());
         const auto mine = [&](auto phase) {
             for (auto share = static_cast<std::size_t>(omp_get_thread_num()); share < shares; share += team) {
-                Sweeper sweeper(world, features, move, kick, share);
+                Sweeper sweeper(world, view, move, kick, share);
                 (sweeper.*phase)();
             }
         };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which thread does what in a sweep, as its plan and its kernels have it.
+// Division of a sweep among threads, used by the sweep's plan and kernels.
 // Tested by tests/solver/stepping/sweep_test.cpp.
 #pragma once
 
@@ -11,19 +11,19 @@
 
 namespace crackle {
 
-/// First of `count` that is thread `thread`'s.
+/// Index of the first of `count` items that thread `thread` processes.
 inline std::uint32_t share_begin(std::uint32_t count, std::size_t thread, std::size_t threads) {
     return static_cast<std::uint32_t>(std::uint64_t{count} * thread / threads);
 }
 
-/// The thread whose share has one of `count`.
+/// Index of the thread that processes item `one` of `count`.
 inline std::size_t share_of(std::uint32_t one, std::uint32_t count, std::size_t threads) {
     return ((one + std::uint64_t{1}) * threads - 1) / count;
 }
 
 inline bool has_partner(std::size_t kind) { return static_cast<PointKind>(kind) != PointKind::element_wall; }
 
-/// Of points from `begin` to `end`, of one kind, where those end that are added up four at a time.
+/// End of the points that are summed in groups of four, within the points of one kind from `begin` to `end`.
 inline PointIndex end_of_fours(const World& world, std::size_t kind, PointIndex begin, PointIndex end) {
     if (static_cast<PointKind>(kind) != PointKind::element_outline) return begin;
     return std::clamp(world.points.fours_end, begin, end);
@@ -34,7 +34,7 @@ inline std::uint32_t end_of_chunks(const SweepPlan& plan, std::size_t thread) {
     return chunks == 0 ? 0 : plan.chunks[chunks - 1].end_body;
 }
 
-/// Whether no thread has met a broken bond.
+/// Whether no thread has found a broken bond.
 inline bool none_held(const SweepPlan& plan) {
     return std::ranges::none_of(plan.shares, [](const SweepPlan::Share& share) { return share.held; });
 }

@@ -49,9 +49,9 @@ void keep_step_below_bound(World& world) {
         return;
     }
     if (world.stepping.allow_unstable || world.stepping.time_step <= world.stepping.step_bound) return;
-    // Among bonds a given step may lie between the bound and the exact limit: of all listed points if that reaches, so
-    // that nothing more is asked until the list is rebuilt, or of those that touch. Loose bodies in collision would not
-    // bear it.
+    // In a bonded world, a given step may lie between the guaranteed bound and the exact limit. If the limit for all
+    // listed points allows it, no check is needed until the list is rebuilt. Otherwise the limit for the touching
+    // points applies. Collisions of loose bodies would not tolerate such a step.
     for (const ClosedPoints which : {ClosedPoints::listed, ClosedPoints::touching}) {
         if (!world.bonds.made) break;
         if (!stable_at(world, which, world.stepping.time_step)) continue;

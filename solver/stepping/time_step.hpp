@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The time step while a world changes: its bound is found again where contact points come and go, and the step is kept
-// below it.
+// The time step during a run: its stable bound changes as contact points appear and disappear, and the step is kept
+// below the bound.
 // Tested by tests/solver/measure/health_test.cpp.
 #pragma once
 
@@ -8,21 +8,24 @@
 
 namespace crackle {
 
-/// Rebuilds the neighbour list where it is used up, and finds the bound of the new one.
-/// @throws UnstableRun if the stable bound is below a time step that was given (not with allow_unstable)
+/// Rebuilds the neighbour list if bodies have used up its skin, and then computes the stable bound again.
+/// @throws UnstableRun if a given time step is above the stable bound (not with allow_unstable)
 void refresh_neighbours(World& world);
-/// StepControl::step_bound of the points that carry load now (without bonds: of all listed ones), and the step kept
-/// below. @throws UnstableRun as above
+/// Computes StepControl::step_bound for the points that carry load (without bonds: for all listed points) and keeps the
+/// step below it. @throws UnstableRun as above
 void evaluate_step_bound(World& world);
-/// The exact stable step of the points that touch, and what a derived step goes back to among bonds.
+/// Computes the exact stable step for the points in contact. In a bonded world, also sets the target of automatic step
+/// control (StepControl::step_goal).
 void find_exact_step(World& world);
-/// Lowers StepControl::step_bound by the points that came to carry load in the last force pass, and the coming steps
-/// with it. @throws UnstableRun as above
+/// Lowers StepControl::step_bound, and an automatic step with it, for points that began to carry load in the last force
+/// pass. @throws UnstableRun as above
 void count_new_points(World& world);
-/// A derived step is lowered to what step_bound allows (up to step_goal again when it rises). @throws UnstableRun
+/// Lowers an automatic step to what step_bound allows, or raises it towards step_goal when the bound has risen. @throws
+/// UnstableRun as above
 void keep_step_below_bound(World& world);
-/// Takes a given step in place of a derived one, up to the exact limit of the points that carry load now.
-/// @throws UnstableRun if it lies above (not with allow_unstable)
+/// Sets a fixed time step, s, in place of an automatic step. It may be as large as the exact limit for the points that
+/// carry load.
+/// @throws UnstableRun if it is above that limit (not with allow_unstable)
 void set_time_step(World& world, double time_step);
 
 }  // namespace crackle

@@ -1,275 +1,213 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bodies of a world: what a step reads and writes of each in one cache line, shapes in body frames, drives.
+// The bodies of a world: their state (one cache line per body, read and written in every step), their shapes in body
+// frames, and the controls that drive them.
 //
-// Bodies are numbered in rows along the shorter side of the scene (stepping/build_world.cpp); BodyInfo::id leads back
-// to the input's numbers.
+// Internally, bodies are numbered row by row, with rows along the shorter side of the scene (stepping/build_world.cpp).
+// BodyInfo::id is the id from the input.
 // Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "solver/base/array.hpp"
+#include "solver/base/fields.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace crackle {
 
-using BodyIndex = std::uint32_t;  // into the arrays of Bodies (internal numbering)
+struct World;
+
+using BodyIndex = std::uint32_t;  // index into the arrays of Bodies (internal numbering)
 inline constexpr BodyIndex no_body = 0xffffffff;
 
-/// What a step reads and writes of one body.
+/// The dynamic state of a body, which every step reads and writes.
 struct alignas(64) BodyState {
-    double x, y;    // centroid, m
-    double vx, vy;  // m/s, half a step behind x between steps (leapfrog)
-    double omega;   // rad/s
-    double
-        shape[2];  // single circle: radius, 0; clump or chain: cos and sin of the turn since the body frame was taken
-    double angle;  // rad, accumulated
+    double x, y;      // centroid, m
+    double vx, vy;    // m/s; leapfrog: between steps, half a step behind x
+    double omega;     // rad/s
+    double shape[2];  // single circle: radius, 0; otherwise cos and sin of the rotation from the body frame
+    double angle;     // rad, accumulated over all turns
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("x", s.x);
-        visit("y", s.y);
-        visit("vx", s.vx);
-        visit("vy", s.vy);
-        visit("omega", s.omega);
-        visit("shape", s.shape);
-        visit("angle", s.angle);
-    }
+    CRACKLE_FIELDS(x, y, vx, vy, omega, shape, angle);
 };
 static_assert(sizeof(BodyState) == 64);
 
-/// Per degree of freedom, so that a driven one (inverse 0) needs no branch.
+/// Inverse inertia per degree of freedom; 0 if the degree of freedom is driven, so that the kernels need no branch.
 struct BodyInertia {
     double inverse_mass_x, inverse_mass_y, inverse_moment;
     double mass;
 
-    /// In every degree of freedom: no force moves it.
+    /// Whether all degrees of freedom are driven, so that no force can move the body.
     bool held() const { return inverse_mass_x == 0.0 && inverse_mass_y == 0.0 && inverse_moment == 0.0; }
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("inverse_mass_x", s.inverse_mass_x);
-        visit("inverse_mass_y", s.inverse_mass_y);
-        visit("inverse_moment", s.inverse_moment);
-        visit("mass", s.mass);
-    }
+    CRACKLE_FIELDS(inverse_mass_x, inverse_mass_y, inverse_moment, mass);
 };
 static_assert(sizeof(BodyInertia) == 32);
 
 /// Sum of a body's contact forces (without gravity and applied loads), N and N m about its centroid.
 struct alignas(32) BodyForce {
     double fx, fy, torque;
-    double unused = 0.0;  // a point's record is added as a whole
+    double unused = 0.0;  // padding, so that kernels can add the four numbers of a PointForce at once
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("fx", s.fx);
-        visit("fy", s.fy);
-        visit("torque", s.torque);
-        visit("unused", s.unused);
-    }
+    CRACKLE_FIELDS(fx, fy, torque, unused);
 };
 
-/// What cannot change during a run, or is read only by observers. Of a single circle most of it follows from its radius
-/// and mass: Bodies::info() puts it together.
+/// Properties of a body that do not change during a run or are read only by observers. Bodies::info() assembles them.
+/// For a single circle, most of them follow from its radius and mass.
 struct BodyInfo {
     int id;
     std::uint16_t material;
     bool single_circle;
     bool closed;
     double moment;  // kg m2
-    double reach;   // m, bounding radius of the elements about the centroid (circle radius included, thick not)
-    std::uint32_t first_element, element_count;  // vertices or circles, for element_of() (world.hpp)
-    std::uint32_t first_piece, piece_count;      // into Bodies::pieces; 0 pieces: circles
+    double reach;   // m, bounding radius of the elements about the centroid (including circle radii, excluding `thick`)
+    std::uint32_t first_element, element_count;  // range of vertices or circles, for element_of() (world.hpp)
+    std::uint32_t first_piece, piece_count;      // range in Bodies::pieces; a count of 0 means circles
 };
 
 inline constexpr std::uint32_t no_shape = 0xffffffff;
-/// The element of a single circle, of whichever body; less than the largest number, so that loops over elements end.
+/// Element index that stands for the circle of a single-circle body. It is one less than the largest integer, so that
+/// first_element + element_count does not overflow.
 inline constexpr std::uint32_t own_circle = 0xfffffffe;
 
-/// What every body keeps of its info.
+/// The part of BodyInfo that is stored for every body.
 struct BodyName {
     int id;
     std::uint16_t material;
     bool closed;
-    std::uint32_t shape;  // into Bodies::shapes; no_shape: a single circle
+    std::uint32_t shape;  // index into Bodies::shapes; no_shape for a single circle
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("id", s.id);
-        visit("material", s.material);
-        visit("closed", s.closed);
-        visit("shape", s.shape);
-    }
+    CRACKLE_FIELDS(id, material, closed, shape);
 };
 static_assert(sizeof(BodyName) == 12);
 
-/// What a clump or chain keeps besides, as in BodyInfo.
+/// The part of BodyInfo that is stored for clumps and chains only.
 struct BodyShape {
     double moment, reach;
-    std::uint32_t first_element, element_count;  // into Bodies::elements
+    std::uint32_t first_element, element_count;  // range in Bodies::elements
     std::uint32_t first_piece, piece_count;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("moment", s.moment);
-        visit("reach", s.reach);
-        visit("first_element", s.first_element);
-        visit("element_count", s.element_count);
-        visit("first_piece", s.first_piece);
-        visit("piece_count", s.piece_count);
-    }
+    CRACKLE_FIELDS(moment, reach, first_element, element_count, first_piece, piece_count);
 };
 static_assert(sizeof(BodyShape) == 32);
 
-/// A circle or a vertex in the body frame.
+/// A circle or vertex of a body, in the body frame.
 struct Element {
-    double x, y;          // m, from the centroid
-    double radius;        // surface radius towards an outline or circle: circle r; vertex thick/2
-    double target_reach;  // what an outline adds on its side: for a circle thick, for a vertex thick/2
+    double x, y;    // m, relative to the centroid
+    double radius;  // m, distance of (x, y) from the surface that touches an outline or circle; thick/2 for a vertex
+    // m, added to `radius` for contact with an outline: `thick` for a circle, thick/2 for a vertex
+    double target_reach;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("x", s.x);
-        visit("y", s.y);
-        visit("radius", s.radius);
-        visit("target_reach", s.target_reach);
-    }
+    CRACKLE_FIELDS(x, y, radius, target_reach);
 };
 
-/// The part of a trace that a single circle stands for, before one side of it (geometry/flat_faces.hpp). It moves with
-/// the circle's centre and does not turn.
+/// The part of a trace that is assigned to a single circle as a straight face, on one side of the trace
+/// (geometry/flat_faces.hpp). It moves with the circle's centre and does not rotate.
 struct FlatFace {
     BodyIndex body;
-    std::uint32_t piece;      // of the trace's straight parts, numbered over all traces
-    TraceSide side;           // that the circle lies on
-    double from, to;          // m, its ends along the piece, from the circle's centre
-    double height;            // m, of the circle's centre above it
-    double along_x, along_y;  // unit direction of the piece
+    std::uint32_t piece;  // index of the straight part of a trace, counted over all traces
+    TraceSide side;       // side of the trace on which the circle lies
+    double from, to;      // m, positions of the face's ends along the straight part, relative to the circle's centre
+    double height;        // m, height of the circle's centre above the face
+    double along_x, along_y;  // unit vector along the straight part
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("body", s.body);
-        visit("piece", s.piece);
-        visit("side", s.side);
-        visit("from", s.from);
-        visit("to", s.to);
-        visit("height", s.height);
-        visit("along_x", s.along_x);
-        visit("along_y", s.along_y);
-    }
+    CRACKLE_FIELDS(body, piece, side, from, to, height, along_x, along_y);
 };
 
-/// A convex closed outline, or one open segment, in the body frame.
+/// A convex closed outline or a single open segment, in the body frame.
 struct Piece {
-    std::uint32_t first_edge, edge_count;  // into Bodies::edges
+    std::uint32_t first_edge, edge_count;  // range in Bodies::edges
     bool closed;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("first_edge", s.first_edge);
-        visit("edge_count", s.edge_count);
-        visit("closed", s.closed);
-    }
+    CRACKLE_FIELDS(first_edge, edge_count, closed);
 };
 
-/// One edge in the body frame: start, unit direction (outward normal = direction turned by -90 degrees), length.
+/// One edge in the body frame: start point, unit direction and length. The outward normal is the direction turned by
+/// -90 degrees.
 struct Edge {
     double x, y;
     double tx, ty;
     double length;
-    /// What the corners at its start and its end are closest to: points `across` >= 0 in front of the edge's line and
-    /// `over` beyond that end (negative at the start) with across + over·cone >= 0. cot θ and -cot θ, θ the angle by
-    /// which the outline turns there; closed pieces only.
+    /// Determines whether the corner at the edge's start or end is the closest point of the outline. A point lies
+    /// `across` >= 0 in front of the edge's line and `over` beyond that end (`over` is negative at the start). The
+    /// corner is closest if across + over·cone >= 0. The values are cot θ at the start and -cot θ at the end, with θ
+    /// the angle by which the outline turns at the corner; only for closed pieces.
     double cone[2] = {0.0, 0.0};
-    BodyIndex outline_of = no_body;  // the body whose outline is the one convex piece that this edge is of
+    BodyIndex outline_of =
+        no_body;  // body whose outline is one convex piece that contains this edge; no_body otherwise
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("x", s.x);
-        visit("y", s.y);
-        visit("tx", s.tx);
-        visit("ty", s.ty);
-        visit("length", s.length);
-        visit("cone", s.cone);
-        visit("outline_of", s.outline_of);
-    }
+    CRACKLE_FIELDS(x, y, tx, ty, length, cone, outline_of);
 };
 static_assert(sizeof(Edge) == 64);
 
-/// One driven body with what is needed to account for its work.
+/// A driven body, with the values needed to account for the work of its drive.
 struct ControlState {
     BodyIndex body;
     DofControl dof[3];        // x, y, rotation
-    double start[3];          // position when it was entered
+    double start[3];          // m, rad; position when the control was set
     std::int64_t first_step;  // step at which the ramp began
     std::int64_t ramp_steps;
-    double last_force[3];  // driving force (N, N m) at the last force pass: the reaction, or the force applied
-    double last_move[3];   // m, rad in the last step
+    double last_force[3];  // N, N m; driving force in the last force pass: reaction or applied force
+    double last_move[3];   // m, rad; displacement in the last step
 
-    /// N, N m, of a Drive::force now: what is given, less what its spring has taken up since it was entered.
+    /// Current driving force of a Drive::force control, N or N m: the prescribed value minus stiffness times the
+    /// displacement since the control was set.
     double force(int d, const BodyState& b) const {
         return dof[d].value - dof[d].stiffness * ((d == 0 ? b.x : d == 1 ? b.y : b.angle) - start[d]);
     }
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("body", s.body);
-        visit("dof", s.dof);
-        visit("start", s.start);
-        visit("first_step", s.first_step);
-        visit("ramp_steps", s.ramp_steps);
-        visit("last_force", s.last_force);
-        visit("last_move", s.last_move);
-    }
+    CRACKLE_FIELDS(body, dof, start, first_step, ramp_steps, last_force, last_move);
 };
 
-/// What a body's last kick and its inertia are at most, at any of its contacts and along any normal.
+/// Upper bounds for a body, valid for any contact position and any normal: acceleration in the last kick, and inverse
+/// mass.
 struct PushBound {
-    double acceleration;  // m/s2; nothing is known of it before the first kick
-    double inverse_mass;  // 1/kg
-    double reach;         // m, of a contact from the centroid
+    double acceleration;  // m/s2; infinite before the first kick
+    double inverse_mass;  // 1/kg; includes rotation, for a contact at distance `reach`
+    double reach;         // m, largest distance of a contact from the centroid
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("acceleration", s.acceleration);
-        visit("inverse_mass", s.inverse_mass);
-        visit("reach", s.reach);
-    }
+    CRACKLE_FIELDS(acceleration, inverse_mass, reach);
 };
 
+/// All bodies, with one array per quantity, indexed by body.
 struct Bodies {
     Array<BodyState> state;
     Array<BodyInertia> inertia;
-    /// Of the last force pass: after compute_forces() of all bodies, after step() of driven ones.
+    /// Forces from the last force pass: for all bodies after compute_forces(), only for driven bodies after step().
     Array<BodyForce> force;
-    bool forces_clear = false;    // those of all but driven bodies are 0
-    Array<BodyForce> last_force;  // of the pass before; consistent integrator only
+    bool forces_clear = false;    // whether the forces of all bodies except driven ones are 0
+    Array<BodyForce> last_force;  // forces from the previous pass; consistent integrator only
     Array<PushBound> push_bound;  // consistent integrator only
     Array<BodyName> names;
-    Array<BodyShape> shapes;  // of clumps and chains, in the order of the bodies
-    Array<Element> elements;  // of clumps and chains
-    /// By element: on which side of a trace the edge to the outline's next corner lies. Empty without joints.
+    Array<BodyShape> shapes;  // shapes of clumps and chains, in body order
+    Array<Element> elements;  // elements of clumps and chains
+    /// For each element: side of a trace on which the edge from this corner to the next one lies. Empty without joints.
     Array<TraceSide> element_sides;
-    /// Of circles at traces, by body; those of a body from first_flat_face on. Both empty without such joints.
+    /// Flat faces of single circles along traces, sorted by body. `first_flat_face` holds the index of the first face
+    /// of each body. Both are empty without flat faces.
     Array<FlatFace> flat_faces;
     Array<std::uint32_t> first_flat_face;
     Array<Piece> pieces;
     Array<Edge> edges;
-    bool convex_outlines = true;  // every outline is one convex piece
-    Array<Edge> segments;  // by element: the segment that begins there (length 0: none); empty without guide's law
+    bool convex_outlines = true;  // whether every outline is one convex piece
+    // For each element: the segment that begins at this element (length 0: no segment). Empty unless the DEMseg guide's
+    // segment law is used.
+    Array<Edge> segments;
     std::vector<ControlState> controls;
 
+    /// Number of bodies.
     std::size_t size() const { return state.size(); }
 
-    /// Of a body.
+    /// Flat faces of a body.
     std::span<const FlatFace> flat_faces_of(std::size_t b) const {
         if (first_flat_face.empty()) return {};
         return std::span(flat_faces).subspan(first_flat_face[b], first_flat_face[b + 1] - first_flat_face[b]);
     }
 
+    /// Kind, elements and shape of a body.
     BodyInfo info(std::size_t b) const {
         const BodyName& name = names[b];
         if (name.shape == no_shape) {
@@ -289,33 +227,46 @@ struct Bodies {
                 shape.first_piece,
                 shape.piece_count};
     }
-    /// How far turning moves its surface, m: 0 of single circles, which have no frame.
+    /// Largest distance from the centroid of a surface point that moves when the body rotates, m; 0 for single circles,
+    /// which have no body frame.
     double turning_reach(std::size_t b) const {
         const std::uint32_t shape = names[b].shape;
         return shape == no_shape ? 0.0 : shapes[shape].reach;
     }
+    /// Whether any body has a shape that rotates with the body.
     bool some_turn() const { return !shapes.empty(); }
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("state", s.state);
-        visit("inertia", s.inertia);
-        visit("force", s.force);
-        visit("forces_clear", s.forces_clear);
-        visit("last_force", s.last_force);
-        visit("push_bound", s.push_bound);
-        visit("names", s.names);
-        visit("shapes", s.shapes);
-        visit("elements", s.elements);
-        visit("element_sides", s.element_sides);
-        visit("flat_faces", s.flat_faces);
-        visit("first_flat_face", s.first_flat_face);
-        visit("pieces", s.pieces);
-        visit("edges", s.edges);
-        visit("convex_outlines", s.convex_outlines);
-        visit("segments", s.segments);
-        visit("controls", s.controls);
-    }
+    CRACKLE_FIELDS(state, inertia, force, forces_clear, last_force, push_bound, names, shapes, elements, element_sides,
+                   flat_faces, first_flat_face, pieces, edges, convex_outlines, segments, controls);
 };
+
+/// Inputs for the geometry of contact points: plain pointers to bodies and their shapes, either in a world (see Bodies)
+/// or in the caller's own arrays. Valid until one of the arrays is resized.
+struct BodyView {
+    BodyView() = default;
+    BodyView(const World& world);  // defined in world.hpp
+
+    const BodyState* state = nullptr;
+    const BodyName* names = nullptr;
+    const BodyShape* shapes = nullptr;
+    const Element* elements = nullptr;
+    const Piece* pieces = nullptr;
+    const Edge* edges = nullptr;
+    const Edge* segments = nullptr;
+    const FlatFace* flat_faces = nullptr;
+    bool convex_outlines = true;
+    bool mean_of_discs = false;  // SegmentLaw::demseg_mean
+    double thick = 0.0;          // m, segment thickness
+    Domain domain;
+
+    /// Shape of a body that is not a single circle.
+    const BodyShape& shape_of(BodyIndex b) const { return shapes[names[b].shape]; }
+};
+
+/// A circle or vertex of a body. @param element an index as in BodyInfo::first_element or ContactPoint
+inline Element element_of(const BodyView& bodies, std::size_t body, std::uint32_t element) {
+    if (element == own_circle) return {0.0, 0.0, bodies.state[body].shape[0], bodies.thick};
+    return bodies.elements[element];
+}
 
 }  // namespace crackle

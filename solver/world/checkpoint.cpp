@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Complete state of a world as bytes, through cereal's binary archive. What a restart needs is all here, the neighbour
-// list and the remembered facing edges included, so that a restarted run does the very same arithmetic.
+// Saves and loads the complete state of a world as bytes, with cereal's binary archive. It includes the neighbour list
+// and the edges faced last, so that a restarted run performs exactly the same arithmetic.
 
 #include "solver/world/checkpoint.hpp"
 
@@ -19,16 +19,16 @@
 #include <sstream>
 #include <utility>
 
-#include "solver/base/archive.hpp"
 #include "solver/base/checked_input.hpp"
 #include "solver/base/errors.hpp"
-#include "solver/base/watching_buffer.hpp"
+#include "solver/base/fields.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/read_pieces.hpp"
+#include "solver/files/watching_buffer.hpp"
 
 namespace crackle {
 
-// Raise when a field of a group is added, removed or moved.
+// Increment this when a field of a group is added, removed or moved.
 constexpr std::uint32_t checkpoint_version = 23;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
@@ -71,7 +71,7 @@ World load_world(std::istream& in, std::streamoff end, const std::string& name, 
         throw InputError(
             fmt::format("{}: found checkpoint version {}, expected {}; {}", name, version, checkpoint_version, remedy));
     }
-    // Checked before a single length in it is used.
+    // The hash is verified before any length in the data is used.
     const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> hash(XXH3_createState(), &XXH3_freeState);
     XXH3_64bits_reset(hash.get());
     const auto add = [&](std::string_view piece) { XXH3_64bits_update(hash.get(), piece.data(), piece.size()); };
@@ -90,9 +90,9 @@ World load_world(std::istream& in, std::streamoff end, const std::string& name, 
 
 namespace {
 
-constexpr std::int64_t most_steps = 1'000'000'000'000'000;  // sums of a few stay far below overflow
+constexpr std::int64_t most_steps = 1'000'000'000'000'000;  // sums of a few values of this size stay far below overflow
 
-/// Whether a range of `count` from `first` on lies within an array.
+/// Whether `count` entries starting at index `first` lie within an array of `size` entries.
 bool within(std::size_t first, std::size_t count, std::size_t size) { return first <= size && count <= size - first; }
 
 bool flat_faces_are_whole(const World& world) {
@@ -103,6 +103,17 @@ bool flat_faces_are_whole(const World& world) {
            b.first_flat_face.back() == b.flat_faces.size() && std::ranges::is_sorted(b.first_flat_face) &&
            std::ranges::all_of(b.flat_faces, [&](const FlatFace& face) {
                return face.body < b.size() && face.side >= 0 && face.side < 2 * traces;
+           });
+}
+
+/// Whether all enumerations have valid values.
+bool words_are_known(const World& world) {
+    const Settings& s = world.settings;
+    return s.driven_contacts <= DrivenContacts::all && s.segment_law <= SegmentLaw::demseg_mean &&
+           s.integrator <= Integrator::consistent && is_known(s.bond_law) && s.units <= StiffnessUnits::area &&
+           std::ranges::all_of(world.bodies.controls, [](const ControlState& control) {
+               return std::ranges::all_of(control.dof,
+                                          [](const DofControl& dof) { return dof.drive <= Drive::displacement; });
            });
 }
 
@@ -117,6 +128,7 @@ bool bodies_are_whole(const World& world) {
         !(b.segments.empty() || b.segments.size() == b.elements.size()) ||
         !(b.element_sides.empty() || b.element_sides.size() == b.elements.size()))
         return false;
+    if (n > 0 && world.stepping.limiting_body >= n) return false;
     if (list.valid && (list.reference.size() != n || list.reference_angles.size() != b.shapes.size())) return false;
     if (world.settings.integrator == Integrator::consistent &&
         (b.last_force.size() != n || b.push_bound.size() != n || world.account.opening_defects.size() != n))
@@ -145,9 +157,8 @@ bool bodies_are_whole(const World& world) {
 
 bool points_are_whole(const World& world) {
     const Points& points = world.points;
-    const std::size_t n = world.bodies.size(), count = points.size();
-    if (points.kind_begin.front() != 0 || points.kind_begin.back() != count ||
-        !std::ranges::is_sorted(points.kind_begin) || points.fours_end > count || points.root_mass.size() != count ||
+    const std::size_t count = points.size();
+    if (!are_kinds_of(points.kind_begin, count) || points.fours_end > count || points.root_mass.size() != count ||
         !(points.force.empty() || points.force.size() == count))
         return false;
     bool whole = points.contact.parts.size() == count - points.kind_begin[1];
@@ -155,38 +166,22 @@ bool points_are_whole(const World& world) {
         whole = whole && values.size() == (keeps(world, remembered) ? count : 0);
     });
     if (!whole) return false;
-    const auto is_element = [&](BodyIndex body, std::uint32_t element) {
-        return world.bodies.names[body].shape == no_shape ? element == own_circle
-                                                          : element < world.bodies.elements.size();
-    };
-    const auto point_is_whole = [&](PointKind kind, const ContactPoint& point) {
-        const auto is_face = [&](BodyIndex body, std::uint32_t face) {
-            return face < world.bodies.flat_faces.size() && world.bodies.flat_faces[face].body == body;
-        };
-        if (point.body_i >= n) return false;
-        if (kind == PointKind::face_face)
-            return is_face(point.body_i, point.element_i) && is_face(point.body_j, point.feature_j);
-        if (!is_element(point.body_i, point.element_i)) return false;
-        if (kind == PointKind::element_wall) return point.body_j < world.settings.domain.wall_present.size();
-        if (point.body_j >= n) return false;
-        if (kind == PointKind::element_outline) return point.feature_j < world.bodies.edges.size();
-        return is_element(point.body_j, point.feature_j);
-    };
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         for (PointIndex k = points.kind_begin[kind]; k < points.kind_begin[kind + 1]; ++k) {
-            if (!point_is_whole(static_cast<PointKind>(kind), points.contact[k]) ||
+            if (!is_point_of(world, static_cast<PointKind>(kind), points.contact[k]) ||
                 points.state[k].law >= world.settings.laws.size())
                 return false;
         }
     }
-    return true;
+    return std::ranges::all_of(world.bonds.events,
+                               [&](const BreakEvent& event) { return is_point_of(world, event.kind, event.point); });
 }
 
 bool membrane_is_whole(const World& world) {
     const Membrane& m = world.membrane;
     const std::size_t n = world.bodies.size(), count = m.points.size();
     const bool between = m.bottom < n && m.top < n, around = m.bottom == no_body && m.top == no_body;
-    // An end of a chain is a point of its own, and so is what lies between.
+    // Each chain has at least its two end points.
     const bool chains = count == 0 || around || (m.left_end >= 2 && count >= 2 && m.left_end <= count - 2);
     return (between || around) && chains &&
            std::ranges::all_of(m.points, [n](const MembranePoint& point) { return point.body < n; });
@@ -194,13 +189,36 @@ bool membrane_is_whole(const World& world) {
 
 }  // namespace
 
+bool is_point_of(const World& world, PointKind kind, const ContactPoint& point) {
+    const Bodies& bodies = world.bodies;
+    const std::size_t n = bodies.size();
+    const auto is_face = [&](BodyIndex body, std::uint32_t face) {
+        return face < bodies.flat_faces.size() && bodies.flat_faces[face].body == body;
+    };
+    const auto is_element = [&](BodyIndex body, std::uint32_t element) {
+        return bodies.names[body].shape == no_shape ? element == own_circle : element < bodies.elements.size();
+    };
+    if (static_cast<int>(kind) >= point_kinds || point.body_i >= n) return false;
+    if (kind == PointKind::face_face)
+        return is_face(point.body_i, point.element_i) && is_face(point.body_j, point.feature_j);
+    if (!is_element(point.body_i, point.element_i)) return false;
+    if (kind == PointKind::element_wall) return point.body_j < world.settings.domain.wall_present.size();
+    if (point.body_j >= n) return false;
+    if (kind == PointKind::element_outline) return point.feature_j < bodies.edges.size();
+    return is_element(point.body_j, point.feature_j);
+}
+
+bool are_kinds_of(const std::array<PointIndex, point_kinds + 1>& kind_begin, std::size_t count) {
+    return kind_begin.front() == 0 && kind_begin.back() == count && std::ranges::is_sorted(kind_begin);
+}
+
 void require_whole(const World& world, const std::string& name) {
     const Settings& settings = world.settings;
     const std::size_t laws = settings.first_joint_law() + settings.joints.size() * settings.pair_count();
     const auto is_joint = [&](std::int32_t joint) { return joint >= -1 && joint < std::ssize(settings.joints); };
     if (std::ranges::all_of(settings.trace_joints, is_joint) && world.stepping.steps >= 0 &&
-        world.stepping.steps <= most_steps && settings.laws.size() == laws && bodies_are_whole(world) &&
-        points_are_whole(world) && membrane_is_whole(world))
+        world.stepping.steps <= most_steps && settings.laws.size() == laws && words_are_known(world) &&
+        bodies_are_whole(world) && points_are_whole(world) && membrane_is_whole(world))
         return;
     throw InputError(
         fmt::format("{}: found parts that do not belong together, expected a checkpoint as crackle wrote it", name));

@@ -1,54 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What has left or entered a world as energy since its account began (measure/ledger.hpp reads it).
+// Energy supplied to and dissipated by a world since its energy account was started (read by measure/ledger.hpp).
 // Tested by tests/verification/two_bodies_test.cpp.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "solver/base/fields.hpp"
+
 namespace crackle {
 
-/// What one block of points adds in a force pass; blocks are added up in their order, on any number of threads.
+/// Losses of one block of points in a force pass. Blocks are summed in index order, so the sum does not depend on the
+/// number of threads.
 struct LossBlock {
     double dashpot = 0.0, friction = 0.0, law = 0.0;  // J
     std::uint32_t broken = 0;
-    std::uint32_t gained = 0;  // points that carry load and are not counted in StepControl::step_bound yet
+    // Number of points that have begun to carry load but are not yet counted in StepControl::step_bound.
+    std::uint32_t gained = 0;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("dashpot", s.dashpot);
-        visit("friction", s.friction);
-        visit("law", s.law);
-        visit("broken", s.broken);
-        visit("gained", s.gained);
-    }
+    CRACKLE_FIELDS(dashpot, friction, law, broken, gained);
 };
 
-/// J throughout.
+/// Energies of a world since its account was started, all in J.
 struct EnergyAccount {
-    bool begun = false;           // the energy that it begins with is known
-    double initial_energy = 0.0;  // potential, kinetic and strain energy at the beginning
+    bool begun = false;           // whether the initial energy is known
+    double initial_energy = 0.0;  // J; potential, kinetic and strain energy at the start of the account
     double dashpot_loss = 0.0, friction_loss = 0.0, fracture_loss = 0.0, law_loss = 0.0;
     double displacement_work = 0.0, force_work = 0.0;
-    double largest_supply = 0.0;          // for the runaway check
-    std::vector<double> opening_defects;  // per body: OpeningMemory::defect of points that have left the list; empty
-                                          // without the consistent integrator
-    std::vector<LossBlock> blocks;        // of the last force pass
+    double largest_supply = 0.0;  // J, largest energy supplied so far; used by the check for runaway energy
+    // For each body: sum of OpeningMemory::defect over the points that have left the neighbour list, J. Empty without
+    // the consistent integrator.
+    std::vector<double> opening_defects;
+    std::vector<LossBlock> blocks;  // losses in the last force pass, for each block of points
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("begun", s.begun);
-        visit("initial_energy", s.initial_energy);
-        visit("dashpot_loss", s.dashpot_loss);
-        visit("friction_loss", s.friction_loss);
-        visit("fracture_loss", s.fracture_loss);
-        visit("law_loss", s.law_loss);
-        visit("displacement_work", s.displacement_work);
-        visit("force_work", s.force_work);
-        visit("largest_supply", s.largest_supply);
-        visit("opening_defects", s.opening_defects);
-        visit("blocks", s.blocks);
-    }
+    CRACKLE_FIELDS(begun, initial_energy, dashpot_loss, friction_loss, fracture_loss, law_loss, displacement_work,
+                   force_work, largest_supply, opening_defects, blocks);
 };
 
 }  // namespace crackle

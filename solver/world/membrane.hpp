@@ -1,68 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A membrane about a world: chains of points of bodies, straight pieces between them, and the pressure on these. Empty
-// in worlds without one. solver/membrane/ wraps and presses it. Tested by tests/solver/membrane/membrane_test.cpp.
+// A membrane around the bodies of a world: chains of points on bodies, straight pieces between these points, and a
+// pressure on the pieces. Empty in worlds without a membrane. The code in solver/membrane/ wraps it around the bodies
+// and applies the pressure.
+// Tested by tests/solver/membrane/membrane_test.cpp.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "solver/base/fields.hpp"
 #include "solver/world/bodies.hpp"
 
 namespace crackle {
 
-/// A point of a body, and the piece that leads to it from the one before.
+/// A point of the membrane on a body, and the straight piece from the previous point to this point.
 struct MembranePoint {
     BodyIndex body;
-    double x, y;     // m, from the centroid in the body's frame
-    double longest;  // m, of the piece; one that is longer has parted
+    double x, y;     // m, position relative to the centroid in the body's frame
+    double longest;  // m, largest allowed length of the piece; if exceeded, the membrane is wrapped again
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("body", s.body);
-        visit("x", s.x);
-        visit("y", s.y);
-        visit("longest", s.longest);
-    }
+    CRACKLE_FIELDS(body, x, y, longest);
 };
 
+/// A membrane under pressure, and the points on bodies through which it passes.
 struct Membrane {
-    double pressure = 0.0;  // N/m of a plane, force over length
-    double probe = 0.0;     // m, radius of the disc that is rolled about the bodies to find the points
-    /// Bodies between which it spans, the upper faces downwards and upwards; no_body: it goes round all bodies.
+    double pressure = 0.0;  // N/m (force per length in the plane)
+    double probe = 0.0;     // m, radius of the probe disc that is rolled around the bodies to find the points
+    /// Bodies between which the membrane is stretched (lower and upper platen); no_body if it encloses all bodies.
     BodyIndex bottom = no_body, top = no_body;
-    /// Points clockwise about the bodies. Between two platens: of the left side upwards to `left_end`, then of the
-    /// right side downwards, the platens' own points at the ends of each.
+    /// Points in clockwise order around the bodies. With platens, the points before `left_end` run up the left side and
+    /// the others down the right side. Each side starts and ends on a platen.
     std::vector<MembranePoint> points;
     std::uint64_t left_end = 0;
 
-    bool known = false;            // the area below
-    bool parted = false;           // a piece has grown too long: wrapped anew before the next force pass
-    std::int64_t list_builds = 0;  // NeighbourList::builds when it was wrapped
-    double area = 0.0;             // m², enclosed, less what platens have swept, at the last force pass
-    double work = 0.0;             // J, done on the bodies
-    double jumped = 0.0;           // m², by which wrapping anew has changed the area, its sum; no work is done by it
-    std::int64_t wrapped = 0;      // times
-    std::int64_t open = 0;         // times that it could not be: the bodies do not reach from platen to platen any more
+    bool known = false;  // whether `area` has been computed
+    // Whether a piece has become too long; the membrane is then wrapped again before the next force pass.
+    bool parted = false;
+    std::int64_t list_builds = 0;  // value of NeighbourList::builds at the last wrapping
+    double area = 0.0;             // m², enclosed area in the last force pass, without the area swept by the platens
+    double work = 0.0;             // J, work done by the membrane on the bodies
+    double jumped = 0.0;           // m², sum of area changes caused by wrapping, which do no work
+    std::int64_t wrapped = 0;      // number of times the membrane was wrapped
+    // Number of times wrapping failed because the bodies no longer formed a path from platen to platen.
+    std::int64_t open = 0;
 
+    /// Whether the world has a membrane.
     bool present() const { return probe > 0.0; }
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("pressure", s.pressure);
-        visit("probe", s.probe);
-        visit("bottom", s.bottom);
-        visit("top", s.top);
-        visit("points", s.points);
-        visit("left_end", s.left_end);
-        visit("known", s.known);
-        visit("parted", s.parted);
-        visit("list_builds", s.list_builds);
-        visit("area", s.area);
-        visit("work", s.work);
-        visit("jumped", s.jumped);
-        visit("wrapped", s.wrapped);
-        visit("open", s.open);
-    }
+    CRACKLE_FIELDS(pressure, probe, bottom, top, points, left_end, known, parted, list_builds, area, work, jumped,
+                   wrapped, open);
 };
 
 }  // namespace crackle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which contact points are the same and in which order they are listed, whatever the numbers they have at the moment.
+// Identity and sort order of contact points, independent of their current indices.
 // Tested by tests/specimens/observers/contact_history_test.cpp.
 #pragma once
 
@@ -11,12 +11,14 @@
 
 namespace crackle {
 
-/// Whether feature_j names a part of j; of outlines it is the edge faced last, of others nothing.
+/// Whether feature_j is part of a point's identity. For outlines it is only the edge faced last, a starting guess for
+/// the search.
 constexpr bool names_feature(PointKind kind) {
     return kind == PointKind::element_element || kind == PointKind::face_face || by_guide(kind);
 }
 
-/// Order of the points of a kind: pair, which of the two owns the element, element, partner's circle or segment.
+/// Sort key of the points of one kind: the two bodies, which of them owns the element, the element, and the partner's
+/// circle or segment.
 struct PointKey {
     std::uint32_t low, high, owner_is_high, element, partner;
     auto operator<=>(const PointKey&) const = default;
@@ -28,7 +30,7 @@ inline PointKey key_of(PointKind kind, const ContactPoint& p) {
     return {low, high, p.body_i > p.body_j ? 1u : 0u, p.element_i, names_feature(kind) ? p.feature_j : 0u};
 }
 
-/// Whether two points of one kind are the same.
+/// Whether two contact points of one kind are the same.
 inline bool same_point(PointKind kind, const ContactPoint& p, const ContactPoint& q) {
     return p.body_i == q.body_i && p.body_j == q.body_j && p.element_i == q.element_i &&
            (!names_feature(kind) || p.feature_j == q.feature_j);

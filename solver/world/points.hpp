@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contact points of a world: compact records grouped by kind, each quantity in an array of its own. The kernels
-// take those of neighbouring points as they lie, and what a step does not change is not written back.
+// The contact points of a world, grouped by kind, with one array per quantity. Kernels thus load the values of
+// consecutive points together and do not write back quantities that a step leaves unchanged.
 // Tested by tests/solver/base/fields_test.cpp.
 #pragma once
 
@@ -14,96 +14,92 @@
 
 namespace crackle {
 
-using PointIndex = std::uint32_t;  // into the arrays of Points
+using PointIndex = std::uint32_t;  // index into the arrays of Points
 
-/// How a point's two sides look; points of one kind lie together and have a kernel of their own.
+/// The two shapes that meet at a contact point. Points of one kind are stored together and have their own
+/// kernel. circle_circle stays first and element_wall last, since other code relies on it.
 enum class PointKind : std::uint8_t {
     circle_circle = 0,    // two single circles
-    element_element = 1,  // circles of which at least one belongs to a clump
+    element_element = 1,  // circles, at least one of which belongs to a clump
     element_outline = 2,  // circle or vertex of body_i against the outline of body_j
-    face_face = 3,        // flat faces element_i and feature_j of two single circles across a joint
-    // The guide's law only (geometry/guide_segments.hpp); a segment goes by the element it begins at.
+    face_face = 3,        // two flat faces of single circles across a joint, element_i and feature_j
+    // The next two occur only under the DEMseg guide's segment law (geometry/guide_segments.hpp). A segment has the
+    // index of the element at which it begins.
     disc_segment = 4,     // circle of body_i against segment feature_j of body_j
     segment_segment = 5,  // segments element_i of body_i and feature_j of body_j
-    element_wall = 6,  // circle or vertex of body_i against a domain wall (body_j = Wall); feature_j = 1: a bare vertex
+    // Circle or vertex of body_i against a domain wall (body_j is a Wall); feature_j is 1 for a bare vertex.
+    element_wall = 6,
 };
 inline constexpr int point_kinds = 7;
 
-/// Points whose force does not derive from a potential of the overlap.
+/// Whether points of this kind follow the DEMseg guide's segment law, whose force has no potential that depends on the
+/// overlap.
 constexpr bool by_guide(PointKind kind) {
     return kind == PointKind::disc_segment || kind == PointKind::segment_segment;
 }
 
-/// Points whose opening and closing the consistent integrator looks after (contact/opening.hpp): those whose force has
-/// a potential of the overlap alone.
+/// Whether the consistent integrator applies contact/opening.hpp to points of this kind. This requires a force with a
+/// potential that depends on the overlap alone.
 constexpr bool has_opening(PointKind kind) { return !by_guide(kind) && kind != PointKind::face_face; }
 
+/// State of a contact point, as bits.
 enum PointFlag : std::uint16_t {
-    point_touching = 1,  // overlap > 0 or bonded, in the last force pass
+    point_touching = 1,  // overlap > 0 or bonded in the last force pass
     point_bonded = 2,
     point_sliding = 4,       // at the Coulomb limit in the last force pass
-    point_slid = 8,          // has been at the limit since bonding (or since contact began)
-    point_just_broken = 16,  // bond lost in the last force pass; cleared when its event is recorded
-    point_counted = 32,      // counts in StepControl::step_bound
+    point_slid = 8,          // has reached the Coulomb limit since bonding (or since contact began)
+    point_just_broken = 16,  // lost its bond in the last force pass; cleared when the event is recorded
+    point_counted = 32,      // counted in StepControl::step_bound
     point_held = 64,         // its bond cannot break
-    point_had_bond = 128,    // was bonded and has properties of its own left: a rest overlap, shares
-    point_slip_noted = 256,  // its first slip is in Bonds::slips
+    point_had_bond = 128,    // was bonded and still has properties from that time: a rest overlap and stiffness factors
+    point_slip_noted = 256,  // its first slip is listed in Bonds::slips
     point_unsettled = 512,   // its OpeningMemory::extra_force is not 0
-    point_closed = 1024      // of an open joint whose faces touch from the start: linear solutions take it for a bond
+    point_closed =
+        1024  // joint faces that touch from the start in an open joint; linear solutions treat the point as bonded
 };
 
-/// What meets at one contact point.
+/// The two bodies and elements that meet at one contact point.
 struct ContactPoint {
     BodyIndex body_i;
-    BodyIndex body_j;         // Wall number for element_wall
-    std::uint32_t element_i;  // for element_of(); face_face: into Bodies::flat_faces
-    std::uint32_t feature_j;  // circle and segment kinds: element of j; outline: edge last faced (a hint, never
-                              // physics); face_face: into Bodies::flat_faces
+    BodyIndex body_j;         // index of the wall for element_wall
+    std::uint32_t element_i;  // element index for element_of(); face_face: index into Bodies::flat_faces
+    // Circle and segment kinds: element of body_j. Outline: the edge faced last, only a starting guess for the search.
+    // face_face: index into Bodies::flat_faces.
+    std::uint32_t feature_j;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("body_i", s.body_i);
-        visit("body_j", s.body_j);
-        visit("element_i", s.element_i);
-        visit("feature_j", s.feature_j);
-    }
+    CRACKLE_FIELDS(body_i, body_j, element_i, feature_j);
 };
 static_assert(sizeof(ContactPoint) == 16);
 
-/// The bodies of a point, as in ContactPoint.
+/// The two bodies of a point, as in ContactPoint.
 struct BodyPair {
     BodyIndex body_i, body_j;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("body_i", s.body_i);
-        visit("body_j", s.body_j);
-    }
+    CRACKLE_FIELDS(body_i, body_j);
 };
 
-/// The parts of its bodies that meet, as in ContactPoint.
+/// The elements that meet at a point, as in ContactPoint.
 struct PointParts {
     std::uint32_t element_i, feature_j;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("element_i", s.element_i);
-        visit("feature_j", s.feature_j);
-    }
+    CRACKLE_FIELDS(element_i, feature_j);
 };
 
-/// Points by kind. Those of circle_circle come first and have no parts to name, which spares half of their room.
+/// Contact points, grouped by kind. circle_circle points come first and store no PointParts, which halves their memory.
 struct ContactList {
     Array<BodyPair> pairs;
-    Array<PointParts> parts;  // of the other kinds
+    Array<PointParts> parts;  // for all points except circle_circle
 
+    /// Number of points.
     std::size_t size() const { return pairs.size(); }
+    /// Whether the list has no points.
     bool empty() const { return pairs.empty(); }
+    /// The point with index k.
     ContactPoint operator[](std::size_t k) const {
         const std::size_t circles = pairs.size() - parts.size();
         return k < circles ? of_circles(k) : of_parts(k, parts[k - circles]);
     }
-    /// The same of a kind that is known.
+    /// A contact point of a kind known at compile time.
     template <PointKind K>
     ContactPoint at(std::size_t k) const {
         if constexpr (K == PointKind::circle_circle)
@@ -111,18 +107,15 @@ struct ContactList {
         else
             return of_parts(k, parts_of(k));
     }
+    /// Elements of a point whose kind is not circle_circle.
     const PointParts& parts_of(std::size_t k) const { return parts[k - (pairs.size() - parts.size())]; }
-    /// Kinds in their order.
+    /// Appends a point. Points must be added kind by kind, in the order of the enumerators of PointKind.
     void push_back(PointKind kind, const ContactPoint& point) {
         pairs.push_back({point.body_i, point.body_j});
         if (kind != PointKind::circle_circle) parts.push_back({point.element_i, point.feature_j});
     }
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("pairs", s.pairs);
-        visit("parts", s.parts);
-    }
+    CRACKLE_FIELDS(pairs, parts);
 
   private:
     ContactPoint of_circles(std::size_t k) const { return {pairs[k].body_i, pairs[k].body_j, own_circle, own_circle}; }
@@ -131,124 +124,114 @@ struct ContactList {
     }
 };
 
-/// Whether two points that are not with walls are between the same bodies.
+/// Whether two points are between the same two bodies; neither point may be at a wall.
 inline bool same_pair(const ContactPoint& p, const ContactPoint& q) {
     return (p.body_i == q.body_i && p.body_j == q.body_j) || (p.body_i == q.body_j && p.body_j == q.body_i);
 }
 
+/// Law and flags of a point.
 struct PointState {
-    std::uint16_t law;    // into Settings::laws
-    std::uint16_t flags;  // PointFlag
+    std::uint16_t law;    // index into Settings::laws
+    std::uint16_t flags;  // combination of PointFlag values
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("law", s.law);
-        visit("flags", s.flags);
-    }
+    CRACKLE_FIELDS(law, flags);
 };
 static_assert(sizeof(PointState) == 4);
 
-/// Force of a point on body_i (body_j gets the opposite) and its moments about both centroids.
+/// Force of a point on body_i (body_j receives the opposite force) and its moments about both centroids.
 struct PointForce {
     double fx, fy;
     double torque_i, torque_j;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("fx", s.fx);
-        visit("fy", s.fy);
-        visit("torque_i", s.torque_i);
-        visit("torque_j", s.torque_j);
-    }
+    CRACKLE_FIELDS(fx, fy, torque_i, torque_j);
 };
 static_assert(sizeof(PointForce) == 32);
 
-/// What the normal spring of a point under the guide's law has taken up. Its force is k_n(δ - δ0) at the resultant's
-/// place, but δ does not change by the way of that place alone: there is no potential, so the work itself is added up,
-/// by the trapezoidal rule over the drifts, which is leapfrog's own account of it.
+/// Work stored in the normal spring of a point under the DEMseg guide's segment law. The force k_n(δ - δ0) acts where
+/// the resultant acts, but the motion there does not determine δ alone, so there is no potential. Instead, the work is
+/// summed over the drifts by the trapezoidal rule, as under the leapfrog integrator.
 struct SpringWork {
-    PointForce last;  // N, N m, of the spring at the last force pass
+    PointForce last;  // N, N m; spring force in the last force pass
     double stored;    // J
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("last", s.last);
-        visit("stored", s.stored);
-    }
+    CRACKLE_FIELDS(last, stored);
 };
 
-/// What an unbonded point remembers under the consistent integrator (contact/opening.hpp).
+/// State that an unbonded point keeps between steps under the consistent integrator (contact/opening.hpp).
 struct OpeningMemory {
-    double defect = 0.0;       // J: stored beyond ½kδ(n)δ(n+1)
-    double extra_force = 0.0;  // N, beyond kδ in the last force pass
+    double defect = 0.0;       // J, stored energy in excess of ½kδ(n)δ(n+1)
+    double extra_force = 0.0;  // N, force in excess of kδ in the last force pass
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("defect", s.defect);
-        visit("extra_force", s.extra_force);
-    }
+    CRACKLE_FIELDS(defect, extra_force);
 };
 
-/// Of an unbonded point, m, in the last force pass; unset in a new point.
+/// Overlap of an unbonded point in the last force pass, m; unset for a new point.
 struct LastOverlap {
     double value = unset;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("value", s.value);
-    }
+    CRACKLE_FIELDS(value);
 };
-static_assert(sizeof(LastOverlap) == sizeof(double));  // kernels take several at once
+static_assert(sizeof(LastOverlap) == sizeof(double));  // kernels load several values at once
 
-/// Which worlds remember a quantity of every point from one neighbour list to the next; in others its array is empty.
+/// Condition under which an array of Points exists and is carried over from one neighbour list to the next. If a world
+/// does not meet the condition, the array is empty.
 enum class Remembered : std::uint8_t {
     always,
-    since_bonding,     // all of them; bonding sets it to 0
-    by_guide_law,      // the guide's law of segments
-    when_consistent,   // Integrator::consistent
-    by_half_strength,  // Bonds::made, of BondLaw::back_tension
-    own_shares,        // Settings::own_shares()
-    own_shear,         // Settings::own_shear(), of a world with bonds
-    when_dilating,     // Settings::dilates()
-    between_faces,     // with flat faces
+    since_bonding,     // in all worlds; bonding resets the values to 0
+    by_guide_law,      // under the DEMseg guide's segment law
+    when_consistent,   // with Integrator::consistent
+    by_half_strength,  // with Bonds::made and BondLawFacts::remembers_strong_forces
+    own_shares,        // with Settings::own_shares()
+    own_shear,         // with Settings::own_shear() and bonds
+    when_dilating,     // with Settings::dilates()
+    between_faces,     // with flat faces (PointKind::face_face)
 };
 
+/// All contact points, with one array per quantity, indexed by point.
 struct Points {
-    ContactList contact;  // grouped by kind, ordered by (i, j, element) within (but for fours_end)
+    // Grouped by kind. Within a kind, sorted by (i, j, element), except for points before fours_end.
+    ContactList contact;
     std::array<PointIndex, point_kinds + 1> kind_begin{};
-    /// Points of element_outline up to here lie in fours, each four between the same two bodies: the interfaces of a
-    /// mesh. The others of that kind follow.
+    /// element_outline points before this index are stored in groups of four between the same two bodies, as at the
+    /// interfaces of a mesh. The other points of that kind follow.
     PointIndex fours_end = 0;
     Array<double> root_mass;  // square root of the effective mass times stiffness_share, sqrt(kg)
     Array<PointState> state;
-    Array<double> shear_force;  // elastic, N on body_i along the normal (i to j) turned by +90 degrees
-    /// δ0, m; back-tension f_b = -k_n δ0. Of a coulomb bond that broke the overlap without force, max(δ0, 0).
+    Array<double>
+        shear_force;  // N, elastic shear force on body_i, along the normal (from i to j) turned by +90 degrees
+    /// Overlap δ0 at bonding, m; the back-tension is f_b = -k_n δ0. After a coulomb bond has broken: the overlap at
+    /// which the force is zero, max(δ0, 0).
     Array<double> bond_overlap;
-    /// What a point has of the law's stiffness, and of its strength, the bond's random factor included: of a face its
-    /// length over the distance of centroids, and its length (geometry/contact_share.hpp). Floats: no digit is lost
-    /// that a rock would have. Empty where all are 1.
+    /// Factors on the law's stiffness and strength for each point; the strength factor includes the bond's random
+    /// factor. For a face, the stiffness factor is the face's length divided by the distance between the centroids, and
+    /// the strength factor is its length (geometry/contact_share.hpp). Single precision is enough for rock properties.
+    /// Empty if all are 1.
     Array<float> stiffness_share, strength_share;
-    /// Root of what a point has of the law's shear stiffness beyond its stiffness_share: 1 but across a joint with
-    /// stiffnesses. Empty where all are 1.
+    /// Square root of an additional factor on the point's shear stiffness, on top of stiffness_share. It differs from 1
+    /// only across joints with their own stiffnesses. Empty if all are 1.
     Array<float> shear_root;
-    /// m, that a contact across a joint has slid, added up while it dilates; its bond_overlap is less by tan ψ of that.
+    /// Slip distance accumulated by a contact across a joint while it dilates, m. The contact's bond_overlap is reduced
+    /// by tan ψ times this distance.
     Array<double> slip;
-    /// m, over which the flat faces of a point of face_face lapped in the last force pass, of a bonded one when it was
-    /// bonded: its stiffness_share is that of a metre. 1 of other kinds.
+    /// Lap of a face_face point, m: length over which its two flat faces lie opposite each other, in the last force
+    /// pass or at bonding. The stiffness_share of such a point is for a lap of one metre. The value is 1 for other
+    /// kinds.
     Array<double> lap;
-    // Dashpot forces of the last force pass, N: their work is taken by the trapezoidal rule. Floats, like strong
-    // forces: they are reported, no motion follows from them, and they are much of what is moved.
+    // Dashpot forces in the last force pass, N, from which the trapezoidal rule gives their work. These stored values
+    // only enter reports and do not affect the motion, so single precision is used to save memory traffic. The same
+    // applies to strong_normal and strong_shear.
     Array<float> normal_dashpot, shear_dashpot;
     Array<SpringWork> spring_work;
     Array<OpeningMemory> opening;
-    Array<LastOverlap> last_overlap;  // beside `opening`
-    Array<double> last_normal;        // N, spring and dashpot in the last force pass; beside `opening`
-    // Elastic forces of a back-tension bond in the last step in which it carried at least half its strength, N: normal,
-    // compression positive, and shear.
+    Array<LastOverlap> last_overlap;  // carried over under the same condition as `opening`
+    Array<double> last_normal;        // N, spring and dashpot force in the last force pass; carried over like `opening`
+    // Elastic normal force (compression positive) and shear force of a back-tension bond, N, in the last step in which
+    // it carried at least half its strength.
     Array<float> strong_normal, strong_shear;
-    Array<PointForce> force;  // of the last force pass; empty unless kept
-    bool keep_forces = true;  // looked at when the list is rebuilt
+    Array<PointForce> force;  // forces from the last force pass; empty unless keep_forces is set
+    bool keep_forces = true;  // whether forces are stored; takes effect when the list is rebuilt
 
+    /// Number of points.
     std::size_t size() const { return contact.size(); }
 
     template <class Self, class Visit>
@@ -278,7 +261,7 @@ struct Points {
     }
 };
 
-/// Calls visit(values, remembered) with every array that is carried from one neighbour list to the next.
+/// Calls visit(values, remembered) for every array that is carried over from one neighbour list to the next.
 template <HasFields AnyPoints, class Visit>
 void visit_remembered(AnyPoints& points, Visit&& visit) {
     AnyPoints::fields(points, [&](const char* /*name*/, auto& values, auto... remembered) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the time of a run goes, by phase of a step. A world without a profile pays one test of a pointer a phase.
+// Time spent in each phase of a step. Without a profile, timing costs one pointer test per phase.
 // Tested by tests/tools/commands/test_test.cpp.
 #pragma once
 
@@ -10,46 +10,54 @@
 
 namespace crackle {
 
+/// Phases of a step that are timed.
 enum class Phase : std::uint8_t {
-    broad_phase,   // pairs of bodies that come near each other
-    listing,       // their contact points, with what the old list remembers of them
-    step_bound,    // bound on the stable step, when the list is rebuilt or points come to carry load
-    force,         // contact points: geometry (the narrow phase) and force; a call is a block of points
-    gather,        // forces of a block's points added to their bodies
-    bookkeeping,   // breaks, losses, driven bodies
+    broad_phase,   // finding pairs of bodies that are close to each other
+    listing,       // listing their contact points and carrying over values from the old list
+    step_bound,    // bounding the stable step, when the list is rebuilt or new points carry load
+    force,         // geometry (narrow phase) and forces of contact points; one call per block of points
+    gather,        // adding the forces of a block's points to the forces on bodies
+    bookkeeping,   // recording bond breakage, losses and the work of driven bodies
     integrate,     // kick and drift
-    observe,       // curve rows, breaks, peak
-    write,         // files: rows, checkpoints, waiting for frames that another thread draws
-    check,         // health of the run
-    set_the_rate,  // loading by tolerance
+    observe,       // recording curve rows, bond breakage and the peak
+    write,         // writing files (rows, checkpoints) and waiting for frames drawn by another thread
+    check,         // checking the validity of the run
+    set_the_rate,  // adapting the loading rate to its error tolerance
 };
 inline constexpr std::size_t phase_count = 11;
 
+/// Time spent in each phase, and number of calls.
 struct Profile {
     using Clock = std::chrono::steady_clock;
+    /// Time and number of calls of one phase.
     struct Spent {
-        double seconds = 0.0;  // wall clock, without the phases inside
+        double seconds = 0.0;  // wall-clock time, excluding nested phases
         std::int64_t calls = 0;
     };
     std::array<Spent, phase_count> phases{};
-    /// Geometry of all points alone, timed in one force pass of geometry_interval: the narrow phase's part of `force`.
+    /// Time for the geometry (narrow phase) of all points, measured separately in one of every geometry_interval force
+    /// passes. It serves to estimate how much of `force` the narrow phase takes.
     Spent geometry_sampled;
     std::int64_t force_passes = 0;
-    std::int64_t point_steps = 0;  // points looked at by all of them
+    std::int64_t point_steps = 0;  // number of points processed, summed over all steps
 
+    /// Record of a phase, to which time can be added.
     Spent& of(Phase phase) { return phases[static_cast<std::size_t>(phase)]; }
+    /// Record of a phase.
     const Spent& of(Phase phase) const { return phases[static_cast<std::size_t>(phase)]; }
 
-    Spent* running = nullptr;  // innermost phase
-    Clock::time_point since;   // of its last start
+    Spent* running = nullptr;  // innermost phase currently being timed
+    Clock::time_point since;   // start of its current interval
 };
 inline constexpr std::int64_t geometry_interval = 64;
 
-/// Counts the time of its scope, less that of timers within; none where there is no profile.
+/// Adds the duration of its scope, without nested timers, to a phase. Does nothing without a profile.
 class PhaseTimer {
   public:
+    /// Times a phase until the end of the scope. @param profile the profile; if null, nothing is timed
     PhaseTimer(Profile* profile, Phase phase)
         : PhaseTimer(profile, profile == nullptr ? nullptr : &profile->of(phase)) {}
+    /// Likewise, but adds the time to a separate record.
     PhaseTimer(Profile* profile, Profile::Spent* spent) : profile_(profile), spent_(spent) {
         if (profile_ == nullptr) return;
         outer_ = profile_->running;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Hashes of a world's state, field by field: where two runs that should agree do not, the first field that differs is
-// named.
+// Hashes of a world's state, field by field. If two runs that should be identical differ, the hashes show which field
+// differs first.
 // Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
@@ -12,6 +12,7 @@
 
 namespace crackle {
 
+/// Hash of one array of a world.
 struct FieldHash {
     std::string name;  ///< "bodies.state", "points.shear_force", ...
     std::uint64_t hash;
@@ -19,10 +20,10 @@ struct FieldHash {
     friend bool operator==(const FieldHash&, const FieldHash&) = default;
 };
 
-/// XXH3 of every field that a checkpoint saves, in its order; of members, not of padding.
+/// XXH3 hash of every field that a checkpoint saves, in the order in which they are saved; padding is excluded.
 std::vector<FieldHash> hash_fields(const World& world);
 
-/// One number of them all.
+/// A single hash of the whole state.
 std::uint64_t hash_state(const World& world);
 
 }  // namespace crackle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the steps of a world are shared out among threads, and timed. None of it changes a result and none is saved.
+// Division of a world's steps among threads, and timing of the steps. Nothing in this file affects results or is saved.
 // Tested by tests/solver/stepping/sweep_test.cpp.
 #pragma once
 
@@ -13,53 +13,61 @@
 
 namespace crackle {
 
-/// Points a force pass hands to one thread at a time; fixed, so that sums over blocks do not depend on the threads.
+/// Number of points that a force pass gives to a thread at a time. It is fixed, so that sums over blocks do not depend
+/// on the number of threads.
 inline constexpr PointIndex block_points = 256;
 
-/// In which order a step on Workers::threads threads goes through points and bodies (stepping/sweep.cpp).
+/// Order in which the threads process points and bodies in a step (stepping/sweep.cpp).
 struct SweepPlan {
     bool valid = false;
     std::size_t largest_kind = 0;
 
-    /// Some blocks of points of the largest kind, and the bodies that have no points beyond them.
+    /// A range of blocks of the largest kind, together with the bodies that have no points in later blocks.
     struct Chunk {
-        PointIndex end_block;    // of that kind
-        std::uint32_t end_body;  // into `order`
+        PointIndex end_block;    // end of the range of blocks
+        std::uint32_t end_body;  // end of the chunk's bodies in `order`
     };
     std::vector<Chunk> chunks;
-    std::vector<std::uint32_t> thread_chunks;  // per thread: first of its chunks; one more at the end
-    std::vector<BodyIndex> order;              // bodies of the chunks, late ones, driven ones
-    std::uint32_t late_begin = 0;  // into `order`: bodies with points of the largest kind in chunks of several threads
-    std::uint32_t driven_begin = 0;  // into `order`: bodies that a control drives
-    bool free_ones_turn = false;     // a body that no control drives has a frame that turns with it
+    std::vector<std::uint32_t> thread_chunks;  // index of each thread's first chunk, then the total number of chunks
+    std::vector<BodyIndex> order;              // bodies of the chunks, then late bodies, then driven bodies
+    // Index into `order` of the first late body. Late bodies have points of the largest kind in chunks of several
+    // threads.
+    std::uint32_t late_begin = 0;
+    std::uint32_t driven_begin = 0;  // index into `order` of the first driven body
+    bool free_ones_turn = false;     // whether some undriven body has a frame that rotates with it
 
-    // For several threads: what one cannot add to a body at once, because another's points come first.
-    std::vector<std::uint16_t> owner;           // per body: thread that adds to it
-    std::vector<std::uint8_t> defers;           // per block of the largest kind: has points for others' bodies
-    std::vector<BodyForce> deferred;            // contributions of other threads
-    std::vector<std::uint32_t> deferred_begin;  // per thread: its first in `deferred`
-    std::vector<std::uint32_t> sources;         // into `deferred`, by body of `order` from late_begin on
+    // Used only with several threads: force contributions that a thread cannot add immediately, because another thread
+    // must add its contributions first.
+    std::vector<std::uint16_t> owner;  // for each body: thread that adds forces to it
+    std::vector<std::uint8_t>
+        defers;  // for each block of the largest kind: whether it has points on bodies owned by other threads
+    std::vector<BodyForce> deferred;            // force contributions to bodies owned by other threads
+    std::vector<std::uint32_t> deferred_begin;  // for each thread: index of its first entry in `deferred`
+    std::vector<std::uint32_t> sources;  // indices into `deferred`, grouped by body in `order` from late_begin on
     std::vector<std::uint32_t> sources_begin;
-    std::vector<PointForce> smaller_kinds;  // forces of the points of all kinds but the largest
+    std::vector<PointForce> smaller_kinds;  // forces of the points of all kinds except the largest
 
-    /// What a thread has done of the present step.
+    /// Progress of one thread in the current step.
     struct alignas(64) Share {
         Speeds speeds;
-        std::uint32_t moved_end = 0;  // into `order`: bodies of its chunks moved so far end here
-        bool held = false;            // its bodies stay until events of bonds are recorded
+        std::uint32_t moved_end = 0;  // index into `order`: end of the thread's bodies that have already moved
+        bool held = false;            // whether the thread's bodies must not move until bond events are recorded
     };
     std::vector<Share> shares;
 };
 
+/// Threads, and the data that they keep between steps; not part of the state.
 struct Workers {
     int threads = 1;
     SweepPlan plan;
-    std::vector<std::int64_t> blocks_done;  // blocks of points that each thread has done
-    std::vector<std::uint8_t> marks;        // per body, 0 but within count_new_points()
-    Profile* profile = nullptr;             // times the phases where set
-    bool one_by_one = false;                // no points side by side: what they must give the bytes of
-    std::function<void()> while_solving;    // called between the steps of linear solves; what it throws ends them
+    std::vector<std::int64_t> blocks_done;  // for each thread: number of blocks of points processed
+    std::vector<std::uint8_t> marks;        // for each body; all 0 except during count_new_points()
+    Profile* profile = nullptr;             // timing of phases; null if phases are not timed
+    bool one_by_one = false;  // process points one at a time, as a reference that batches must reproduce byte for byte
+    // Called between the iterations of linear solves; an exception thrown by it ends the solve.
+    std::function<void()> while_solving;
 
+    /// Calls while_solving, if set, to poll for interrupts. An exception that it throws ends the linear solve.
     void hear() const {
         if (while_solving) while_solving();
     }

@@ -29,7 +29,7 @@ bool keeps(const World& world, Remembered remembered) {
         case Remembered::by_half_strength:
             break;
     }
-    return world.bonds.made && world.settings.bond_law == BondLaw::back_tension;
+    return world.bonds.made && facts_of(world.settings.bond_law).remembers_strong_forces;
 }
 
 void restart_account(World& world) {

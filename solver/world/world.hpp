@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The world: the flat arrays that a step touches, in groups that each list their fields once. Built from a Scene
-// (stepping/build_world.hpp); nothing in it is allocated during a step.
+// The world: the flat arrays used by a step, in groups. Each group lists its fields in one place. A world is built from
+// a Scene (stepping/build_world.hpp); a step allocates nothing.
 //
-// The forces of a body's points are added up in a fixed order, so that the bytes of a result do not depend on the
-// number of threads.
+// The forces of a body's points are added in a fixed order, so that results are identical for any number of threads.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
 
+#include "solver/base/fields.hpp"
 #include "solver/world/bodies.hpp"
 #include "solver/world/bonds.hpp"
 #include "solver/world/energy_account.hpp"
@@ -21,6 +21,7 @@
 
 namespace crackle {
 
+/// The complete state of a run, as flat arrays.
 struct World {
     Settings settings;
     Bodies bodies;
@@ -30,56 +31,57 @@ struct World {
     Bonds bonds;
     EnergyAccount account;
     Membrane membrane;
-    Workers workers;  // never saved
+    Workers workers;  // not part of the saved state
 
-    /// The groups that make up its state: what a checkpoint saves and a hash covers.
-    template <class Self, class Visit>
-    static constexpr void groups(Self& s, Visit&& visit) {
-        visit("settings", s.settings);
-        visit("bodies", s.bodies);
-        visit("points", s.points);
-        visit("list", s.list);
-        visit("stepping", s.stepping);
-        visit("bonds", s.bonds);
-        visit("account", s.account);
-        visit("membrane", s.membrane);
-    }
+    /// Groups of the state that a checkpoint saves and a state hash covers.
+    CRACKLE_MEMBERS(groups, settings, bodies, points, list, stepping, bonds, account, membrane);
 };
 
-/// A circle or vertex of a body, by BodyInfo::first_element or by ContactPoint.
-inline Element element_of(const World& world, std::size_t body, std::uint32_t element) {
-    if (element == own_circle) return {0.0, 0.0, world.bodies.state[body].shape[0], world.settings.thick};
-    return world.bodies.elements[element];
-}
+inline BodyView::BodyView(const World& world)
+    : state(world.bodies.state.data()),
+      names(world.bodies.names.data()),
+      shapes(world.bodies.shapes.data()),
+      elements(world.bodies.elements.data()),
+      pieces(world.bodies.pieces.data()),
+      edges(world.bodies.edges.data()),
+      segments(world.bodies.segments.data()),
+      flat_faces(world.bodies.flat_faces.data()),
+      convex_outlines(world.bodies.convex_outlines),
+      mean_of_discs(world.settings.segment_law == SegmentLaw::demseg_mean),
+      thick(world.settings.thick),
+      domain(world.settings.domain) {}
 
-/// Of two bodies, into Settings::laws.
+/// Index into Settings::laws of the law between two bodies.
 inline std::size_t law_between(const World& world, BodyIndex i, BodyIndex j) {
     return pair_number(world.bodies.names[i].material, world.bodies.names[j].material);
 }
 
-/// The same where their bond cannot break.
+/// Index into Settings::laws of the law between two bodies with an unbreakable bond.
 inline std::size_t held_law_between(const World& world, BodyIndex i, BodyIndex j) {
     return world.settings.pair_count() + law_between(world, i, j);
 }
 
-/// Of a body against the domain's walls, into Settings::laws.
+/// Index into Settings::laws of the law between a body and the domain's walls.
 inline std::size_t law_with_wall(const World& world, BodyIndex i) {
     return 2 * world.settings.pair_count() + world.bodies.names[i].material;
 }
 
-/// Of the stiffness of a law, of a world with shares.
+/// Factor on the law's stiffness for point k; for two flat faces it includes their lap (shared length). Requires
+/// own_shares().
 inline double share_of_stiffness(const World& world, PointIndex k) {
     const double share = world.points.stiffness_share[k];
     return world.points.lap.empty() ? share : share * world.points.lap[k];
 }
 
-/// What damping ratios go by, sqrt(kg): Points::root_mass, of flat faces that of a metre.
+/// Square root of the effective mass that damping ratios use, sqrt(kg). For two flat faces, Points::root_mass is for a
+/// lap (shared length) of one metre.
 inline double root_mass_of(const World& world, PointIndex k) {
     const double root = world.points.root_mass[k];
     return world.points.lap.empty() ? root : root * std::sqrt(world.points.lap[k]);
 }
 
-/// Law of a point with its own share of strength. @param share of stiffness
+/// Law of a point, including the point's own strength factor and a given stiffness factor. @param share the stiffness
+/// factor
 inline ContactLaw law_with(const World& world, PointIndex k, double share) {
     ContactLaw law = world.settings.laws[world.points.state[k].law];
     const double strength = world.points.strength_share[k];
@@ -95,28 +97,29 @@ inline ContactLaw law_with(const World& world, PointIndex k, double share) {
     return law;
 }
 
-/// Law of a point with its own share of stiffness and strength.
+/// Law of a point, including the point's own stiffness and strength factors.
 inline ContactLaw law_of(const World& world, PointIndex k) {
     if (world.points.stiffness_share.empty()) return world.settings.laws[world.points.state[k].law];
     return law_with(world, k, share_of_stiffness(world, k));
 }
 
-/// Whether this world keeps the arrays of points that are `remembered` so.
+/// Whether a world keeps the arrays of Points that are marked with `remembered`.
 bool keeps(const World& world, Remembered remembered);
 
-/// To be called when velocities were changed from outside a step: forces have to be found again.
+/// Call this after changing velocities outside a step; the forces are then computed again.
 inline void velocities_changed(World& world) { world.stepping.forces_current = false; }
 
-/// To be called when places or shapes were changed from outside a step: the neighbour list has to be built again, too.
+/// Call this after changing positions or shapes outside a step; the neighbour list is then rebuilt as well.
 inline void bodies_moved(World& world) {
     world.list.valid = false;
     velocities_changed(world);
 }
 
-/// The account of energy begins again with the next force pass: losses and works so far are forgotten.
+/// Restarts the energy account at the next force pass; previous losses and work are discarded.
 void restart_account(World& world);
 
-/// Number of threads of the coming steps; never changes a result. @throws InputError outside 1..1024
+/// Sets the number of threads for the following steps; results do not depend on it. @throws InputError if the number is
+/// not from 1 to 1024
 void set_threads(World& world, int threads);
 
 }  // namespace crackle

@@ -14,7 +14,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of the gradient that the bounds leave, over what the largest residual and derivative could make of it.
+// Convergence limit: largest component of the steepest-descent step, cut off at the bounds, that is accepted at a
+// minimum. Derivatives are scaled to order one.
 constexpr double close_to_bottom = 1e-7;
 constexpr int most_restarts = 30;
 
@@ -22,7 +23,7 @@ struct Objective {
     const Residuals& residuals;
     double scale = 1.0;
 
-    /// Sum of squares and its gradient, times the scale.
+    /// Sum of squares and its gradient, multiplied by the scale.
     double operator()(const VectorXd& x, VectorXd& gradient) const {
         VectorXd r;
         MatrixXd jacobian;
@@ -40,7 +41,7 @@ double objective(const std::vector<double>& x, std::vector<double>& gradient, vo
     return value;
 }
 
-/// Way that a step of steepest descent could go within the bounds, where derivatives are scaled to one.
+/// Largest component of the steepest-descent step after it is cut off at the bounds.
 double way_left(const VectorXd& x, const VectorXd& gradient, const VectorXd& low, const VectorXd& high) {
     return ((x - 0.5 * gradient).cwiseMax(low).cwiseMin(high) - x).cwiseAbs().maxCoeff();
 }
@@ -53,7 +54,8 @@ VectorXd box_minimum(const Residuals& residuals, const VectorXd& start, const Ve
     Objective sum{residuals};
     double least = 0.0;
     for (int k = 0; k < most_restarts; ++k) {
-        // SLSQP begins with a unit matrix for the second derivatives: they are scaled to that.
+        // SLSQP starts from the identity matrix as Hessian, so the objective is scaled to second derivatives of about
+        // one.
         VectorXd r;
         MatrixXd jacobian;
         residuals(best, r, jacobian);
@@ -62,7 +64,7 @@ VectorXd box_minimum(const Residuals& residuals, const VectorXd& start, const Ve
         sum.scale = 1.0 / curvature;
         least = sum(best, gradient);
         if (way_left(best, gradient, low, high) < close_to_bottom) return best;
-        // Every second time by another way: what ends one of them early does not end the other.
+        // SLSQP and CCSAQ alternate: what stops one of them early does not stop the other.
         nlopt::opt search(k % 2 == 0 ? nlopt::LD_SLSQP : nlopt::LD_CCSAQ, static_cast<unsigned>(start.size()));
         search.set_min_objective(objective, &sum);
         search.set_lower_bounds({low.data(), low.data() + low.size()});
@@ -73,7 +75,7 @@ VectorXd box_minimum(const Residuals& residuals, const VectorXd& start, const Ve
         double value = 0.0;
         try {
             search.optimize(x, value);
-        } catch (const std::runtime_error&) {  // it gave up: x is its best so far
+        } catch (const std::runtime_error&) {  // the optimiser gave up; x is its best point
         }
         const VectorXd there = Eigen::Map<const VectorXd>(x.data(), start.size()).cwiseMax(low).cwiseMin(high);
         if (sum(there, gradient) < least) best = there;

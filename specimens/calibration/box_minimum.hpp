@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Smallest sum of squares within bounds, of functions that are smooth and cheap.
+// Minimises a sum of squares within bounds. The residuals must be smooth and cheap to evaluate.
 // Tested by tests/specimens/calibration/surface_test.cpp.
 #pragma once
 
@@ -8,13 +8,13 @@
 
 namespace crackle {
 
-/// Residuals at x, and their derivatives, a row a residual.
+/// Computes the residuals at x and their derivatives, one row of the Jacobian per residual.
 using Residuals = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& residuals, Eigen::MatrixXd& jacobian)>;
 
-/// Sequential quadratic programming (Kraft, TOMS 20, 1994; NLopt's SLSQP) with the second derivatives scaled to one,
-/// and from where that gives up by conservative convex models (Svanberg, SIAM J. Optim. 12, 2002; CCSAQ), until the
-/// gradient leads nowhere within the bounds.
-/// @param start within the bounds
+/// Minimises the sum of squared residuals by sequential quadratic programming (Kraft, TOMS 20, 1994; NLopt's SLSQP),
+/// with the objective scaled to second derivatives of about one. If it stops early, conservative convex approximations
+/// (Svanberg, SIAM J. Optim. 12, 2002; CCSAQ) continue until no step within the bounds lowers the sum.
+/// @param start  a point within the bounds
 Eigen::VectorXd box_minimum(const Residuals& residuals, const Eigen::VectorXd& start, const Eigen::VectorXd& low,
                             const Eigen::VectorXd& high);
 

@@ -11,6 +11,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/files/folder_lock.hpp"
+#include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/calibration/determination.hpp"
 #include "specimens/calibration/linear_search.hpp"
@@ -26,18 +27,19 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int most_rounds = 10;
-// The middle of a round is right within this share of a tolerance, or one standard error.
+// The centre of a round is accepted if every mean is within this fraction of its tolerance, or within one standard
+// error.
 constexpr double met_share = 0.5;
-// A solution nearer than this many half-widths to the last one, or one that has not lessened what is worst to this
-// share, leads nowhere.
+// A round makes no progress if the solution moved by less than no_way half-widths of the design. It also makes none if
+// the largest deviation exceeds no_gain times that of the previous round.
 constexpr double no_way = 0.15, no_gain = 0.9;
 constexpr double widest_design = 0.8;
-// The best point by the surfaces is where it is measured, up to this many half-widths.
+// The search has converged if the best point predicted by the surfaces lies within this many half-widths of x_.
 constexpr double reach_at_rest = 1.0;
-// A correction that moves a key by more than this, in logarithms, is measured again.
+// After a correction that changes a key by more than this, in logarithms, the means are measured again.
 constexpr double large_correction = 0.1;
 constexpr int most_corrections = 3;
-// Weights of the target that is missed most, along the frontier.
+// Weights of the target with the largest miss; each gives a point of the frontier.
 constexpr double frontier_weights[]{0.03, 0.3, 1.0, 3.0, 30.0};
 
 double t_95(Index count) {
@@ -68,10 +70,10 @@ LinearRequest linear_request(const Rock& rock, const CalibrationOptions& options
     return request;
 }
 
-/// What packings say of all targets at a point.
+/// Means of the results for all targets at one point of the search.
 struct Measured {
-    MatrixXd rows;           ///< figures of the packings that have all of them
-    VectorXd means, errors;  ///< logarithms of the means, and their standard errors
+    MatrixXd rows;           ///< results, one row for each packing that has a result for every target
+    VectorXd means, errors;  ///< logarithms of the means; standard errors relative to the means
 };
 
 class Calibration {
@@ -132,7 +134,7 @@ class Calibration {
         search_.measure(values, packings);
     }
 
-    /// @throws InputError where too few packings have given the figures
+    /// @throws InputError if too few packings have results for all targets
     Measured measured_at(const VectorXd& x, PackingRange packings) {
         measure({x}, packings);
         Measured point;
@@ -147,7 +149,7 @@ class Calibration {
         return point;
     }
 
-    /// Names the target that most packings lack.
+    /// Throws an error that names the target whose result is missing in most packings.
     [[noreturn]] void refuse_point(const VectorXd& x, PackingRange packings) const {
         const std::vector<double> values = space_.values_at(x);
         std::string at;
@@ -163,13 +165,13 @@ class Calibration {
             negative = static_cast<Index>((figures.col(t).array() <= 0.0).count());
         }
         throw InputError(fmt::format(
-            "{}: found {} of {} above 0 in only {} of {} packings (0 or less in {}, none in {}, which went wrong or "
+            "{}: found {} of {} above 0 in only {} of {} packings (0 or less in {}; missing in {}, which went wrong or "
             "did not fail) at {}, expected all targets' figures of half the packings or more; {}; see `crackle "
             "campaign show {}`",
             space_.target(worst).where, space_.target(worst).quantity(), space_.target(worst).source(rock_.tests),
             fewest, packings.count, negative, packings.count - fewest - negative, at,
             negative > 0 ? "take another target"
-                         : "where tests do not fail raise loading.max_axial_strain, or start from a weaker rock",
+                         : "if specimens do not fail, raise loading.max_axial_strain or start from a weaker rock",
             search_.options().folder.string()));
     }
 
@@ -181,7 +183,7 @@ class Calibration {
             outcome_.rounds = round;
             if (!linear_.empty()) begin("moduli by the linear solve");
             x_ = linear_.solve(x_);
-            begin(fmt::format("round {}: its middle on {}", round, counted(rock_.fit, "packing")));
+            begin(fmt::format("round {}: measuring its centre on {}", round, counted(rock_.fit, "packing")));
             const Measured middle = measured_at(x_, fit_packings());
             surfaces_.remember(x_);
             linear_.learn(x_, middle.means);
@@ -190,7 +192,7 @@ class Calibration {
             const VectorXd limits = space_.widths.cwiseMax(middle.errors);
             const double worst = off.cwiseAbs().cwiseQuotient(limits).maxCoeff();
             const bool met = is_met(middle);
-            const bool alone = space_.other_targets.empty();  // without surfaces
+            const bool alone = space_.other_targets.empty();  // without other targets there are no surfaces
             if (met && (alone || !surfaces_.empty())) return;
             if (alone) {
                 if (worst > no_gain * worst_before && ++stalls == 2) return;
@@ -204,13 +206,13 @@ class Calibration {
             design(width);
             const VectorXd next = surfaces_.solve(x_, width, VectorXd::Ones(space_.targets));
             if (met) return;
-            // What cannot be reached is known once the surfaces have led nowhere twice.
+            // After two rounds without progress, the targets count as out of reach.
             const double moved = surfaces_.distance(next, x_, width);
             const bool solvable = ((surfaces_.predict(next) - space_.logs).cwiseAbs().array() <= limits.array()).all();
             if ((moved < no_way || (!solvable && worst > no_gain * worst_before)) && ++stalls == 2) return;
             worst_before = worst;
             x_ = next;
-            // Steps that end where the surfaces do grow; where a solution lies within the design the next is narrower.
+            // Widens the design if the solution lies at its edge; narrows it if the solution lies within.
             if (moved > 0.95 * reach_of_surface)
                 width = std::min(1.5 * width, widest_design);
             else if (moved < 1.0)
@@ -218,13 +220,13 @@ class Calibration {
         }
     }
 
-    /// Whether each mean is within half a tolerance, or a standard error, of its target.
+    /// Whether each mean is within half its tolerance, or one standard error, of its target.
     bool is_met(const Measured& point) const {
         const VectorXd limits = (met_share * space_.widths).cwiseMax(point.errors);
         return ((point.means - space_.logs).cwiseAbs().array() <= limits.array()).all();
     }
 
-    /// All strengths at once. @return whether that was far
+    /// Scales all strengths by a common factor towards their targets. @return whether the correction was large
     bool level(const VectorXd& off) {
         double sum = 0.0, weight = 0.0;
         for (const Index t : space_.other_targets) {
@@ -241,7 +243,7 @@ class Calibration {
 
     void design(double width) {
         std::vector<VectorXd> points = surfaces_.design(x_, width);
-        begin(fmt::format("round {}: {} around it on {}", outcome_.rounds, counted(points.size(), "point"),
+        begin(fmt::format("round {}: measuring {} around it on {}", outcome_.rounds, counted(points.size(), "point"),
                           counted(rock_.fit, "packing")));
         measure(points, fit_packings());
         for (const VectorXd& x : points) surfaces_.remember(x);
@@ -254,7 +256,7 @@ class Calibration {
                 search_.options().folder.string()));
     }
 
-    /// Corrects on many packings.
+    /// Final corrections, on the larger number of packings `Rock::polish`.
     void polish() {
         for (int k = 0; k < most_corrections; ++k) {
             begin(fmt::format("correction on {}", counted(rock_.polish, "packing")));
@@ -268,12 +270,13 @@ class Calibration {
             linear_.learn(middle, polished_.means);
             if (!surfaces_.empty()) x_ = surfaces_.solve(middle, narrow_design, VectorXd::Ones(space_.targets));
             x_ = linear_.solve(x_);
-            // Means that are right within their chance are corrected by what they say, and not measured again.
+            // Means are not measured again after a small correction, nor if they agree with the targets within their
+            // errors.
             if (is_met(polished_) || (x_ - middle).cwiseAbs().maxCoeff() < large_correction) break;
         }
     }
 
-    /// On packings that nothing was fitted to.
+    /// Measures fresh packings, which were not used for fitting.
     void judge() {
         begin(counted(rock_.fresh, "fresh packing"));
         fresh_.measure({space_.values_at(x_)}, fresh_packings());
@@ -290,14 +293,14 @@ class Calibration {
         }
     }
 
-    /// Whether the surfaces' best point lies here: no step leads on from it, within their reach or along the bounds.
+    /// Whether the best point predicted by the surfaces lies close to x_.
     bool is_at_rest() const {
         if (surfaces_.empty()) return true;
         const VectorXd next = surfaces_.solve(x_, narrow_design, VectorXd::Ones(space_.targets));
         return surfaces_.distance(next, x_, narrow_design) < reach_at_rest;
     }
 
-    /// Logarithms of what is expected of all targets' figures at x_, less the targets'.
+    /// Expected logarithms of all results at x_ minus the logarithms of their targets.
     VectorXd expected_off() {
         VectorXd off = surfaces_.predict(x_) - space_.logs;
         if (!linear_.empty())
@@ -305,8 +308,8 @@ class Calibration {
         return off;
     }
 
-    /// From «the others first» to «this one first», for the target that is missed by most. Moduli depend on their keys
-    /// alone: what is nearest to them is all there is.
+    /// Computes compromises between the target with the largest miss and the others. Moduli are left out: they depend
+    /// only on the elastic keys, so the nearest point is their only compromise.
     void draw_frontier() {
         Index worst = -1;
         double most = 0.0;
@@ -324,12 +327,12 @@ class Calibration {
             VectorXd weights = VectorXd::Ones(space_.targets);
             weights[worst] = weight;
             const VectorXd x = surfaces_.solve(x_, wide_design, weights);
-            // Compromises that are as good as one need be measured once.
+            // A compromise close to the previous one is not measured.
             if (!points.empty() && surfaces_.distance(x, points.back(), wide_design) < 0.03) continue;
             points.push_back(x);
             of_points.push_back(weight);
         }
-        if (points.size() < 2) return;  // nothing is had for anything
+        if (points.size() < 2) return;  // no compromise is possible
         begin(fmt::format("frontier: {} on {}", counted(points.size(), "compromise"), counted(rock_.fit, "packing")));
         measure(points, fit_packings());
         outcome_.frontier_of = static_cast<std::size_t>(worst);
@@ -346,7 +349,8 @@ class Calibration {
     void state_keys() {
         MatrixXd slopes = surfaces_.slopes(x_);
         if (!linear_.empty()) slopes(space_.linear_targets, space_.linear_keys) = linear_.slopes();
-        // Of the targets' residuals, in tolerances: of the polished means, and the laboratory's.
+        // Covariance of the targets' residuals, in tolerances: scatter of the corrected means plus the laboratory
+        // errors.
         const auto n = static_cast<double>(polished_.rows.rows());
         MatrixXd relative(polished_.rows.rows(), space_.targets);
         for (Index t = 0; t < space_.targets; ++t)
@@ -398,7 +402,7 @@ class Calibration {
     Measurements search_, fresh_;
     LinearSearch linear_;
     SurfaceSearch surfaces_;
-    VectorXd x_;  // where the search is
+    VectorXd x_;  // current point of the search
     Measured polished_;
     CalibrationOutcome outcome_;
 };
@@ -419,6 +423,12 @@ std::vector<double> CalibrationOutcome::values() const {
 CalibrationOutcome calibrate(const Rock& rock, const CalibrationOptions& options, const CalibrationHooks& hooks) {
     make_folder(options.folder);
     const FolderLock lock(options.folder);
+    // Tests that went wrong in earlier calls are dropped here, once, so that those of this call are kept in every
+    // round.
+    for (const char* folder : {"search", "fresh"}) {
+        const std::filesystem::path ledger = ledger_file(options.folder / folder);
+        if (options.retry && is_file(ledger)) CampaignLedger::open(ledger).drop_gone_wrong();
+    }
     return Calibration(rock, options, hooks).run();
 }
 

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A rock from its laboratory values: free keys of its cases are moved until the means of figures over packings are the
-// targets.
+// Calibrates a rock to laboratory values: adjusts the free keys of its cases until the results, averaged over packings,
+// reach the targets.
 //
-// The structure first, statistics for the rest. Elastic keys (contact_modulus, stiffness_ratio, …) are found from
-// moduli by sparse linear solves, without loading anything; what tests measure beside the linear solution is a factor,
-// learnt on the way. The others come from a response surface (surface.hpp) of the figures' logarithms over a wide
-// design around the last solution, on the same packings and the same random factors at every point; where
-// tensile_strength and cohesion (as its ratio) are free, strengths are known to go with the first power of
-// tensile_strength. The last correction is made on many packings; what is reported is measured on fresh ones.
+// Elastic keys (contact_modulus, stiffness_ratio, …) are found first, from moduli that sparse linear solves give
+// without any loading. The ratio of each modulus measured in a test to the linear one is updated during the search. The
+// other keys are found from a response surface (surface.hpp) of the logarithms of the results. It is fitted over a wide
+// design around the last solution, with the same packings and the same random factors at every point. If
+// tensile_strength, and cohesion as a ratio to it, are free, strengths are proportional to tensile_strength. The last
+// correction uses many packings; the reported results are measured on new packings.
 //
-// All tests go through a campaign's ledger: stopped at any moment the same call goes on, and one with other targets
-// reuses what was run.
+// All tests are run as campaigns, whose ledgers record them. After an interrupt, the same call resumes. A call with
+// other targets reuses tests that have already been run.
 //
-//   DIR/search/   campaign of the search    DIR/fresh/   campaign of the fresh packings, with curves
+//   DIR/search/   campaign of the search
+//   DIR/fresh/    campaign of the fresh packings, with curves
 // Tested by tests/specimens/calibration/calibrate_test.cpp and recovered_rock_test.cpp; ten rocks:
 // tests/benchmarks/calibrations.
 #pragma once
@@ -31,62 +32,75 @@
 
 namespace crackle {
 
+/// Options of a calibration.
 struct CalibrationOptions {
     std::filesystem::path folder;
     int workers = 1;
+    bool retry = false;    ///< repeat tests that ended without a result because of their case
     bool endless = false;  ///< as TestOptions::endless
 };
 
+/// Callbacks of a calibration; empty ones are skipped.
 struct CalibrationHooks {
-    std::function<void(const std::string&)> stage;  ///< what is being done, a line each
+    std::function<void(const std::string&)> stage;  ///< called with one line at the start of each stage
     std::function<void(const std::string& stage, const CampaignProgress&)> progress;
     std::function<void(const std::string&)> told;
     std::function<bool()> interrupted;
 };
 
+/// Calibrated value of a free key.
 struct FoundKey {
     double value = 0.0;
-    /// 95 % interval, from the scatter of the figures over packings and the targets' own errors; the bounds where the
-    /// targets do not determine it.
+    /// 95 % interval, from the scatter of results between packings and the errors of the targets; equal to the bounds
+    /// if the targets do not determine the key.
     double low = 0.0, high = 0.0;
     bool determined = true;
-    /// Not determined, for the scatter of the packings alone: the interval fills the bounds.
+    /// Whether the scatter between packings alone leaves the key undetermined: its interval fills the bounds.
     bool lost_in_scatter = false;
     bool at_bound = false;
 };
 
-/// One compromise between targets that cannot be reached together, measured on the fit packings.
+/// A compromise between targets that cannot be reached together, measured on the packings used for fitting.
 struct FrontierPoint {
-    double weight = 1.0;  ///< of the target that is missed by most, over the others'
+    double weight = 1.0;  ///< weight of the target with the largest miss, relative to the others
     std::vector<double> values;
     std::vector<MeanFigure> figures;
 };
 
-/// A combination of keys along which no target changes by half its tolerance.
+/// A combination of keys along which no target changes by more than half its tolerance.
 struct FreeDirection {
-    std::vector<double> factors;  ///< of each key, along a step whose largest is 1.35 (of a linear key: a difference,
-                                  ///< of 0.3 of its range)
-    double change = 0.0;          ///< of the targets, in tolerances
+    /// For each key, the factor for a step whose largest factor is 1.35; for a key on a linear scale, a difference of
+    /// up to 0.3 of its range.
+    std::vector<double> factors;
+    double change = 0.0;  ///< largest change of a target along this step, in tolerances
 };
 
+/// Result of a calibration.
 struct CalibrationOutcome {
     std::vector<FoundKey> keys;
     std::vector<ReachedTarget> targets;
-    std::size_t frontier_of = 0;          ///< into targets: the one that the frontier is about
-    std::vector<FrontierPoint> frontier;  ///< empty: none was drawn
+    /// Index into `targets` of the target that the frontier trades off against the others.
+    std::size_t frontier_of = 0;
+    std::vector<FrontierPoint> frontier;  ///< empty if no frontier was computed
     std::vector<SurfaceQuality> surfaces;
     std::vector<FreeDirection> undetermined;
-    std::vector<std::vector<double>> tried;        ///< values of the free keys, every point of the search
-    std::vector<std::vector<double>> tried_means;  ///< and the targets' means there, fit packings
+    std::vector<std::vector<double>> tried;  ///< values of the free keys at each point of the search
+    std::vector<std::vector<double>>
+        tried_means;  ///< for each of these points, means of the results over the packings used for fitting
     int rounds = 0;
     std::int64_t tests = 0, linear_solves = 0;
-    double processor_seconds = 0.0;  ///< of all tests, also those of earlier calls
+    double processor_seconds = 0.0;  ///< total of all tests, including those of earlier calls, s
 
+    /// Whether every target is reached, allowing for the errors of the means.
     bool all_reached() const;
+    /// Values of the free keys, in the order of Rock::free.
     std::vector<double> values() const;
 };
 
-/// @throws InputError, OutputError; TestInterrupted: the same call goes on
+/// @throws InputError, OutputError
+/// @throws TestInterrupted if interrupted; the same call resumes
+/// @throws SystemFailure if a test or a linear solve failed for a reason outside the case, such as lack of memory; the
+/// same call runs it again
 CalibrationOutcome calibrate(const Rock& rock, const CalibrationOptions& options, const CalibrationHooks& hooks = {});
 
 }  // namespace crackle

@@ -17,13 +17,14 @@ bool fills(double low, double high, double least, double most) {
 }
 
 Determination determine(const MatrixXd& slopes, const MatrixXd& covariance, double step) {
-    constexpr double least_change = 0.5;  // tolerances
-    constexpr double small_part = 0.1;    // of an open direction
+    constexpr double least_change = 0.5;  // in tolerances
+    constexpr double small_part = 0.1;    // fraction of an open direction's largest component
     const Index variables = slopes.cols();
     const Eigen::JacobiSVD<MatrixXd> svd(slopes * step, Eigen::ComputeThinU | Eigen::ComputeFullV);
     Determination found;
     found.determined.assign(static_cast<std::size_t>(variables), true);
-    MatrixXd inverse = MatrixXd::Zero(variables, slopes.rows());  // without what is open
+    // Pseudo-inverse of the slopes, without the open directions.
+    MatrixXd inverse = MatrixXd::Zero(variables, slopes.rows());
     for (Index k = 0; k < variables; ++k) {
         const VectorXd direction = svd.matrixV().col(k);
         const VectorXd way = step / direction.cwiseAbs().maxCoeff() * direction;

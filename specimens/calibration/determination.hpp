@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What targets say of keys near a solution: which combinations they leave open, and how sure the others are.
+// Which keys the targets determine near a solution: the combinations of keys that stay open, and the standard errors of
+// the remaining ones.
 // Tested by tests/specimens/calibration/determination_test.cpp.
 #pragma once
 
@@ -9,22 +10,24 @@
 namespace crackle {
 
 struct OpenDirection {
-    Eigen::VectorXd way;  ///< of the variables, the largest by `step`
-    double change = 0.0;  ///< of the target that changes most along it, in tolerances
+    Eigen::VectorXd way;  ///< step in each variable; the largest component is `step`
+    double change = 0.0;  ///< largest change of a target along the direction, in tolerances
 };
 
 struct Determination {
     std::vector<OpenDirection> open;
-    Eigen::VectorXd standard_errors;  ///< of the variables, of what is determined
-    std::vector<bool> determined;     ///< a variable each: no open direction has more than a tenth of it
+    Eigen::VectorXd standard_errors;  ///< standard error of each variable, ignoring the open directions
+    /// By variable: whether its component is at most a tenth of the largest one in every open direction.
+    std::vector<bool> determined;
 };
 
-/// Whether an interval leaves next to nothing of the bounds: it says no more than they do.
+/// Whether an interval fills nearly the whole range between the bounds and therefore adds no information.
 bool fills(double low, double high, double least, double most);
 
-/// By the singular directions of the slopes: one along which a step changes no target by half a tolerance is open.
-/// @param slopes of the targets in tolerances, a row each, over the variables
-/// @param covariance of the targets' errors, in tolerances squared
+/// Uses the singular value decomposition of the slopes: a singular direction is open if a step along it changes no
+/// target by half a tolerance.
+/// @param slopes  derivatives of the targets, in tolerances: one row per target, one column per variable
+/// @param covariance  covariance of the targets' errors, in tolerances squared
 Determination determine(const Eigen::MatrixXd& slopes, const Eigen::MatrixXd& covariance, double step);
 
 }  // namespace crackle

@@ -2,16 +2,9 @@
 #include "specimens/calibration/judgement.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace crackle {
-
-const char* name_of(TargetVerdict verdict) {
-    constexpr std::array<const char*, 6> names{
-        "reached", "reached within its error", "missed", "out of reach", "not found", "unresolved"};
-    return names[static_cast<std::size_t>(verdict)];
-}
 
 void judge(ReachedTarget& target, double value, double tolerance, const SearchEnd& end) {
     target.off = target.fresh.mean / value - 1.0;
@@ -21,7 +14,7 @@ void judge(ReachedTarget& target, double value, double tolerance, const SearchEn
         target.verdict = TargetVerdict::unresolved;
     else if (std::abs(target.off) <= tolerance)
         target.verdict = TargetVerdict::reached;
-    else if (!end.within_reach)  // whatever few packings that scatter widely allow
+    else if (!end.within_reach)  // even if the scatter of a few packings would allow for the deviation
         target.verdict = end.at_rest ? TargetVerdict::out_of_reach : TargetVerdict::not_found;
     else
         target.verdict =

@@ -1,45 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether fresh packings have what a target asks for.
+// Judges whether fresh packings reach a target.
 //
-// Keys were moved until the packings of the last correction had the target; fresh ones are others. Both means scatter,
-// so they differ by chance: what counts is the error of their difference (difference_half_width()).
+// The last correction adjusted the keys until the packings used for it reached the target. Fresh packings are other
+// ones, so their mean differs by chance. The standard error of the difference between the two means decides
+// (difference_half_width()).
 // Tested by tests/specimens/calibration/judgement_test.cpp.
 #pragma once
 
 #include <cstdint>
 
+#include "solver/base/names.hpp"
 #include "specimens/statistics/mean.hpp"
 
 namespace crackle {
 
+/// Final verdict on a target.
 enum class TargetVerdict : std::uint8_t {
-    reached,               ///< the mean of fresh packings is within the tolerance
-    reached_within_error,  ///< beyond it, within what both means' scatter explains
+    reached,               ///< the mean over fresh packings is within the tolerance
+    reached_within_error,  ///< outside the tolerance, but the scatter of both means explains the deviation
     missed,
-    out_of_reach,  ///< by all that is known around the best point none within the bounds has it with the others
-    not_found,     ///< the search ended on its way: another start may find it
-    unresolved,    ///< too few fresh packings have the figures
+    out_of_reach,  ///< near the best point, no values within the bounds reach this target together with the others
+    not_found,     ///< the search ended without a solution; another start may lead to one
+    unresolved,    ///< too few fresh packings have results for all targets
 };
-const char* name_of(TargetVerdict verdict);  ///< "reached", "out of reach", …
+constexpr auto list_names(TargetVerdict) {
+    return in_order("reached", "reached within its error", "missed", "out of reach", "not found", "unresolved");
+}
 
+/// A target, and the means measured for it.
 struct ReachedTarget {
-    MeanFigure fresh;    ///< on packings that nothing was fitted to, of those that have all targets' figures
-    MeanFigure polish;   ///< on those of the last correction, before it
-    double off = 0.0;    ///< mean over target, less 1
-    double limit = 0.0;  ///< tolerance, or the 95 % interval of fresh less corrected mean where that is more
+    MeanFigure fresh;   ///< over fresh packings, not used for fitting, that have results for all targets
+    MeanFigure polish;  ///< over the packings of the last correction, measured before that correction
+    double off = 0.0;   ///< mean over fresh packings divided by the target value, minus 1
+    /// Tolerance, or half-width of the 95 % interval of the difference between the two means if that is larger.
+    double limit = 0.0;
     TargetVerdict verdict = TargetVerdict::missed;
 
+    /// Whether the target counts as reached, either within the tolerance or within the scatter of both means.
     bool reached() const { return verdict == TargetVerdict::reached || verdict == TargetVerdict::reached_within_error; }
 };
 
-/// What the search knows of a target beside its two means.
+/// What the search knows about a target, apart from its two means.
 struct SearchEnd {
-    bool enough = true;        ///< fresh packings that have all figures
-    bool within_reach = true;  ///< the surfaces expect the target here
-    bool at_rest = true;       ///< no step leads on
+    bool enough = true;        ///< whether enough fresh packings have results for all targets
+    bool within_reach = true;  ///< whether the surfaces predict that the target is reached at the solution
+    bool at_rest = true;       ///< whether no further step improves the solution
 };
 
-/// Judges a target whose two means are known. @param tolerance of its value, a share
+/// Sets the verdict of a target whose two means are known.
+/// @param tolerance  allowed deviation, relative to `value`
 void judge(ReachedTarget& target, double value, double tolerance, const SearchEnd& end);
 
 }  // namespace crackle

@@ -6,21 +6,28 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <cstring>
+#include <new>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "specimens/campaign/crew.hpp"
 #include "specimens/campaign/packing_store.hpp"
+#include "specimens/campaign/row.hpp"
 #include "specimens/loading/prepare.hpp"
 
 namespace crackle {
 namespace {
 
-using PlainJson = nlohmann::json;
+using LinearFigures = std::array<double, linear_figures>;
 
-PlainJson moduli_of_case(TestCase test, PackingStore& packings) {
-    test.numerics.threads = 1;  // a worker is one processor's, and a forked process has no others
-    std::array<double, linear_figures> found{};
+// Kinds of a worker's answers, their first byte. Moduli or a reason follow, as bytes: a reason may name a file whose
+// name is no UTF-8.
+constexpr char solved = 's', refused_case = 'r', unwritten_file = 'u', failed_system = 'f';
+
+LinearFigures moduli_of_case(TestCase test, PackingStore& packings) {
+    test.numerics.threads = 1;  // a worker has one processor, and a forked process has no other threads
+    LinearFigures found{};
     found.fill(std::nan(""));
     TestHooks hooks;
     hooks.keep_packing = [&](const TestCase& of, const PackingRequest& request, const auto& make) {
@@ -30,7 +37,7 @@ PlainJson moduli_of_case(TestCase test, PackingStore& packings) {
         found = {moduli.youngs_modulus, moduli.poissons_ratio, moduli.gauge_modulus};
     };
     bond_test(test, hooks, look);
-    return PlainJson(found);
+    return found;
 }
 
 }  // namespace
@@ -54,7 +61,7 @@ bool is_elastic_key(std::string_view key) {
 
 std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& request, std::span<const double> values) {
     const Rock& rock = *request.rock;
-    // One plan of these values, so that packings get their seeds as those of the tests do.
+    // A single plan for all tests, so that packings get the same seeds as in the campaign.
     Plan plan;
     plan.file = rock.file;
     plan.tests = rock.tests;
@@ -63,43 +70,63 @@ std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& reques
     for (const std::size_t test : request.tests) plan.points.push_back({test, rock.settings(values), {}, {}, 1});
     judge_points(plan);
     const std::size_t count = static_cast<std::size_t>(rock.fit) * request.tests.size();
-    std::array<double, linear_figures> none{};
+    LinearFigures none{};
     none.fill(std::nan(""));
-    std::vector<std::array<double, linear_figures>> found(count, none);
+    std::vector<LinearFigures> found(count, none);
     FileHashes files;
     PackingStore packings(request.packings, files);
     std::size_t next = 0;
-    std::string wrong, refused;
+    std::string failed, refused, unwritten;
+    const auto row_of = [&](std::size_t piece) {
+        return PlanRow{piece % request.tests.size(),
+                       rock.first_seed + static_cast<std::int64_t>(piece / request.tests.size()), Variant::as_asked};
+    };
+    const auto told = [&](const PlanRow& row, const std::string& why) {
+        return fmt::format("{}, seed {}: {}", rock.tests[request.tests[row.point]].name, row.seed, why);
+    };
     CrewWork crew;
     crew.work = [&](std::size_t piece) {
-        const PlanRow row{piece % request.tests.size(),
-                          rock.first_seed + static_cast<std::int64_t>(piece / request.tests.size()), Variant::as_asked};
+        const PlanRow row = row_of(piece);
+        const auto answer = [&](char kind, const char* why) { return kind + told(row, why); };
         try {
-            return moduli_of_case(plan.test_of(row), packings).dump();
+            const LinearFigures moduli = moduli_of_case(plan.test_of(row), packings);
+            return solved + std::string(reinterpret_cast<const char*>(moduli.data()), sizeof moduli);
+        } catch (const OutputError& error) {
+            return answer(unwritten_file, error.what());
+        } catch (const UnreadableFile& error) {
+            return answer(failed_system, error.what());
+        } catch (const InputError& error) {
+            return answer(refused_case, error.what());
+        } catch (const std::bad_alloc&) {
+            return answer(failed_system, no_memory);
         } catch (const std::exception& error) {
-            return PlainJson{{"wrong", fmt::format("seed {}: {}", row.seed, error.what())}}.dump();
+            return answer(failed_system, error.what());
         }
     };
     crew.next = [&](std::optional<std::size_t>) { return next < count ? std::optional(next++) : std::nullopt; };
     crew.ended = [&](std::size_t piece, const PieceEnd& end) {
         if (end.how != PieceEnd::How::answered) {
-            wrong = fmt::format("the linear solve of seed {} ended its process",
-                                rock.first_seed + static_cast<std::int64_t>(piece / request.tests.size()));
+            failed = told(row_of(piece), end.code == worker_without_memory ? no_memory : spoken_end(end));
             return;
         }
-        const PlainJson answer = PlainJson::parse(end.answer);
-        if (answer.is_object()) {
-            if (refused.empty()) refused = answer["wrong"];
+        const char kind = end.answer.front();
+        if (kind == solved) {
+            std::memcpy(found[piece].data(), end.answer.data() + 1, sizeof(LinearFigures));
             return;
         }
-        for (std::size_t k = 0; k < linear_figures; ++k)
-            found[piece][k] = answer[k].is_number() ? answer[k].get<double>() : std::nan("");
+        std::string& why = kind == failed_system ? failed : kind == refused_case ? refused : unwritten;
+        if (why.empty()) why = end.answer.substr(1);
     };
-    crew.interrupted = [&] { return !wrong.empty() || (request.interrupted && request.interrupted()); };
+    crew.interrupted = [&] {
+        return !failed.empty() || !unwritten.empty() || (request.interrupted && request.interrupted());
+    };
     const bool complete = run_crew(std::min(request.workers, static_cast<int>(count)), crew);
-    if (!wrong.empty()) throw InputError(fmt::format("{}: {}", rock.file.string(), wrong));
+    if (!unwritten.empty()) throw OutputError(unwritten + "; the same command resumes");
+    if (!failed.empty())
+        throw SystemFailure(fmt::format("{}: a linear solve failed by the system: {}; the same command resumes",
+                                        rock.file.string(), failed));
     if (!complete) throw TestInterrupted();
-    // As for tests: of the packings that have it, where these are at least half.
+    // A mean covers the packings that have the result, and at least half of them must have it, as with tests.
     std::vector<std::vector<double>> means(request.tests.size(), std::vector<double>(linear_figures, std::nan("")));
     for (std::size_t test = 0; test < request.tests.size(); ++test) {
         for (std::size_t k = 0; k < linear_figures; ++k) {
@@ -113,8 +140,8 @@ std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& reques
             if (2 * counted >= rock.fit) means[test][k] = sum / static_cast<double>(counted);
         }
         if (std::isnan(means[test][0]) && !refused.empty())
-            throw InputError(
-                fmt::format("{}: more than half of the packings are refused: {}", rock.file.string(), refused));
+            throw InputError(fmt::format("{}: more than half of the packings were refused, for example {}",
+                                         rock.file.string(), refused));
     }
     return means;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Moduli of a rock's tests by the sparse linear solve, as means over packings: what the elastic keys are found from
-// before anything is loaded.
+// Moduli of a rock's tests from sparse linear solves, averaged over packings. The elastic keys are calibrated to these
+// moduli before any test is loaded.
 // Tested by tests/specimens/calibration/calibrate_test.cpp.
 #pragma once
 
@@ -17,20 +17,21 @@ namespace crackle {
 enum class LinearFigure : std::uint8_t { youngs_modulus, poissons_ratio, gauge_modulus };
 inline constexpr std::size_t linear_figures = 3;
 
-/// Which of them a figure of summary.json is near, before anything breaks; nothing: none.
+/// The linear result that approximates an entry of summary.json as long as no bond is broken; empty if there is none.
 std::optional<LinearFigure> linear_figure_of(std::string_view figure);
-/// Of a key of a case: whether the linear search moves it.
+/// Whether the linear search adjusts this key of a case.
 bool is_elastic_key(std::string_view key);
 
 struct LinearRequest {
     const Rock* rock = nullptr;
-    std::vector<std::size_t> tests;  ///< whose moduli
-    std::filesystem::path packings;  ///< folder of a campaign's
+    std::vector<std::size_t> tests;  ///< indices of the tests whose moduli are requested
+    std::filesystem::path packings;  ///< folder of a campaign's packings
     int workers = 1;
     std::function<bool()> interrupted;
 };
-/// @param values of all free keys  @return a vector a test asked for, by LinearFigure: mean over the fit packings
-/// @throws InputError if a packing gives none; TestInterrupted
+/// Means over the packings used for fitting. @param values  values of all free keys
+/// @return one vector per requested test, indexed by LinearFigure
+/// @throws InputError if a packing has no moduli; TestInterrupted
 std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& request, std::span<const double> values);
 
 }  // namespace crackle

@@ -16,9 +16,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Moduli are solved for to this share of a tolerance.
+// Accuracy to which the linear search meets the target moduli, as a fraction of a tolerance.
 constexpr double close_to_targets = 0.02;
-// Of the first slopes: the moduli are smooth, and solved to nine digits.
+// Step of the finite differences for the first slopes. It may be large: the moduli are smooth and solved to nine
+// digits.
 constexpr double difference = 0.1;
 constexpr int most_steps = 12;
 
@@ -63,9 +64,9 @@ VectorXd LinearSearch::solve(VectorXd x) {
             jacobian = slopes_;
         };
         const VectorXd next = box_minimum(linear, own, low, high), way = next - own;
-        if (way.cwiseAbs().maxCoeff() < 1e-9) break;  // at its bounds
+        if (way.cwiseAbs().maxCoeff() < 1e-9) break;  // x stays at the bounds
         const VectorXd there = off(at(next));
-        // Broyden's update: without noise it converges.
+        // Broyden's update, which converges since there is no noise.
         slopes_ += (there - residuals - slopes_ * way) * way.transpose() / way.squaredNorm();
         own = next;
         residuals = there;
@@ -100,8 +101,8 @@ VectorXd LinearSearch::logs(const VectorXd& x) {
                                  [static_cast<std::size_t>(*linear_figure_of(target.figure))];
         if (!(mean > 0.0))
             throw InputError(
-                fmt::format("{}: {}: found {:.3g} by the linear solve, expected a number > 0; leave the "
-                            "target out, or take another test",
+                fmt::format("{}: {}: found {:.3g} from the linear solve, expected a number > 0; remove this "
+                            "target, or use another test",
                             target.where, target.figure, mean));
         all[k] = std::log(mean);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elastic keys from moduli, by linear solves alone.
+// Searches for the elastic keys that give the target moduli, using only linear solves.
 // Tested by tests/specimens/calibration/calibrate_test.cpp.
 #pragma once
 
@@ -14,29 +14,30 @@ namespace crackle {
 
 class LinearSearch {
   public:
-    /// @param request but for its tests
+    /// @param request  request whose `tests` are set by the constructor
     LinearSearch(const SearchSpace& space, LinearRequest request);
 
     bool empty() const { return space_.linear_keys.empty(); }
 
-    /// Moves the elastic keys of x until the linear moduli, times what tests measure beside them, are the targets, or
-    /// as near as their bounds allow.
+    /// Adjusts the elastic keys in x until the linear moduli, multiplied by the measured ratios, reach the targets or
+    /// come as close as the bounds allow.
     Eigen::VectorXd solve(Eigen::VectorXd x);
-    /// What tests at x have measured beside the linear figures there. @param means logarithms, of all targets
+    /// Updates the ratios of measured to linear moduli from tests at x.
+    /// @param means  logarithms of the mean results for all targets
     void learn(const Eigen::VectorXd& x, const Eigen::VectorXd& means);
-    /// What is expected to be measured at x, less the target, in tolerances; a row a linear target.
+    /// Deviation expected at x of each linear target's result from the target, in tolerances.
     Eigen::VectorXd off(const Eigen::VectorXd& x);
-    /// Of off() over the elastic keys.
+    /// Derivatives of off() with respect to the elastic keys.
     const Eigen::MatrixXd& slopes() const { return slopes_; }
     std::int64_t solves() const { return solves_; }
 
   private:
-    /// Logarithms of the linear figures.
+    /// Logarithms of the linear moduli at x.
     Eigen::VectorXd logs(const Eigen::VectorXd& x);
 
     const SearchSpace& space_;
     LinearRequest request_;
-    Eigen::VectorXd factors_;  // logarithms of measured over linear
+    Eigen::VectorXd factors_;  // logarithms of measured result divided by linear result
     Eigen::MatrixXd slopes_;
     std::vector<std::pair<std::vector<double>, Eigen::VectorXd>> known_;
     std::int64_t solves_ = 0;

@@ -8,9 +8,11 @@
 #include <limits>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "specimens/campaign/point_table.hpp"
 #include "specimens/envelope/strength_envelope.hpp"
 #include "specimens/making/hooks.hpp"
+#include "specimens/statistics/spoken.hpp"
 
 namespace crackle {
 namespace {
@@ -37,7 +39,7 @@ void Measurements::measure(const std::vector<std::vector<double>>& points, Packi
             all_known = !known_.emplace(std::pair(place, k), std::vector<double>()).second && all_known;
     }
     if (all_known) return;
-    // The plan of all that was ever asked for: what has been run is not run again.
+    // The plan holds all requested points; finished tests are not run again.
     Plan plan;
     plan.file = rock_.file;
     plan.text = rock_.text;
@@ -69,6 +71,11 @@ void Measurements::measure(const std::vector<std::vector<double>>& points, Packi
     plan.first_seed = rock_.first_seed;
     const CampaignOutcome outcome = run_campaign(plan, options_, hooks_);
     if (outcome.interrupted) throw TestInterrupted();
+    if (outcome.progress.failures > 0)
+        throw SystemFailure(
+            fmt::format("{}: {} failed by the system ({}), expected figures of all packings; the same command runs "
+                        "what is missing",
+                        options_.folder.string(), counted(outcome.progress.failures, "test"), outcome.failure));
     read(plan);
 }
 
@@ -80,13 +87,13 @@ void Measurements::read(const Plan& plan) {
                                         results.columns.begin());
     };
     const std::size_t failed = column("failed"), state = column("state");
-    std::vector<std::size_t> columns, divisors;  // of figures, and of those that ratios are over
+    std::vector<std::size_t> columns, divisors;  // columns of the results, and of the denominators of ratios
     for (const Target& target : rock_.targets) {
         columns.push_back(target.of_law() ? column("peak_stress") : column(target.figure));
         divisors.push_back(target.over.empty() ? no_column : column(target.over));
     }
     const std::size_t pressure = column("confining_pressure");
-    // Of each point and packing, by target: the strengths that its law is fitted to.
+    // Strengths to which the law of a target is fitted: by point and packing, then by target.
     std::map<std::pair<std::size_t, std::int64_t>, std::map<std::size_t, std::vector<StrengthPoint>>> strengths;
     for (auto& [place, figures] : known_) figures.assign(rock_.targets.size(), std::nan(""));
     std::vector<bool> any(rock_.targets.size(), false), done(rock_.tests.size(), false);
@@ -116,7 +123,7 @@ void Measurements::read(const Plan& plan) {
             figures[t] = value;
         }
     }
-    // A packing that lacks a strength has no law: that of the others would be another's.
+    // A law is fitted only to packings with all strengths; others would not be comparable.
     for (const auto& [place, of_targets] : strengths) {
         for (const auto& [t, points] : of_targets) {
             const Target& target = rock_.targets[t];
@@ -132,7 +139,8 @@ void Measurements::read(const Plan& plan) {
         throw InputError(fmt::format(
             "{}: found no {} in any test of {}{}, expected a number; see `crackle campaign show {} --wrong`",
             target.where, target.quantity(), target.source(rock_.tests),
-            done[target.test] ? " (did one fail by loading.max_axial_strain?)" : ", of which none was done",
+            done[target.test] ? " (did any specimen fail before loading.max_axial_strain?)"
+                              : ", none of which was done",
             options_.folder.string()));
     }
     const LedgerCounts counts = ledger.counts();

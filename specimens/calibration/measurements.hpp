@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the tests of a rock give at points of its free keys, run as a campaign: each once, whoever asks again.
+// Results of a rock's tests for given values of its free keys, run as a campaign. Each test is run only once.
 // Tested by tests/specimens/calibration/calibrate_test.cpp.
 #pragma once
 
@@ -15,26 +15,30 @@
 
 namespace crackle {
 
-/// Packings by their place: 0 is the one of the rock's first seed.
+/// A range of packing indices; packing 0 has the rock's first seed.
 struct PackingRange {
     std::int64_t first = 0, count = 0;
 };
 
+/// The tests of a calibration, as a campaign that grows with every requested point.
 class Measurements {
   public:
-    /// @param keep of its tests  @param options of its campaign
+    /// @param keep  which files of each test are kept  @param options  options of the campaign
     Measurements(const Rock& rock, Keep keep, CampaignOptions options, CampaignHooks hooks);
 
-    /// Runs what is not there yet. @param values of all free keys, a vector a point
-    /// @throws InputError if a figure is none of the test's; TestInterrupted
+    /// Runs those tests that have not been run yet. @param points  values of all free keys, one vector per point
+    /// @throws InputError if the test does not have a requested result; TestInterrupted
+    /// @throws SystemFailure if tests failed for a reason outside the case: means without them would be biased
     void measure(const std::vector<std::vector<double>>& points, PackingRange packings);
 
-    /// Targets' figures, a row a packing and a column a target; not a number where a test has gone wrong, or has not
-    /// failed and the figure belongs to the peak.
+    /// Results for the targets, one row per packing and one column per target. A result is NaN if its test went wrong,
+    /// or if it refers to the peak and the specimen has not failed.
     Eigen::MatrixXd figures(const std::vector<double>& point, PackingRange packings) const;
 
-    std::int64_t tests() const { return tests_; }  ///< that there are
+    std::int64_t tests() const { return tests_; }  ///< number of tests in the campaign
+    /// Total processor time of all tests that were run, s.
     double processor_seconds() const { return processor_seconds_; }
+    /// Options of the campaign.
     const CampaignOptions& options() const { return options_; }
 
   private:
@@ -45,7 +49,7 @@ class Measurements {
     CampaignOptions options_;
     CampaignHooks hooks_;
     std::vector<std::vector<double>> points_;
-    std::map<std::pair<std::size_t, std::int64_t>, std::vector<double>> known_;  // (point, packing) to figures
+    std::map<std::pair<std::size_t, std::int64_t>, std::vector<double>> known_;  // (point, packing) → figures
     std::int64_t tests_ = 0;
     double processor_seconds_ = 0.0;
 };

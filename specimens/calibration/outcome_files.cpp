@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "solver/files/text_table.hpp"
 #include "specimens/campaign/point_table.hpp"
@@ -27,7 +28,7 @@ Json json_of(const MeanFigure& mean) {
             {"interval", {mean.low, mean.high}}};
 }
 
-/// What a target is called in a sentence.
+/// Name of a target as used in sentences.
 std::string target_name(const Rock& rock, std::size_t k) {
     return fmt::format("{} of {}", rock.targets[k].quantity(), rock.targets[k].source(rock.tests));
 }
@@ -42,15 +43,15 @@ std::string keys_at_bounds(const Rock& rock, const CalibrationOutcome& outcome) 
     return text;
 }
 
-/// Targets that no point has, and what can be had for what.
+/// Describes targets that no point reaches, and possible compromises.
 std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
     std::string text, names;
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const ReachedTarget& reached = outcome.targets[k];
         if (reached.verdict == TargetVerdict::not_found)
             text += fmt::format(
-                "\n{} = {:.4g} was not found: the search ended on its way, at {:.4g} ± {:.2g}; give "
-                "[[free]] another start\n",
+                "\n{} = {:.4g} was not reached: the search stopped at {:.4g} ± {:.2g}; change `start` in "
+                "[[free]]\n",
                 target_name(rock, k), rock.targets[k].value, reached.fresh.mean, reached.fresh.standard_error);
         if (reached.verdict != TargetVerdict::out_of_reach) continue;
         const std::string bounds = keys_at_bounds(rock, outcome);
@@ -60,7 +61,7 @@ std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
                         bounds.empty() ? "" : fmt::format(", with {} at the bounds", bounds));
     }
     if (outcome.frontier.empty()) return text;
-    text += fmt::format("\nwhat can be had for {} (means of the fit packings ± standard error):\n",
+    text += fmt::format("\npossible compromises for {} (means of the fit packings ± standard error):\n",
                         target_name(rock, outcome.frontier_of));
     for (const FrontierPoint& point : outcome.frontier) {
         std::string line, keys;
@@ -76,25 +77,26 @@ std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
     return text;
 }
 
-/// Packings that are in no mean, and where the scatter decides and not the tolerance.
+/// Describes packings that are left out of all means, and targets whose limit is set by scatter rather than by the
+/// tolerance.
 std::string packings_text(const Rock& rock, const CalibrationOutcome& outcome) {
     std::string text;
     const auto complete = static_cast<std::int64_t>(outcome.targets.front().fresh.count);
     if (complete < rock.fresh)
         text += fmt::format(
-            "\n{} of {} fresh packings have all targets' figures: the others have gone wrong, or not failed "
-            "by loading.max_axial_strain, and the means are of the weaker ones; `crackle campaign show "
-            "DIR/fresh` says which\n",
+            "\n{} of {} fresh packings have all targets' figures: the others went wrong, or did not fail "
+            "before loading.max_axial_strain, so the means cover only the weaker ones; `crackle campaign show "
+            "DIR/fresh` lists them\n",
             complete, rock.fresh);
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const Target& target = rock.targets[k];
         const ReachedTarget& reached = outcome.targets[k];
         if (reached.limit <= target.tolerance || std::abs(reached.off) > reached.limit) continue;
-        // Two standard errors of a difference, of as many packings on either side.
+        // The half-width is about two standard errors of a difference between means over equal numbers of packings.
         const double wanted = 2.0 * packings_for(reached.fresh.deviation, 0.5 * target.tolerance * target.value);
         text += fmt::format(
-            "\n{}: the scatter of {} fresh packings and of the {} of the last correction leaves ±{:.2f} %, more than "
-            "the tolerance of {:.2f} %; {} of each bring it down to that\n",
+            "\n{}: the scatter of {} fresh packings and of the {} of the last correction leaves an error of ±{:.2f} %, "
+            "more than the tolerance of {:.2f} %; {} of each would reduce it to the tolerance\n",
             target_name(rock, k), reached.fresh.count, reached.polish.count, 100.0 * reached.limit,
             100.0 * target.tolerance, wanted > 1e4 ? "more than 10,000" : fmt::format("{:.0f}", wanted));
     }
@@ -114,15 +116,15 @@ std::string directions_text(const Rock& rock, const CalibrationOutcome& outcome)
                 ratio ? fmt::format("times {:.2f}", factor) : fmt::format("{:+.3g}", factor * rock.free[f].scale()));
         }
         text += fmt::format(
-            "\nnot determined by the targets: {}: together that changes no target by more than {:.2g} of "
-            "its tolerance; other values along it do as well, another target decides\n",
+            "\nnot determined by the targets: {}: this combined change moves no target by more than {:.2g} of its "
+            "tolerance; only another target can distinguish these values\n",
             keys, direction.change);
     }
     for (std::size_t f = 0; f < rock.free.size(); ++f) {
         if (!outcome.keys[f].lost_in_scatter) continue;
         text += fmt::format(
-            "\nnot determined by these packings: {}: their scatter leaves it between {:.4g} and {:.4g}, its bounds; a "
-            "larger polish in [packings], or another target, decides\n",
+            "\nnot determined by these packings: {}: their scatter allows any value between its bounds, {:.4g} and "
+            "{:.4g}; use a larger polish in [packings], or another target\n",
             rock.free[f].name(), rock.free[f].from, rock.free[f].to);
     }
     return text;
@@ -230,8 +232,8 @@ std::string calibration_remarks(const Rock& rock, const CalibrationOutcome& outc
 }
 
 std::string found_keys_toml(const Rock& rock, const CalibrationOutcome& outcome) {
-    // By tables, in the order in which they come first. A list of tables, [[mineral]], holds as a whole in a case: its
-    // keys cannot stand by themselves, and are comments.
+    // Tables appear in the order of their first key. Entries of a list such as [[mineral]] are written as comments,
+    // because a case must give the list as a whole.
     std::vector<std::pair<std::string, std::string>> tables;
     std::string listed;
     const std::vector<CaseSetting> settings = rock.settings(outcome.values());
@@ -261,6 +263,25 @@ std::string found_keys_toml(const Rock& rock, const CalibrationOutcome& outcome)
     return text + listed;
 }
 
+namespace {
+
+/// Names of tests that an earlier calibration wrote to this folder; empty if its file does not list them.
+std::set<std::string> tests_before(const std::filesystem::path& file) {
+    std::set<std::string> names;
+    if (!is_file(file)) return names;
+    const Json earlier = Json::parse(read_file(file), nullptr, false);
+    const Json targets = earlier.is_object() ? earlier.value("targets", Json::array()) : Json::array();
+    for (const Json& target : targets) {
+        if (!target.is_object() || !target.contains("test") || !target["test"].is_string()) continue;
+        std::istringstream listed(target["test"].get<std::string>());
+        for (std::string name; std::getline(listed >> std::ws, name, ',');)
+            if (std::filesystem::path(name).filename() == name) names.insert(name);
+    }
+    return names;
+}
+
+}  // namespace
+
 void write_calibration(const Rock& rock, const CalibrationOutcome& outcome, const std::filesystem::path& folder) {
     const std::vector<double> values = outcome.values();
     const std::filesystem::path cases = folder / "cases";
@@ -272,14 +293,14 @@ void write_calibration(const Rock& rock, const CalibrationOutcome& outcome, cons
         written.insert(cases / (rock.tests[test].name + ".toml"));
         replace_file(cases / (rock.tests[test].name + ".toml"), out.str());
     }
-    // Of tests that the rock had before.
-    for (const auto& entry : std::filesystem::directory_iterator(cases))
-        if (entry.path().extension() == ".toml" && !written.contains(entry.path()))
-            std::filesystem::remove(entry.path());
-    replace_file(folder / "rock.toml", fmt::format("# {}: keys as `crackle calibrate` has found them; calibration.txt "
-                                                   "says what they reach.\n{}",
+    for (const std::string& name : tests_before(folder / "calibration.json"))
+        if (const std::filesystem::path file = cases / (name + ".toml"); !written.contains(file))
+            std::filesystem::remove(file);
+    replace_file(folder / "rock.toml", fmt::format("# {}: keys found by `crackle calibrate`; calibration.txt "
+                                                   "lists the results they reach.\n{}",
                                                    rock.title, found_keys_toml(rock, outcome)));
-    replace_file(folder / "calibration.json", calibration_json(rock, outcome).dump(2) + "\n");
+    replace_file(folder / "calibration.json",
+                 calibration_json(rock, outcome).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     replace_file(folder / "calibration.txt", calibration_text(rock, outcome));
 }
 

@@ -17,7 +17,7 @@
 #include "specimens/case/parameters.hpp"
 #include "specimens/envelope/strength_envelope.hpp"
 #include "specimens/recordings/measured_curve.hpp"
-#include "specimens/results/summary_keys.hpp"
+#include "specimens/summary/summary_keys.hpp"
 
 namespace crackle {
 namespace {
@@ -27,31 +27,40 @@ namespace fs = std::filesystem;
 constexpr DeclaredKey rock_keys[]{
     {"", "title", "a text", "Name of the rock."},
     {"[[test]]", "case", "a file", "Case of `crackle test`, relative to this file; required."},
-    {"[[test]]", "name", "a text", "What targets call it; the case's file name without one."},
+    {"[[test]]", "name", "a text", "Name that targets use; the case's file name by default."},
     {"[[test]]", "set", "a table", "Keys of the case with other values, as in a plan."},
-    {"[[target]]", "test", "the name of a test", "Which one the figure is of; required where there are several."},
+    {"[[target]]", "test", "the name of a test", "Test that has the figure; required if there are several tests."},
     {"[[target]]", "figure", "a figure of summary.json", "\"youngs_modulus\", \"peak_stress\"; required."},
     {"[[target]]", "over", "another figure of summary.json",
-     "The target is the ratio to it: crack_initiation_stress over peak_stress."},
+     "The target is then the ratio of `figure` to this one, for example crack_initiation_stress to peak_stress."},
     {"[[target]]", "tests", "a list of names",
-     "In place of test, with figure \"friction_angle\" (Mohr-Coulomb, deg) or \"hoek_brown_m\": compressions under "
-     "three pressures or more, 0 among them, that the law is fitted to, of each packing by itself."},
-    {"[[target]]", "value", "a number > 0", "What the mean over packings is to be, in the figure's units; required."},
-    {"[[target]]", "tolerance", "a number > 0 and < 1", "Share of it that the mean may be off by; 0.05 by default."},
-    {"[[target]]", "error", "a number >= 0 and < 1", "Standard error of the measured value, as a share of it; 0."},
-    {"[[free]]", "key", "a key of a case", "A number of the cases that is to be found; required."},
+     "In place of test, with figure \"friction_angle\" (Mohr-Coulomb, deg) or \"hoek_brown_m\": compressions under at "
+     "least three pressures including 0. The law is fitted to the tests of each packing separately."},
+    {"[[target]]", "value", "a number > 0",
+     "Value that the mean over packings should reach, in the figure's unit; required."},
+    {"[[target]]", "tolerance", "a number > 0 and < 1",
+     "Allowed deviation of the mean, as a fraction of the value; 0.05 by default."},
+    {"[[target]]", "error", "a number >= 0 and < 1",
+     "Standard error of the measured value, as a fraction of the value; 0 by default."},
+    {"[[free]]", "key", "a key of a case", "Key of the cases to be calibrated; required."},
     {"[[free]]", "of", "another free key",
-     "What is found is the ratio to that one, cohesion over tensile strength say."},
-    {"[[free]]", "from", "a number", "Lower bound; required. Above 0 it is searched in ratios, else in differences."},
+     "The ratio to this key is calibrated, for example cohesion divided by tensile strength."},
+    {"[[free]]", "from", "a number",
+     "Lower bound; required. If it is above 0, the search uses a logarithmic scale, otherwise a linear one."},
     {"[[free]]", "to", "a number > from", "Upper bound; required."},
-    {"[[free]]", "start", "a number between", "Where the search begins; the middle of the bounds without it."},
-    {"[[curve]]", "test", "the name of a test", "Which one was measured; required where there are several."},
+    {"[[free]]", "start", "a number between", "Start of the search; the middle of the bounds by default."},
+    {"[[curve]]", "test", "the name of a test",
+     "Test to which the measured curve belongs; required if there are several tests."},
     {"[[curve]]", "file", "a file", "CSV with columns axial_strain and axial_stress; required."},
-    {"[packings]", "fit", "a whole number, 4 to 10000", "Specimens that every point of a design is run on; 8."},
-    {"[packings]", "polish", "a whole number, fit to 10000", "That the last correction is made on; 40."},
-    {"[packings]", "fresh", "a whole number, 4 to 10000", "Others, that the result is judged by; 20."},
-    {"[packings]", "first_seed", "a whole number >= 0", "Of the first; 1."},
-    {"[run]", "time_limit", "a number > 0 in s", "Of the wall clock a test: one that takes longer is ended, and told."},
+    {"[packings]", "fit", "a whole number, 4 to 10000",
+     "Number of packings tested at each point of a design; 8 by default."},
+    {"[packings]", "polish", "a whole number, from the value of fit to 10000",
+     "Number of packings used for the last correction; 40 by default."},
+    {"[packings]", "fresh", "a whole number, 4 to 10000",
+     "Number of fresh packings on which the result is judged; 20 by default."},
+    {"[packings]", "first_seed", "a whole number >= 0", "Seed of the first packing; 1 by default."},
+    {"[run]", "time_limit", "a number > 0 in s",
+     "Largest wall-clock time of a test; a test that takes longer is stopped and reported."},
 };
 constexpr std::size_t most_free_keys = 8;
 
@@ -80,18 +89,15 @@ double share(const KeyedTable& table, const char* key, double otherwise, bool ze
     return found.value_or(otherwise);
 }
 
-void require_summary_figure(const KeyedTable& table, const char* key, std::string name) {
-    const std::string asked = name;
-    if (name.ends_with(converted_suffix)) name.resize(name.size() - std::string_view(converted_suffix).size());
-    const auto& known = summary_keys();
-    if (std::none_of(known.begin(), known.end(), [&](const SummaryKey& one) { return one.what.name == name; }))
-        table.refuse(key, fmt::format("\"{:.60}\"", asked), "a figure of summary.json, peak_stress say");
+void require_summary_figure(const KeyedTable& table, const char* key, const std::string& asked) {
+    if (std::ranges::find(summary_keys(), without_suffix(asked), &SummaryKey::name) == summary_keys().end())
+        table.refuse(key, fmt::format("\"{:.60}\"", asked), "a figure of summary.json such as peak_stress");
 }
 
 constexpr const char* law_figures[]{"friction_angle", "hoek_brown_m"};
 bool is_of_law(const std::string& figure) { return std::ranges::find(law_figures, figure) != std::end(law_figures); }
 
-/// The tests of a law; in which pressures they are is judged with the bounds, where their cases are whole.
+/// The tests to which a law is fitted. Their pressures are checked in judge_laws(), when the cases are complete.
 std::vector<std::size_t> law_tests(const Rock& rock, const KeyedTable& table) {
     std::vector<std::size_t> tests;
     for (const std::string& name : table.texts("tests")) {
@@ -115,12 +121,12 @@ Target read_target(const Rock& rock, const KeyedTable& table) {
         if (target.of_law())
             table.refuse("figure", fmt::format("\"{:.60}\" of several tests", *figure),
                          fmt::format("one of {}", fmt::join(law_figures, ", ")));
-        table.refuse("tests", "nothing", fmt::format("the compressions that {} is fitted to", *figure));
+        table.refuse("tests", "nothing", fmt::format("the compressions to which {} is fitted", *figure));
     }
     if (target.of_law()) {
         target.test = target.tests.front();
         for (const char* key : {"test", "over"})
-            if (table.text(key)) table.refuse(key, "it beside tests", "none");
+            if (table.text(key)) table.refuse(key, "this key together with tests", "only one of the two");
     } else {
         target.test = test_of(rock, table);
         require_summary_figure(table, "figure", target.figure);
@@ -131,7 +137,7 @@ Target read_target(const Rock& rock, const KeyedTable& table) {
     }
     for (const Target& other : rock.targets)
         if (other.test == target.test && other.tests == target.tests && other.quantity() == target.quantity())
-            table.refuse("figure", fmt::format("{} twice", target.quantity()), "one [[target]] a figure of a test");
+            table.refuse("figure", fmt::format("{} twice", target.quantity()), "one [[target]] per figure of a test");
     const std::optional<double> value = table.positive("value");
     if (!value) table.refuse("value", "nothing");
     target.value = *value;
@@ -142,22 +148,21 @@ Target read_target(const Rock& rock, const KeyedTable& table) {
 
 FreeKey read_free(const Rock& rock, const KeyedTable& table) {
     const auto [key, parameter] = read_case_key(table);
-    if (parameter->kind != ValueKind::real)
-        table.refuse("key", fmt::format("\"{:.40}\"", key), "one that has a number");
+    if (parameter->kind != ValueKind::real) table.refuse("key", fmt::format("\"{:.40}\"", key), "a key with a number");
     for (const char* other : {"numerics.", "output.", "loading."})
         if (key.starts_with(other))
             table.refuse("key", fmt::format("\"{}\"", key),
-                         "a key of the rock; what tests are run with is no property of it");
+                         "a key of the rock, not one that only describes how it is tested");
     FreeKey free;
     free.key = key;
     for (const PlannedTest& test : rock.tests)
         for (const CaseSetting& setting : test.settings)
             if (setting.key == key)
                 table.refuse("key", fmt::format("{}, which `set` of test {} gives a value", key, test.name),
-                             "it in one of them");
+                             "the key in one of them only");
     free.where = table.where("key");
     for (const FreeKey& other : rock.free)
-        if (other.key == free.key) table.refuse("key", fmt::format("{} twice", key), "one [[free]] a key");
+        if (other.key == free.key) table.refuse("key", fmt::format("{} twice", key), "one [[free]] per key");
     free.of = table.text("of").value_or("");
     if (!free.of.empty() && std::none_of(rock.free.begin(), rock.free.end(), [&](const FreeKey& other) {
             return other.key == free.of && other.of.empty();
@@ -174,7 +179,7 @@ FreeKey read_free(const Rock& rock, const KeyedTable& table) {
     return free;
 }
 
-/// All corners of the bounds, in every test: what lies between is then possible, too, by the rules that cases have.
+/// Checks every combination of bounds in every test. If all are valid, so are all values between the bounds.
 void judge_bounds(const Rock& rock) {
     for (std::size_t corner = 0; corner < std::size_t{1} << rock.free.size(); ++corner) {
         std::vector<double> values;
@@ -194,7 +199,7 @@ void judge_bounds(const Rock& rock) {
     }
 }
 
-/// A law needs compressions under several pressures.
+/// Checks that each law is fitted to compressions under several pressures.
 void judge_laws(const Rock& rock) {
     std::vector<double> start;
     start.reserve(rock.free.size());
@@ -203,7 +208,7 @@ void judge_laws(const Rock& rock) {
         std::set<double> pressures;
         for (const std::size_t test : target.tests) {
             const TestCase of = rock.case_of(test, start);
-            if (of.loading.kind == "tension") {
+            if (of.loading.kind == LoadingKind::tension) {
                 throw InputError(fmt::format("{}: [[target]] tests: found {}, a tension, expected compressions",
                                              target.where, rock.tests[test].name));
             }
@@ -259,7 +264,7 @@ Rock read_rock(const fs::path& path) {
     const KeyedFile file(path, "a rock to be calibrated", rock_keys);
     Rock rock;
     rock.file = path;
-    rock.text = read_text(path);
+    rock.text = read_text(path, most_bytes_of_keys);
     rock.title = file.top().text("title").value_or(path.stem().string());
     rock.tests = read_planned_tests(file);
     for (const KeyedTable& table : file.tables("target")) rock.targets.push_back(read_target(rock, table));
@@ -267,7 +272,7 @@ Rock read_rock(const fs::path& path) {
         throw InputError(fmt::format("{}: found no [[target]], expected one or more", path.string()));
     for (const KeyedTable& table : file.tables("free")) {
         if (rock.free.size() == most_free_keys)
-            table.refuse("key", "one more", fmt::format("at most {} free keys", most_free_keys));
+            table.refuse("key", "another free key", fmt::format("at most {} free keys", most_free_keys));
         rock.free.push_back(read_free(rock, table));
     }
     if (rock.free.empty()) throw InputError(fmt::format("{}: found no [[free]], expected one or more", path.string()));

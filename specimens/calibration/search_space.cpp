@@ -15,7 +15,7 @@ bool is_linear(const Target& target) {
     return target.over.empty() && !target.of_law() && linear_figure_of(target.figure).has_value();
 }
 
-/// The key that all strengths go with; -1: none.
+/// The key that scales all strengths; -1 if there is no such key.
 Index level_key_of(const SearchSpace& space) {
     Index tensile = -1;
     bool cohesion = false;
@@ -27,7 +27,7 @@ Index level_key_of(const SearchSpace& space) {
     if (tensile < 0 || !cohesion) return -1;
     for (std::size_t test = 0; test < space.rock.tests.size(); ++test) {
         const TestCase at = space.rock.case_of(test, space.values_at(space.start));
-        if (at.bond.law != "coulomb" || !at.area_units() || !at.mineral.empty()) return -1;
+        if (!at.bond_facts().strengths_are_given || !at.area_units() || !at.mineral.empty()) return -1;
     }
     return tensile;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A rock in numbers: its free keys as variables (mostly logarithms) within bounds, its targets as logarithms with a
-// width, and which of both belong to the linear solve. Tested by tests/specimens/calibration/rock_test.cpp.
+// A rock in numerical form for the search: free keys as variables (mostly logarithms) within bounds, and targets as
+// logarithms with tolerances. It also lists the keys and targets that belong to the linear solve.
+// Tested by tests/specimens/calibration/rock_test.cpp.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,19 +16,22 @@ struct SearchSpace {
 
     const Rock& rock;
     Eigen::Index keys = 0, targets = 0;
-    Eigen::VectorXd low, high, start;  ///< of the variables
-    Eigen::VectorXd logs, widths;      ///< of the targets: logarithm, and that of 1 + tolerance
-    /// Moduli and what they depend on; none where there are only the ones or the others. The other keys are those that
-    /// the other targets are to determine: none without such targets, then keys stay where they start.
+    Eigen::VectorXd low, high, start;  ///< bounds and start of the variables
+    Eigen::VectorXd logs, widths;      ///< by target: logarithms of its value and of 1 + tolerance
+    /// The targets in linear_targets are moduli, which linear_keys determine; both lists are empty unless the rock has
+    /// both. other_keys determine other_targets. Without other targets, other_keys is empty, and the remaining keys
+    /// keep their start values.
     std::vector<Eigen::Index> linear_keys, linear_targets, other_keys, other_targets;
-    /// tensile_strength, where strengths go with its first power up to strength over modulus: cohesion goes with it,
-    /// and bonds are coulomb in all tests; -1 elsewhere.
+    /// Index of tensile_strength if all strengths are proportional to it (apart from the effect of the ratio of
+    /// strength to modulus); otherwise -1. This requires cohesion given as a ratio to tensile_strength, and Coulomb
+    /// bonds in all tests.
     Eigen::Index level_key = -1;
 
     std::vector<double> values_at(const Eigen::VectorXd& x) const;
     const Target& target(Eigen::Index t) const { return rock.targets[static_cast<std::size_t>(t)]; }
     const FreeKey& key(Eigen::Index k) const { return rock.free[static_cast<std::size_t>(k)]; }
-    /// Whether it is a strength, which goes with the level; one under a pressure, which does not change, does not.
+    /// Whether a target is a strength that scales with the level key. A strength under a confining pressure does not,
+    /// because the pressure does not scale with it.
     bool goes_with_level(Eigen::Index t) const;
 };
 

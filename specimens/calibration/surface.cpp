@@ -15,7 +15,7 @@ struct Fit {
     double left_out_error = std::numeric_limits<double>::infinity();
 };
 
-/// @param rows terms of a point each
+/// Least-squares fit. @param rows  values of the polynomial's terms, one row per point
 Fit fit(const Eigen::MatrixXd& rows, const Eigen::VectorXd& values) {
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows);
     Fit fit;
@@ -23,7 +23,7 @@ Fit fit(const Eigen::MatrixXd& rows, const Eigen::VectorXd& values) {
     fit.coefficients = qr.solve(values);
     const Eigen::VectorXd residuals = values - rows * fit.coefficients;
     const Eigen::MatrixXd inverse = (rows.transpose() * rows).inverse();
-    // Leaving a point out changes its residual by 1/(1 − leverage).
+    // Without a point in the fit, its residual is 1/(1 − leverage) times as large.
     const Eigen::VectorXd leverage = (rows * inverse).cwiseProduct(rows).rowwise().sum();
     fit.left_out_error = std::sqrt((residuals.array() / (1.0 - leverage.array()).max(1e-12)).square().mean());
     return fit;

@@ -6,11 +6,11 @@
 
 namespace crackle {
 
-/// How well a target's surface predicts points left out of it.
+/// How well a target's surface predicts points that were left out of the fit.
 struct SurfaceQuality {
     std::size_t target = 0;
     bool quadratic = false;
-    double left_out_error = 0.0;  ///< in logarithms
+    double left_out_error = 0.0;  ///< root mean square error of predicting a left-out point, in logarithms
 };
 
 }  // namespace crackle

@@ -14,14 +14,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Points of earlier designs this many half-widths away count, too.
+// Points of earlier designs within this distance of the centre, in half-widths, are used too.
 constexpr double reach_of_points = 2.5;
-// Along the level, which is known to go with the first power, a solution may lie this far, in logarithms.
+// Largest step of a solution along the level key, in logarithms. It may be large, since strengths are known to be
+// proportional to that key.
 constexpr double reach_of_level = 3.0;
-// Pull of the start values where targets say nothing, in tolerances a unit of logarithm: more than noise, little beside
-// a target that says something.
+// Weight that pulls keys that the targets leave open towards their start values, in tolerances per unit of logarithm.
+// It exceeds the noise but is small compared with a target.
 constexpr double pull_of_start = 0.1;
-// Share of the packings that must have given all figures.
+// A point needs results for all targets in at least this fraction of its packings, and in at least fewest_done.
 constexpr double least_share_done = 0.5;
 constexpr double fewest_done = 3.0;
 
@@ -49,7 +50,7 @@ std::vector<VectorXd> SurfaceSearch::design(const VectorXd& middle, double width
         VectorXd x = middle;
         for (std::size_t d = 0; d < p; ++d) {
             const Index key = space_.other_keys[d];
-            // A box that the bounds cut keeps its width.
+            // A box that would extend past a bound is shifted and keeps its width.
             const double last = std::max(space_.low[key], space_.high[key] - 2.0 * width);
             const double low = std::clamp(middle[key] - width, space_.low[key], last);
             const double high = std::min(low + 2.0 * width, space_.high[key]);
@@ -77,7 +78,8 @@ std::size_t SurfaceSearch::fit(const VectorXd& middle, double width) {
     }
     surfaces_.clear();
     if (near.size() < space_.other_keys.size() + 1) return near.size();
-    // A packing that one of the points lacks is left out of all, where enough remain: the same packings everywhere.
+    // A packing that lacks results at one point is left out at all points if enough packings remain. All points are
+    // then compared on the same packings.
     std::vector<Index> common;
     for (Index row = 0; row < figures.front().rows(); ++row)
         if (std::all_of(figures.begin(), figures.end(),

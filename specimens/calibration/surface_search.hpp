@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Designs around a point, surfaces through what was measured there, and the best point by them.
+// Search by response surfaces: designs around a point, surfaces fitted to the measurements there, and the best point
+// that they predict.
 // Tested by tests/specimens/calibration/calibrate_test.cpp.
 #pragma once
 
@@ -13,54 +14,56 @@
 
 namespace crackle {
 
-/// Half-widths of a design, in logarithms: 0.3 is from 0.74 to 1.35 of its middle.
+/// Half-widths of a design, in logarithms: 0.3 spans factors from 0.74 to 1.35 relative to its centre.
 inline constexpr double wide_design = 0.3, narrow_design = 0.18;
-/// A solution may lie this many half-widths from the middle of the design.
+/// Largest distance of a solution from the centre of the design, in half-widths.
 inline constexpr double reach_of_surface = 1.6;
 
 class SurfaceSearch {
   public:
-    /// Figures of all targets at a point, a row a packing, always the same packings; not a number: none.
+    /// Returns the results for all targets at x: one row per packing, in the same order for every x; NaN for a missing
+    /// result.
     using Figures = std::function<Eigen::MatrixXd(const Eigen::VectorXd& x)>;
 
     SurfaceSearch(const SearchSpace& space, Figures figures);
 
-    /// Points around a middle that fill the box of its half-width evenly, other ones at each call.
+    /// Points that fill a box of half-width `width` around `middle` evenly; each call continues the same sequence.
     std::vector<Eigen::VectorXd> design(const Eigen::VectorXd& middle, double width);
-    /// A point that was measured.
+    /// Adds a measured point.
     void remember(const Eigen::VectorXd& x);
     const std::vector<Eigen::VectorXd>& measured() const { return measured_; }
-    /// Surfaces through the measured points that are near. @return how many these are; with too few there are no
-    /// surfaces
+    /// Fits surfaces to the measured points near `middle`.
+    /// @return number of points used; if there are too few, no surface is fitted
     std::size_t fit(const Eigen::VectorXd& middle, double width);
 
     bool empty() const { return surfaces_.empty(); }
-    /// Logarithms of all targets' figures; those of linear targets are taken to be met.
+    /// Predicted logarithms of the results for all targets; linear targets are assumed to be met exactly.
     Eigen::VectorXd predict(const Eigen::VectorXd& x) const;
-    /// Best point near a middle. @param weights of the targets
+    /// Best predicted point near `middle`. @param weights  weight of each target
     Eigen::VectorXd solve(const Eigen::VectorXd& middle, double width, const Eigen::VectorXd& weights) const;
-    /// Moves the surfaces to means that were measured at x.
+    /// Shifts the surfaces so that they agree with the means measured at x.
     void shift(const Eigen::VectorXd& x, const Eigen::VectorXd& means);
-    /// Of the other targets' figures in tolerances, over all variables; rows of linear targets are zero.
+    /// Derivatives of the predicted results with respect to all variables, in tolerances; rows of linear targets are
+    /// zero.
     Eigen::MatrixXd slopes(const Eigen::VectorXd& x) const;
 
-    /// Of each surface.
+    /// Quality of each surface's fit.
     std::vector<SurfaceQuality> quality() const;
 
-    /// In half-widths, over the keys that are searched here.
+    /// Distance in half-widths, considering only the keys that this search adjusts.
     double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double width) const;
 
   private:
     const SearchSpace& space_;
     Figures figures_;
     std::vector<Eigen::VectorXd> measured_;
-    std::size_t designed_ = 0;       // points of the sequence that designs have used
-    std::vector<Surface> surfaces_;  // of the space's other_targets
+    std::size_t designed_ = 0;       // number of points of the low-discrepancy sequence that are used
+    std::vector<Surface> surfaces_;  // one for each of SearchSpace::other_targets
 };
 
-/// Rows without a gap, of figures that are all above 0.
+/// Rows of `figures` in which all results are positive.
 Eigen::MatrixXd complete_rows(const Eigen::MatrixXd& figures);
-/// Whether so many packings are enough of those that were asked for.
+/// Whether results from `done` out of `asked` packings suffice.
 bool are_enough(Eigen::Index done, Eigen::Index asked);
 
 }  // namespace crackle

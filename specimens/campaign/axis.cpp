@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<unsigned, most_design_axes> primes{2,  3,  5,  7,  11, 13, 17, 19, 23, 29,
                                                         31, 37, 41, 43, 47, 53, 59, 61, 67, 71};
 
-/// The digits of a number behind the point in opposite order.
+/// Radical inverse of `number`: its digits in `base`, mirrored about the radix point.
 double radical_inverse(std::size_t number, unsigned base) {
     double value = 0.0, weight = 1.0;
     for (; number > 0; number /= base) {
@@ -34,19 +34,19 @@ std::vector<CaseValue> spaced_values(const Axis& axis, std::int64_t count) {
     std::vector<CaseValue> values;
     for (std::int64_t k = 0; k < count; ++k)
         values.push_back(axis.at(static_cast<double>(k) / static_cast<double>(count - 1)));
-    values.erase(std::unique(values.begin(), values.end()), values.end());  // whole numbers may come twice
+    values.erase(std::unique(values.begin(), values.end()), values.end());  // rounding may repeat integers
     return values;
 }
 
 std::vector<std::vector<double>> design_points(Sequence sequence, std::size_t points, std::size_t dimensions) {
     std::vector<std::vector<double>> all(points, std::vector<double>(dimensions));
     if (sequence == Sequence::halton) {
-        // From 1: the point 0 is a corner of the cube.
+        // The sequence begins at 1, since point 0 is a corner of the cube.
         for (std::size_t k = 0; k < points; ++k)
             for (std::size_t d = 0; d < dimensions; ++d) all[k][d] = radical_inverse(k + 1, primes[d]);
         return all;
     }
-    boost::random::sobol generator(dimensions);  // begins behind the corner 0
+    boost::random::sobol generator(dimensions);  // the generator skips point 0, a corner of the cube
     const double range = std::ldexp(1.0, 64);
     for (auto& point : all)
         for (double& share : point) share = static_cast<double>(generator()) / range;

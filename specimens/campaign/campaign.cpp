@@ -9,7 +9,6 @@
 #include <cctype>
 #include <chrono>
 #include <csignal>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -21,7 +20,11 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
+#include "solver/files/file_stream.hpp"
 #include "solver/files/folder_lock.hpp"
+#include "solver/files/new_file.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/campaign/crew.hpp"
@@ -34,7 +37,12 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-constexpr int most_tries_of_killed = 3;
+/// How often a test is tried if a signal kills its process. SIGKILL may have a cause other than the test. Any other
+/// signal comes from the program itself and is likely to come again.
+constexpr int most_tries(int signal) { return signal == SIGKILL ? 3 : 2; }
+// The campaign stops after as many consecutive system failures as there are workers, plus this number: further tests
+// would fail in the same way.
+constexpr std::int64_t most_failures_in_a_row = 3;
 
 std::string host_name() {
     std::array<char, 256> name{};
@@ -45,10 +53,16 @@ std::string packed(const RowResult& r) {
     Json figures = Json::object();
     for (const auto& [name, value] : r.figures)
         std::visit([&, &key = name](const auto& known) { figures[key] = known; }, value);
-    const Json json{
-        {"identity", r.identity},         {"state", r.state},     {"exit", r.exit},
-        {"message", r.message},           {"notices", r.notices}, {"processor_seconds", r.processor_seconds},
-        {"wall_seconds", r.wall_seconds}, {"figures", figures}};
+    const Json json{{"identity", r.identity},
+                    {"state", r.state},
+                    {"exit", r.exit},
+                    {"message", r.message},
+                    {"notices", r.notices},
+                    {"processor_seconds", r.processor_seconds},
+                    {"wall_seconds", r.wall_seconds},
+                    {"figures", figures},
+                    {"curve_sha256", r.curve_sha256},
+                    {"summary_sha256", r.summary_sha256}};
     const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
     return {bytes.begin(), bytes.end()};
 }
@@ -68,21 +82,23 @@ RowResult unpacked(const Json& json) {
         else
             r.figures.emplace_back(name, value.get<double>());
     }
+    r.curve_sha256 = json.at("curve_sha256");
+    r.summary_sha256 = json.at("summary_sha256");
     return r;
 }
 
-/// Tests of a plan by what they are, and which of them start from the same packing.
+/// A test to be run, for all rows of the plan with the same identity.
 struct Task {
-    std::size_t row;  // of the plan that it answers: one that is as asked, where there is one
+    std::size_t row;  // row of the plan; one with Variant::as_asked if there is one
     std::string identity;
     std::size_t group;
-    bool reads_files = false;  // beside its case
+    bool reads_files = false;  // whether the case names further files
 };
 
 struct Tasks {
-    std::vector<std::string> identities;  // of the plan's rows
-    std::vector<Task> tasks;              // of this share
-    std::vector<std::string> groups;      // identity of the packing; empty: there is none to be made
+    std::vector<std::string> identities;  // identity of each row of the plan
+    std::vector<Task> tasks;              // tasks of this shard
+    std::vector<std::string> groups;      // identity of each group's packing; empty if the group needs no packing
 };
 
 Tasks tasks_of(const Plan& plan, const Shard& shard, const std::function<bool()>& interrupted) {
@@ -100,24 +116,26 @@ Tasks tasks_of(const Plan& plan, const Shard& shard, const std::function<bool()>
             continue;
         }
         const bool packs = test.has_table("packing");
-        // One without a packing is a group by itself.
+        // A test without a packing forms a group of its own.
         const std::string group = packs ? packing_identity(test, files) : all.identities.back();
         const auto [at, added] = groups.emplace(group, groups.size());
         if (added) all.groups.push_back(packs ? group : "");
         tasks.push_back({k, all.identities.back(), at->second, files_read(test).size() > test.inputs.size()});
     }
-    // Whole packings are dealt out where there are enough of them, else single tests.
-    const auto shares = static_cast<std::size_t>(shard.of), own = static_cast<std::size_t>(shard.number - 1);
+    // Whole packings are dealt out if there are enough of them, otherwise single tests.
+    const auto shares = static_cast<std::size_t>(shard.whole() ? 1 : shard.of);
+    const auto own = static_cast<std::size_t>(shard.whole() ? 0 : shard.number - 1);
     const bool by_group = all.groups.size() >= shares;
     for (std::size_t k = 0; k < tasks.size(); ++k)
         if ((by_group ? tasks[k].group : k) % shares == own) all.tasks.push_back(tasks[k]);
     return all;
 }
 
-/// Which piece comes next. Pieces below the number of tasks are tests, those above it the packings of their groups.
+/// Chooses the next piece of work. Numbers below the number of tasks are tests; higher ones stand for making the
+/// packing of a group.
 class Queue {
   public:
-    /// @param open tasks that are to be run
+    /// @param open  tasks to be run
     Queue(const Tasks& tasks, const std::vector<std::size_t>& open, const fs::path& packings)
         : tasks_(tasks), groups_(tasks.groups.size()) {
         for (const std::size_t task : open) {
@@ -129,17 +147,18 @@ class Queue {
             std::vector<std::size_t>& left = groups_[group].left;
             std::reverse(left.begin(), left.end());
             const std::string& packing = tasks.groups[group];
-            // Where one test needs it, that one makes it.
+            // A packing used by a single test is made by that test.
             groups_[group].first = left.back();
             groups_[group].made = packing.empty() || left.size() == 1 || is_file(packings / (packing + ".json"));
         }
     }
 
     bool is_packing(std::size_t piece) const { return piece >= tasks_.tasks.size(); }
-    /// A task by which the case of a packing piece is known.
+    /// A task whose case describes the packing of `piece`.
     std::size_t task_of_packing(std::size_t piece) const { return groups_[group_of(piece)].first; }
 
-    /// Of the packing that the worker has in memory; else of one that nobody has begun; else of any.
+    /// Next test for a worker. It prefers a test with the packing that the worker has in memory, then one with a
+    /// packing that no worker has begun, then any test.
     std::optional<std::size_t> next(std::optional<std::size_t> before) {
         if (before && can_give(group_of(*before))) return take(group_of(*before));
         while (first_ < order_.size() && groups_[order_[first_]].left.empty()) ++first_;
@@ -157,12 +176,12 @@ class Queue {
     }
     void again(std::size_t task) {
         groups_[group_of(task)].left.push_back(task);
-        first_ = 0;  // its group may lie before those that are begun
+        first_ = 0;  // the test's group may precede those already begun
     }
 
   private:
     struct Group {
-        std::vector<std::size_t> left;  // tasks, the next one last
+        std::vector<std::size_t> left;  // remaining tasks; the last one is taken next
         std::size_t first = 0;
         bool begun = false, made = false, making = false;
     };
@@ -185,11 +204,11 @@ class Queue {
 
     const Tasks& tasks_;
     std::vector<Group> groups_;
-    std::vector<std::size_t> order_;  // of groups
-    std::size_t first_ = 0;           // of these with something left
+    std::vector<std::size_t> order_;  // groups in the order in which they are begun
+    std::size_t first_ = 0;           // first position in order_ whose group has tasks left
 };
 
-/// What a worker does with a piece. Its answer is a result in CBOR, or why the whole campaign has to stop.
+/// Processes one piece in a worker. The answer is a result in CBOR, or the reason why the whole campaign must stop.
 class RowWorker {
   public:
     RowWorker(const Plan& plan, const CampaignOptions& options)
@@ -199,20 +218,16 @@ class RowWorker {
           packings_(options.folder / "packings", files_) {}
 
     std::string test(const Task& task) {
-        return answer([&] {
-            const PlanRow& row = plan_.rows[task.row];
-            const Keep keep = row.variant == Variant::as_asked ? plan_.keep : Keep::figures;
-            const TestCase test = plan_.test_of(row);
-            const std::string name = kept_.name(task.identity).value_or(kept_name(plan_, row, task.identity));
-            const RowResult result = run_row(test, {task.identity, name}, keep, place_, packings_);
-            FileHashes now;
-            if (task.reads_files && identity_of(test, now) != task.identity)
-                throw OutputError(
-                    fmt::format("{}: a file that its tests read was changed while the campaign ran, "
-                                "expected it left alone; what was run of it before is kept",
-                                plan_.kind_of(row).file.string()));
-            return packed(result);
-        });
+        try {
+            return answer_of_test(task);
+        } catch (const SystemFailure& error) {
+            RowResult failed;
+            failed.identity = task.identity;
+            failed.state = row_failed;
+            failed.exit = 4;
+            failed.message = error.what();
+            return packed(failed);
+        }
     }
     std::string packing(const Task& task) {
         return answer([&] {
@@ -221,12 +236,12 @@ class RowWorker {
                 return packings_.get(of, request, make);
             };
             TestCase test = plan_.test_of(plan_.rows[task.row]);
-            test.numerics.threads = 1;  // as of tests: a worker is one processor's, and a forked process has no others
+            test.numerics.threads = 1;  // a worker process uses one processor and starts no threads
             try {
                 packing_of(test, hooks);
             } catch (const OutputError&) {
                 throw;
-            } catch (const std::exception&) {  // each of its tests will say why
+            } catch (const std::exception&) {  // each test with this packing will report the reason
                 return std::string();
             }
             return std::string();
@@ -234,6 +249,32 @@ class RowWorker {
     }
 
   private:
+    std::string answer_of_test(const Task& task) {
+        return answer([&] {
+            const PlanRow& row = plan_.rows[task.row];
+            const Keep keep = row.variant == Variant::as_asked ? plan_.keep : Keep::figures;
+            const TestCase test = plan_.test_of(row);
+            const std::string name = kept_.name(task.identity).value_or(kept_name(plan_, row, task.identity));
+            const RowResult result = run_row(test, {task.identity, name}, keep, place_, packings_);
+            if (kind_of_row(result.state) != RowKind::failure && task.reads_files && is_changed(test, task.identity))
+                throw OutputError(fmt::format(
+                    "{}: found a change in a file that its tests read, expected no change while the campaign "
+                    "runs; earlier results are kept",
+                    plan_.kind_of(row).file.string()));
+            return packed(result);
+        });
+    }
+
+    /// Whether files read by the test have changed or are missing.
+    static bool is_changed(const TestCase& test, const std::string& identity) {
+        FileHashes now;
+        try {
+            return identity_of(test, now) != identity;
+        } catch (const InputError&) {
+            return true;
+        }
+    }
+
     template <class Work>
     static std::string answer(const Work& work) {
         try {
@@ -262,56 +303,29 @@ RowResult result_of(const std::string& identity, const PieceEnd& end, double tim
         return result;
     }
     result.state = row_crashed;
-    result.message =
-        end.how == PieceEnd::How::killed
-            ? fmt::format("its process was ended by signal {} ({}){}", end.code, ::strsignal(end.code),
-                          end.code == SIGKILL ? fmt::format(" {} times: not enough memory?", most_tries_of_killed) : "")
-            : fmt::format("its process ended by itself with code {}", end.code);
+    if (end.how == PieceEnd::How::ended && end.code == worker_without_memory) {
+        result.state = row_failed;
+        result.message = no_memory;
+        return result;
+    }
+    result.message = spoken_end(end);
+    if (end.how == PieceEnd::How::killed)
+        result.message += fmt::format(" in each of {} tries{}", most_tries(end.code),
+                                      end.code == SIGKILL ? ", as happens when memory runs out; use fewer --workers"
+                                                          : ", because of a defect in the program; report it, and "
+                                                            "leave these values out of the plan until it is fixed");
     return result;
-}
-
-/// Whether what the plan keeps of a test is there.
-bool is_kept(const KeptTests& kept, Keep keep, const std::string& identity) {
-    if (keep == Keep::figures) return true;
-    if (keep == Keep::curves && kept.curve(identity)) return true;
-    const std::optional<fs::path> folder = kept.folder(identity);
-    return folder && is_file(*folder / "summary.json");
-}
-
-constexpr std::size_t identity_digits = 12, all_digits = 32;
-
-/// The digits of the identity that an entry of curves/ or tests/ is named by.
-std::string digits_of(const std::string& name) {
-    const std::size_t dash = name.rfind('-');
-    if (dash != std::string::npos) return name.substr(dash + 1);
-    return name.size() == all_digits ? name.substr(0, identity_digits) : "";
-}
-
-std::string name_of_kept(const fs::path& path) {
-    return (path.extension() == ".csv" ? path.stem() : path.filename()).string();
-}
-
-/// As a file's name has it: of "mineral[1].cohesion" "mineral1.cohesion", of "confinement.pressure" "pressure".
-std::string short_key(const std::string& key) {
-    if (key.find('[') == std::string::npos) return key.substr(key.rfind('.') + 1);
-    std::string text = key;
-    std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
-    return text;
 }
 
 }  // namespace
 
-void check_campaign_folder(const fs::path& folder) {
-    if (!is_there(folder)) return;
-    if (!is_folder(folder))
-        throw InputError(
-            fmt::format("{}: found a file, expected a folder or none; choose another -o", folder.string()));
-    for (const char* made : {"campaign.sqlite", "shards", "packings"})
-        if (is_there(folder / made)) return;
-    if (fs::is_empty(folder)) return;
-    throw InputError(
-        fmt::format("{}: found files that no campaign made, expected a new folder or a campaign's; choose another -o",
-                    folder.string()));
+void check_campaign_folder(const fs::path& folder, const Plan& plan) {
+    std::vector<fs::path> inputs{plan.file};
+    for (const PlannedTest& test : plan.tests) inputs.push_back(test.file);
+    refuse_folder_of_inputs(folder, inputs);
+    remove_leftovers(folder, Leftovers::old);
+    if (is_file(folder / "campaign.sqlite") || is_folder(folder / "shards") || is_folder(folder / "packings")) return;
+    refuse_foreign_files(folder, "a new or empty folder, or the folder of a campaign; choose another with -o");
 }
 
 fs::path ledger_file(const fs::path& folder, const Shard& shard) {
@@ -319,86 +333,49 @@ fs::path ledger_file(const fs::path& folder, const Shard& shard) {
     return folder / "shards" / fmt::format("{}.sqlite", shard.number);
 }
 
-std::string kept_name(const Plan& plan, const PlanRow& row, const std::string& identity) {
-    constexpr std::size_t longest = 80;  // of a point's settings
-    std::string settings;
-    for (const CaseSetting& setting : plan.points[row.point].settings)
-        settings += fmt::format("-{}={}", short_key(setting.key), value_text(setting.value));
-    if (settings.size() > longest) settings = fmt::format("-point{}", row.point + 1);
-    std::string name = fmt::format("{}{}-packing{}", plan.kind_of(row).name, settings, row.seed);
-    std::erase(name, '"');
-    const auto plain = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-               std::string_view("-_=.+").find(c) != std::string::npos;
-    };
-    for (char& c : name)
-        if (!plain(c)) c = '_';
-    return name + '-' + identity.substr(0, identity_digits);
-}
-
-KeptTests::KeptTests(const fs::path& folder) {
-    const auto list = [](const fs::path& room, auto& entries) {
-        std::error_code error;  // where nothing was kept there is no such folder
-        for (const auto& entry : fs::directory_iterator(room, error)) {
-            const fs::path& path = entry.path();
-            const std::string digits = digits_of(name_of_kept(path));
-            if (!digits.empty()) entries[digits] = path;
-        }
-    };
-    list(folder / "curves", curves_);
-    list(folder / "tests", folders_);
-}
-
-std::optional<std::string> KeptTests::name(const std::string& identity) const {
-    for (const auto* entries : {&folders_, &curves_}) {
-        const auto found = entries->find(identity.substr(0, identity_digits));
-        if (found != entries->end()) return name_of_kept(found->second);
-    }
-    return std::nullopt;
-}
-
-std::optional<fs::path> KeptTests::curve(const std::string& identity) const {
-    if (const auto alone = curves_.find(identity.substr(0, identity_digits)); alone != curves_.end())
-        return alone->second;
-    const std::optional<fs::path> all = folder(identity);
-    return all && is_file(*all / "curve.csv") ? std::optional(*all / "curve.csv") : std::nullopt;
-}
-
-std::optional<fs::path> KeptTests::folder(const std::string& identity) const {
-    const auto found = folders_.find(identity.substr(0, identity_digits));
-    return found == folders_.end() ? std::nullopt : std::optional(found->second);
-}
-
 CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, const CampaignHooks& hooks) {
     const Clock::time_point begun = Clock::now();
-    check_campaign_folder(options.folder);
+    check_campaign_folder(options.folder, plan);
     const fs::path file = ledger_file(options.folder, options.shard);
-    // A share has a folder of its own to be held by.
+    // Each shard has its own folder, which is locked.
     const fs::path held =
         options.shard.whole() ? options.folder : options.folder / "shards" / fmt::format("{}", options.shard.number);
     make_folder(held);
     const FolderLock lock(held);
     const Tasks tasks = tasks_of(plan, options.shard, hooks.interrupted);
+    refuse_no_plain_file(file);
     CampaignLedger ledger = CampaignLedger::open(file, options.shard.whole() ? Journal::beside : Journal::within);
     ledger.set_plan(plan, tasks.identities);
+    const auto say = [&](const std::string& text) {
+        if (hooks.told) hooks.told(text);
+    };
+    for (const std::string& damaged : ledger.drop_damaged())
+        say(fmt::format("{}: {}: found other values than were recorded; the test is run again", file.string(),
+                        damaged));
 
     CampaignOutcome outcome;
     outcome.ledger = file;
     CampaignProgress& progress = outcome.progress;
     std::map<std::string, std::string> ended = ledger.ended();
+    std::map<std::string, KeptHashes> hashes = ledger.kept_hashes();
     if (!options.shard.whole() && is_file(ledger_file(options.folder))) {
-        // What was gathered, or run here before, need not be run again.
-        for (const auto& [identity, state] : CampaignLedger::read(ledger_file(options.folder)).ended())
+        // Tests need not be run again if they were gathered, or run here before.
+        const CampaignLedger gathered = CampaignLedger::read(ledger_file(options.folder));
+        hashes.merge(gathered.kept_hashes());
+        for (const auto& [identity, state] : gathered.ended())
             if (state == row_done) ended[identity] = state;
     }
-    const KeptTests kept(options.folder);
+    const KeptTests kept(options.folder, std::move(hashes));
     std::vector<std::size_t> open;
     for (std::size_t k = 0; k < tasks.tasks.size(); ++k) {
-        const auto at = ended.find(tasks.tasks[k].identity);
+        const std::string& identity = tasks.tasks[k].identity;
+        const auto at = ended.find(identity);
         const bool ran = at != ended.end() && at->second == row_done;
         const bool asked = plan.rows[tasks.tasks[k].row].variant == Variant::as_asked;
-        const bool done = ran && (!asked || is_kept(kept, plan.keep, tasks.tasks[k].identity));
-        const bool wrong = at != ended.end() && !ran && !options.retry;
+        const std::string fault = ran && asked ? kept.fault_of(identity, plan.keep) : "";
+        if (!fault.empty() && kept.name(identity)) say(fault);
+        const bool done = ran && fault.empty();
+        const bool wrong = at != ended.end() && kind_of_row(at->second) == RowKind::verdict && !options.retry;
         progress.done += done ? 1 : 0;
         progress.gone_wrong += wrong ? 1 : 0;
         if (!done && !wrong) open.push_back(k);
@@ -410,8 +387,10 @@ CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, c
     Queue queue(tasks, open, options.folder / "packings");
     RowWorker worker(plan, options);
     const std::string host = host_name();
-    std::map<std::size_t, int> killed;
-    std::string stop;
+    std::map<std::pair<std::size_t, int>, int> killed;  // number of kills, by piece and signal
+    std::string stop, stop_by_system;
+    std::int64_t failures_in_a_row = 0;
+    const int workers = static_cast<int>(std::clamp<std::int64_t>(progress.left, 1, options.workers));
     const Clock::time_point loading = Clock::now();
     const auto told = [&](std::size_t task, const RowResult& result) {
         const PlanRow& row = plan.rows[tasks.tasks[task].row];
@@ -425,11 +404,18 @@ CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, c
         ++outcome.run;
         outcome.processor_seconds += result.processor_seconds;
         --progress.left;
-        ++(result.state == row_done ? progress.done : progress.gone_wrong);
+        const RowKind kind = kind_of_row(result.state);
+        ++(kind == RowKind::result ? progress.done : progress.gone_wrong);
+        progress.failures += kind == RowKind::failure ? 1 : 0;
+        if (kind == RowKind::failure) outcome.failure = told(task, result);
+        failures_in_a_row = kind == RowKind::failure ? failures_in_a_row + 1 : 0;
+        if (failures_in_a_row >= workers + most_failures_in_a_row)
+            stop_by_system = fmt::format("{} tests one after the other failed by the system, the last one: {}",
+                                         failures_in_a_row, result.message);
         const double seconds = std::chrono::duration<double>(Clock::now() - loading).count();
         progress.tests_per_second = static_cast<double>(outcome.run) / seconds;
         progress.seconds_left = static_cast<double>(progress.left) / progress.tests_per_second;
-        if (result.state != row_done && hooks.told) hooks.told(told(task, result));
+        if (kind != RowKind::result) say(told(task, result));
         if (hooks.progress) hooks.progress(progress);
     };
     CrewWork crew;
@@ -448,34 +434,33 @@ CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, c
             }
             if (!queue.is_packing(piece)) take(piece, unpacked(json));
         } else if (!queue.is_packing(piece)) {
-            // Whoever kills a process need not mean its test.
-            const bool by_others = end.how == PieceEnd::How::killed && end.code == SIGKILL;
-            if (by_others && ++killed[piece] < most_tries_of_killed)
+            if (end.how == PieceEnd::How::killed && ++killed[{piece, end.code}] < most_tries(end.code))
                 queue.again(piece);
             else
                 take(piece, result_of(tasks.tasks[piece].identity, end, plan.time_limit));
         }
         if (queue.is_packing(piece)) queue.packing_ended(piece);
     };
-    crew.interrupted = [&] { return !stop.empty() || (hooks.interrupted && hooks.interrupted()); };
+    crew.interrupted = [&] {
+        return !stop.empty() || !stop_by_system.empty() || (hooks.interrupted && hooks.interrupted());
+    };
     if (hooks.progress) hooks.progress(progress);
-    const int workers = static_cast<int>(std::clamp<std::int64_t>(progress.left, 1, options.workers));
-    if (!open.empty()) outcome.interrupted = !run_crew(workers, crew);
-    if (stop.empty() && !outcome.interrupted && progress.left > 0)
+    if (!open.empty()) outcome.interrupted = !run_crew(workers, crew) && stop_by_system.empty();
+    if (!stop.empty()) throw OutputError(stop + "; the same command resumes");
+    if (!stop_by_system.empty() && progress.left > 0)
+        throw SystemFailure(stop_by_system + "; the same command resumes");
+    if (!outcome.interrupted && progress.left > 0)
         throw std::logic_error(fmt::format("campaign: {} tests were never given to a worker", progress.left));
-    if (!stop.empty()) throw OutputError(stop + "; the same command goes on");
     outcome.wall_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
     return outcome;
 }
 
 Gathered gather_shards(const fs::path& folder) {
     std::vector<std::pair<int, fs::path>> files;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder / "shards", error))
-        if (entry.path().extension() == ".sqlite")
-            files.emplace_back(std::atoi(entry.path().stem().c_str()), entry.path());
+    for (const fs::path file : names_in(folder / "shards"))
+        if (file.extension() == ".sqlite") files.emplace_back(std::atoi(file.stem().c_str()), folder / "shards" / file);
     if (files.empty())
-        throw InputError(fmt::format("{}: found no shards/*.sqlite, expected some that `crackle campaign --shard` made",
+        throw InputError(fmt::format("{}: found no shards/*.sqlite, expected files made by `crackle campaign --shard`",
                                      folder.string()));
     std::sort(files.begin(), files.end());
     Gathered gathered;
@@ -483,10 +468,16 @@ Gathered gather_shards(const fs::path& folder) {
     // The folder may lie on a network file system.
     CampaignLedger ledger = CampaignLedger::open(ledger_file(folder), Journal::within);
     fs::path planned;
-    std::string rows, others;
+    std::string rows, others, damaged;
+    for (const std::string& row : ledger.drop_damaged())
+        damaged += fmt::format("{}{}: {}", damaged.empty() ? "" : ", ", ledger_file(folder).string(), row);
     for (const auto& [number, file] : files) {
-        // Opened to be written: a share that was killed in the midst of a change takes it back by that.
-        const std::string own = CampaignLedger::open(file, Journal::within).meta("rows");
+        // Opening the ledger for writing rolls back an incomplete transaction of a killed shard.
+        CampaignLedger share = CampaignLedger::open(file, Journal::within);
+        share.require_whole_plan();
+        for (const std::string& row : share.drop_damaged())
+            damaged += fmt::format("{}{}: {}", damaged.empty() ? "" : ", ", file.string(), row);
+        const std::string own = share.meta("rows");
         const bool first = planned.empty() && !own.empty();
         if (first) {
             planned = file;
@@ -498,10 +489,16 @@ Gathered gather_shards(const fs::path& folder) {
     }
     if (!others.empty()) {
         throw InputError(
-            fmt::format("{}: found a share of another plan than {}, expected shares of one; all tests are "
-                        "gathered, run these shares again with that plan, or `crackle campaign` without "
+            fmt::format("{}: found a shard of another plan than {}, expected shards of the same plan; all tests were "
+                        "gathered. Run these shards again with that plan, or run `crackle campaign` without "
                         "--shard",
                         others, planned.string()));
+    }
+    if (!damaged.empty()) {
+        throw InputError(fmt::format(
+            "{}: found other values than were recorded, expected values that match their hashes; all other tests were "
+            "gathered. Run these shards again with the same commands, then gather again",
+            damaged));
     }
     gathered.counts = ledger.counts();
     return gathered;

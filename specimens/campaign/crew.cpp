@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "specimens/campaign/crew.hpp"
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
@@ -13,7 +14,9 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
+#include <new>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -22,7 +25,7 @@ namespace crackle {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double longest_wait = 0.1;  // s, between looks for an interrupt
+constexpr double longest_wait = 0.1;  // s; longest interval between two polls for an interrupt
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -50,8 +53,8 @@ bool receive_all(int from, void* bytes, std::size_t size) {
     return true;
 }
 
-/// Of a worker's descriptors: a lock that it inherits would outlive the process that took it, and so would the other
-/// workers' lines.
+/// Closes all descriptors of a worker except its socket `line`. An inherited lock would outlive the process that took
+/// it, and so would the sockets of other workers.
 void keep_only(int line) {
     constexpr unsigned first = STDERR_FILENO + 1;
     const auto own = static_cast<unsigned>(line);
@@ -59,13 +62,13 @@ void keep_only(int line) {
     ::close_range(own + 1, ~0U, 0);
 }
 
-constexpr int failed_worker = 70;  // as sysexits.h's internal software error
+constexpr int failed_worker = 70;  // sysexits.h: internal software error
 
-/// The life of a worker: piece after piece until the other end is closed.
+/// Main loop of a worker: processes pieces until the parent closes the socket.
 [[noreturn]] void serve(int line, const CrewWork& crew) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    // The crew's end is the parent's decision: what ends the whole group (Ctrl-C, scancel) is heard there, and a test
-    // that is only at work has not gone wrong.
+    // Signals to the whole process group (Ctrl-C, scancel) are left to the parent, which decides when the workers stop;
+    // a running test must not be reported as killed.
     for (const int signal : {SIGINT, SIGHUP, SIGTERM}) std::signal(signal, SIG_IGN);
     try {
         std::uint64_t piece = 0;
@@ -74,7 +77,9 @@ constexpr int failed_worker = 70;  // as sysexits.h's internal software error
             const std::uint64_t size = answer.size();
             if (!send_all(line, &size, sizeof size) || !send_all(line, answer.data(), answer.size())) break;
         }
-    } catch (...) {  // nothing of the parent's may be unwound here: the piece is told of as one whose process ended
+    } catch (const std::bad_alloc&) {
+        std::_Exit(worker_without_memory);
+    } catch (...) {  // frames of the parent must not be unwound here; the piece is reported as one whose process ended
         std::_Exit(failed_worker);
     }
     std::_Exit(0);
@@ -114,7 +119,7 @@ class Worker {
     std::optional<std::size_t> before() const { return before_; }
     double seconds() const { return seconds_since(begun_); }
 
-    /// @return false if it has ended meanwhile
+    /// Sends a piece to the worker. @return false if the worker's process has ended in the meantime
     bool give(std::size_t piece) {
         piece_ = piece;
         begun_ = Clock::now();
@@ -130,7 +135,7 @@ class Worker {
         return text;
     }
     void kill() const { ::kill(process_, SIGKILL); }
-    /// Waits for its end. @return what waitpid() says
+    /// Waits until the process ends. @return status of waitpid()
     int end() {
         int status = 0;
         while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
@@ -164,10 +169,13 @@ class Crew {
     }
 
   private:
+    /// Gives a worker a piece if there is one; a worker whose process has ended in the meantime is replaced.
     void give(std::unique_ptr<Worker>& worker) {
-        if (worker->at_work()) return;
-        const std::optional<std::size_t> piece = crew_.next(worker->before());
-        if (piece && !worker->give(*piece)) lose(worker);
+        while (!worker->at_work()) {
+            const std::optional<std::size_t> piece = crew_.next(worker->before());
+            if (!piece) return;
+            if (!worker->give(*piece)) lose(worker);
+        }
     }
 
     void wait() {
@@ -186,7 +194,7 @@ class Crew {
         }
     }
 
-    /// Milliseconds until something may have to be done, though no worker answers.
+    /// Longest time to wait for an answer, in milliseconds.
     int patience() const {
         double seconds = longest_wait;
         for (const auto& worker : workers_)
@@ -217,7 +225,7 @@ class Crew {
         crew_.ended(piece, end);
     }
 
-    /// A worker whose process has ended with a piece at work.
+    /// Reports the piece of a worker whose process has ended, and replaces the worker.
     void lose(std::unique_ptr<Worker>& worker) {
         const std::size_t piece = worker->piece();
         PieceEnd end;
@@ -234,6 +242,11 @@ class Crew {
 };
 
 }  // namespace
+
+std::string spoken_end(const PieceEnd& end) {
+    if (end.how == PieceEnd::How::ended) return fmt::format("its process ended by itself with code {}", end.code);
+    return fmt::format("its process was ended by signal {} ({})", end.code, ::strsignal(end.code));
+}
 
 bool run_crew(int workers, const CrewWork& crew) { return Crew(workers, crew).run(); }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Processes that work off pieces one by one. A piece that brings its process down, or takes too long, is told of and
-// costs the others nothing.
+// A crew of worker processes, each of which handles one piece of work at a time. A piece that crashes its process or
+// takes too long is reported and does not affect the others.
 //
-// Workers are forked from this process, before which it must have run no threads, and know what it knew then. They end
-// with it, however it ends.
+// Workers are forked from the calling process and see its data as of that time; it must not have started any threads
+// before. Workers end when the calling process ends, for whatever reason.
 // Tested by tests/specimens/campaign/crew_test.cpp.
 #pragma once
 
@@ -15,28 +15,37 @@
 
 namespace crackle {
 
-/// How a piece ended.
+/// Exit code of a worker that ran out of memory.
+inline constexpr int worker_without_memory = 71;
+
+/// How the work on a piece ended.
 struct PieceEnd {
+    /// Whether the worker returned an answer, ended by itself, was killed by a signal, or took too long.
     enum class How : std::uint8_t { answered, ended, killed, timed_out } how = How::answered;
-    std::string answer;  ///< of one that was answered
-    int code = 0;        ///< exit code where its process ended by itself, signal where it was killed
+    std::string answer;  ///< result of an answered piece
+    int code = 0;        ///< exit code if the process ended by itself; signal if it was killed
     double seconds = 0.0;
 };
 
+/// Text for a process that ended without an answer: "its process was ended by signal 11 (Segmentation fault)".
+std::string spoken_end(const PieceEnd& end);
+
+/// Callbacks and limits of run_crew().
 struct CrewWork {
-    /// What a worker does with a piece; its answer. Runs in the worker.
+    /// Processes a piece and returns the answer. Runs in the worker.
     std::function<std::string(std::size_t piece)> work;
-    /// The next piece for a worker that has done another before; nothing: there is none for it now. Runs here.
+    /// Returns the next piece for a worker; empty if there is currently none. Runs in the parent process.
+    /// @param before  last piece of that worker
     std::function<std::optional<std::size_t>(std::optional<std::size_t> before)> next;
-    /// A piece has ended. Runs here.
+    /// Called when a piece has ended. Runs in the parent process.
     std::function<void(std::size_t piece, const PieceEnd& end)> ended;
-    /// Asked some times a second; true: workers are ended, pieces at work are left.
+    /// Polled several times a second; once it returns true, the workers are killed and their pieces abandoned.
     std::function<bool()> interrupted;
-    double time_limit = 0.0;  ///< s a piece; 0: none
+    double time_limit = 0.0;  ///< largest time per piece, s; 0: no limit
 };
 
-/// Works off what `next` gives until it gives nothing and no piece is at work, or interrupted() says so.
-/// @return whether all was worked off @throws std::system_error if no process can be made
+/// Processes the pieces from `next` until it returns no piece and none is running, or until interrupted() returns true.
+/// @return whether all pieces were processed @throws std::system_error if a process cannot be created
 bool run_crew(int workers, const CrewWork& crew);
 
 }  // namespace crackle

@@ -13,17 +13,21 @@
 namespace crackle {
 namespace {
 
-/// Mean processor seconds of tests that are done, by what they are called.
+/// Mean processor time of finished tests, s, by name of the test.
 std::map<std::string, double> measured_seconds(const CampaignLedger& ledger) {
     std::map<std::string, double> seconds;
     const LedgerTable table = ledger.query(
         "SELECT point.test, avg(test.processor_seconds) FROM plan JOIN point ON point.number = plan.point JOIN test "
         "USING(identity) WHERE test.state = 'done' GROUP BY point.test");
-    for (const auto& row : table.rows) seconds.emplace(std::get<std::string>(row[0]), std::get<double>(row[1]));
+    for (const auto& row : table.rows) {
+        const auto* test = std::get_if<std::string>(&row[0]);
+        const auto* mean = std::get_if<double>(&row[1]);
+        if (test != nullptr && mean != nullptr) seconds.emplace(*test, *mean);
+    }
     return seconds;
 }
 
-/// Of one test, by what --check says of it.
+/// Processor time of one test as estimated by --check, s.
 double checked_seconds(TestCase description, const TestHooks& hooks, std::vector<std::string>& warnings) {
     description.numerics.threads = 1;
     const TestCheck check = check_test(description, hooks);
@@ -32,7 +36,7 @@ double checked_seconds(TestCase description, const TestHooks& hooks, std::vector
     return check.test.specimen_seconds + (check.to_strength ? *check.to_strength : check.to_end).seconds;
 }
 
-/// Letters that Slurm takes in a name.
+/// A job name that has only characters accepted by Slurm.
 std::string job_name(const std::string& text) {
     std::string name = "crackle-";
     for (const char letter : text)
@@ -40,7 +44,7 @@ std::string job_name(const std::string& text) {
     return name;
 }
 
-/// In single quotes, as a shell reads it.
+/// Quotes an argument for the shell.
 std::string shell_word(const std::string& text) {
     std::string word = "'";
     for (const char letter : text) {
@@ -67,7 +71,8 @@ PlanEstimate estimate_plan(const Plan& plan, const CampaignLedger* ledger, const
         KindEstimate kind;
         kind.test = plan.tests[test].name;
         const PlanRow *first = nullptr, *last = nullptr;
-        double weight = 0.0;  // companions at half the step or half the rate take twice as long
+        // Number of rows; companions at half the step or half the rate count twice, since they take twice as long.
+        double weight = 0.0;
         for (const PlanRow& row : plan.rows) {
             if (plan.points[row.point].test != test) continue;
             ++kind.rows;
@@ -79,7 +84,7 @@ PlanEstimate estimate_plan(const Plan& plan, const CampaignLedger* ledger, const
         if (const auto known = measured.find(kind.test); known != measured.end()) {
             kind.seconds = known->second;
             kind.measured = true;
-            weight = static_cast<double>(kind.rows);  // the mean has them
+            weight = static_cast<double>(kind.rows);  // the measured mean includes the companions
         } else if (first != nullptr) {
             const double of_first = checked_seconds(plan.test_of(*first), hooks, kind.warnings);
             const bool alike = first->point == last->point;
@@ -106,7 +111,7 @@ double wall_limit(const BatchRequest& request) {
 std::string batch_script(const BatchRequest& request) {
     return fmt::format(
         "#!/bin/bash\n"
-        "# Made by `crackle campaign submit`: each task runs one share; submitted again, all go on where they were.\n"
+        "# Made by `crackle campaign submit`: each task runs one shard; if submitted again, all tasks resume.\n"
         "#SBATCH --job-name={}\n"
         "#SBATCH --array=1-{}\n"
         "#SBATCH --ntasks=1\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long a plan will take before it has begun, and the script that has a cluster run it.
+// Estimates how long a plan will take before it starts, and writes a script that runs it on a cluster.
 // Tested by tests/specimens/campaign/estimate_test.cpp.
 #pragma once
 
@@ -13,40 +13,45 @@
 
 namespace crackle {
 
+/// Estimated cost of the rows of one test.
 struct KindEstimate {
     std::string test;
-    std::int64_t rows = 0;  ///< of the plan
-    double seconds = 0.0;   ///< of a processor, one test
-    bool measured = false;  ///< mean of those that have been run; else by --check of the first and last point
-    std::vector<std::string> warnings;  ///< of that check
+    std::int64_t rows = 0;  ///< number of rows in the plan
+    double seconds = 0.0;   ///< processor time of one row, s
+    /// Whether the time is the mean of finished tests. Otherwise, it comes from --check of the first and last point.
+    bool measured = false;
+    std::vector<std::string> warnings;  ///< warnings from --check
 };
 
+/// Estimated cost of a plan.
 struct PlanEstimate {
     std::vector<KindEstimate> kinds;
-    double seconds = 0.0;  ///< of a processor, all rows
+    double seconds = 0.0;  ///< processor time of all rows, s
 };
 
-/// @param ledger of earlier runs of the plan, absent: none. @throws as check_test()
+/// Estimates the cost of each test of a plan. @param ledger  ledger of earlier runs of the plan, or nullptr
+/// @throws the exceptions of check_test()
 PlanEstimate estimate_plan(const Plan& plan, const CampaignLedger* ledger, const TestHooks& hooks = {});
 
+/// Input of a script for a cluster.
 struct BatchRequest {
-    std::filesystem::path program, plan, folder;  ///< absolute
+    std::filesystem::path program, plan, folder;  ///< absolute paths
     int shards = 1, workers = 1;
-    double seconds = 0.0;        ///< of a processor, all rows
-    double largest_share = 1.0;  ///< of the work, of one share
-    std::string options;         ///< further words for `crackle campaign`
+    double seconds = 0.0;        ///< processor time of all rows, s
+    double largest_share = 1.0;  ///< fraction of the work in the largest shard
+    std::string options;         ///< further arguments for `crackle campaign`
 };
 
-/// Shares of at least this work each: what a cluster needs to start one is little beside it, s.
+/// Smallest amount of work per shard, s, for which the start-up time on a cluster is comparatively small.
 inline constexpr double least_work_a_shard = 300.0;
 
-/// Wall clock asked for a share, s: three times its part of the work, and five minutes.
+/// Wall-clock time to request for a shard, s: three times the estimate for the shard, plus five minutes.
 double wall_limit(const BatchRequest& request);
 
-/// What the largest of so many shares has of a plan's tests: packings are dealt out whole where there are enough.
+/// Fraction of a plan's tests in the largest of `shards` shards. Packings are not split if there are enough of them.
 double largest_share(const Plan& plan, int shards);
 
-/// A script for Slurm's sbatch: an array with one task a share. Submitted again it goes on.
+/// A script for Slurm's sbatch: an array job with one task per shard. It resumes when submitted again.
 std::string batch_script(const BatchRequest& request);
 
 }  // namespace crackle

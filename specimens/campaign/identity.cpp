@@ -17,7 +17,7 @@
 namespace crackle {
 namespace {
 
-// Of the keys of a case, those that no figure depends on.
+// Keys of a case that affect no result.
 constexpr std::array<std::string_view, 6> without_figures{"title",         "numerics.threads",
                                                           "output.frames", "output.frame_precision",
                                                           "output.slips",  "output.checkpoint_interval"};
@@ -39,7 +39,7 @@ std::string hash_of(const std::string& text) {
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-/// "key = value" of those that are wanted, each value with its length: none can look like two.
+/// Lines "key = value" of the wanted keys. The length of each value precedes it, so that the text is unambiguous.
 template <class Wanted>
 std::string listed(const TestCase& test, FileHashes& files, const Wanted& wanted) {
     std::string text = fmt::format("results {}\n", results_version);

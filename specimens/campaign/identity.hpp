@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// By what a test is known: two with the same identity give the same figures, so one is run.
+// The identity of a test. Tests with the same identity have the same results, so only one of them is run.
 // Tested by tests/specimens/campaign/identity_test.cpp.
 #pragma once
 
@@ -11,29 +11,30 @@
 
 namespace crackle {
 
-/// SHA-256 of files, each read once.
+/// SHA-256 of files; each file is read only once.
 class FileHashes {
   public:
-    /// @throws InputError if it cannot be read
+    /// SHA-256 of a file. @throws InputError if the file cannot be read
     const std::string& of(const std::filesystem::path& file);
 
   private:
     std::map<std::filesystem::path, std::string> known_;
 };
 
-/// 32 hexadecimal digits: XXH3 (128 bits) of the results version, of every key that a figure can depend on, and of what
-/// the files it names contain. Titles, threads, and what is only written differently (frames, slips, checkpoints) are
-/// left out.
+/// Identity of a test, 32 hexadecimal digits: XXH3 (128 bits) of the results version, every key that can affect a
+/// result, and the contents of the files that keys name. Titles, threads and keys that only choose outputs (frames,
+/// slips, checkpoints) are excluded.
 std::string identity_of(const TestCase& test, FileHashes& files);
 
-/// The same of what makes the packing alone: tests that have it equal start from the same circles.
+/// Identity of the packing alone; tests with the same identity start from the same circles.
 std::string packing_identity(const TestCase& test, FileHashes& files);
 
-/// Whether two tests of one rock may differ in a key: title, seeds, confinement, loading, threads and output.
+/// Whether a key may differ between tests of the same rock: title, seeds, confinement, loading, threads and output.
 bool differs_within_a_rock(const std::string& key);
 
-/// What the rock of a test is made of: every key but those with its value, files by what they contain. A particle file
-/// is a packing, like a seed, where the case states the material; else it has that, too, and counts.
+/// Keys that define the rock of a test, with their values: all keys for which differs_within_a_rock() is false. Files
+/// are represented by their contents. A particle file is excluded, like a seed, if the case states the material;
+/// otherwise, the file provides the material and is included.
 std::map<std::string, std::string> keys_of_rock(const TestCase& test, FileHashes& files);
 
 }  // namespace crackle

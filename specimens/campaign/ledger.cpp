@@ -8,24 +8,28 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "solver/base/version.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/campaign/identity.hpp"
+#include "specimens/campaign/ledger_failure.hpp"
+#include "specimens/campaign/ledger_hashes.hpp"
 
 namespace crackle {
 namespace {
 
-constexpr int application_id = 0x43524b4c;  // "CRKL": by it a file is known to be a ledger
-constexpr int layout_version = 1;
-constexpr int busy_milliseconds = 10'000;
-constexpr std::size_t most_columns_of_long = 480;  // SQLite joins at most 500 queries
+constexpr int application_id = 0x43524b4c;  // "CRKL"; marks an SQLite file as a ledger
+constexpr int layout_version = 2;
+constexpr int layout_without_hashes = 1;           // layout that can be read, and is converted when opened for writing
+constexpr std::size_t most_columns_of_long = 480;  // SQLite allows 500 terms in a compound query
 
-/// As SQL reads it, between marks that are doubled within.
+/// Encloses a text in quotation marks for SQL; marks inside it are doubled.
 std::string between(char mark, const std::string& text) {
     std::string result(1, mark);
     for (const char letter : text) {
@@ -54,7 +58,7 @@ LedgerCell cell_of(const SQLite::Column& column) {
     return column.getDouble();
 }
 
-/// By what two plans are known to ask for the same rows, however they are written.
+/// Text that is equal for plans with the same rows, no matter how the plans are written.
 std::string rows_mark(const Plan& plan, const std::vector<std::string>& identities) {
     std::string text;
     for (std::size_t k = 0; k < identities.size(); ++k)
@@ -64,7 +68,7 @@ std::string rows_mark(const Plan& plan, const std::vector<std::string>& identiti
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-/// By the tests' names.
+/// Keys and values of the rock in each test, by name of the test, as JSON.
 std::string rocks_text(const Plan& plan) {
     nlohmann::ordered_json rocks = nlohmann::ordered_json::object();
     FileHashes files;
@@ -77,7 +81,7 @@ std::string rocks_text(const Plan& plan) {
         for (const CaseSetting& setting : point.settings) keys.erase(setting.key);
         rocks[name] = keys;
     }
-    return rocks.dump();
+    return rocks.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void run(SQLite::Statement& statement) {
@@ -87,38 +91,15 @@ void run(SQLite::Statement& statement) {
 
 }  // namespace
 
-/// Errors of SQLite name the file and say what they are about.
+/// Calls work(). Exceptions of SQLite are translated into errors with the file name and a description.
 template <class Work>
 auto CampaignLedger::guarded(const Work& work) const {
+    errno = 0;
     try {
         return work();
     } catch (const SQLite::Exception& error) {
-        const std::string file = file_.string();
-        switch (error.getErrorCode()) {
-            case SQLITE_FULL:
-            case SQLITE_IOERR:
-            case SQLITE_READONLY:
-            case SQLITE_CANTOPEN:
-                throw OutputError(fmt::format(
-                    "{}: cannot be written ({}), expected a writable folder with room on the disc; the same command "
-                    "goes on",
-                    file, error.getErrorStr()));
-            case SQLITE_BUSY:
-            case SQLITE_LOCKED:
-                throw OutputError(
-                    fmt::format("{}: another program is writing it, expected it left alone for {} s; end "
-                                "that, the same command goes on",
-                                file, busy_milliseconds / 1000));
-            case SQLITE_CORRUPT:
-            case SQLITE_NOTADB:
-                throw InputError(
-                    fmt::format("{}: found a file that is no ledger or is damaged ({}), expected one that "
-                                "`crackle campaign` made; restore a copy, or choose another -o",
-                                file, error.getErrorStr()));
-            default:
-                throw InputError(
-                    fmt::format("{}: {}, expected a ledger that `crackle campaign` made", file, error.what()));
-        }
+        const int last = errno, kept = database_ ? ::sqlite3_system_errno(database_->getHandle()) : 0;
+        refuse_ledger(error, kept, last, file_.string());
     }
 }
 
@@ -147,7 +128,7 @@ CampaignLedger CampaignLedger::read(const std::filesystem::path& file) {
         ledger.database_ = std::make_unique<SQLite::Database>(file.string(), SQLite::OPEN_READONLY, busy_milliseconds);
         if (ledger.database_->execAndGet("PRAGMA application_id").getInt() != application_id)
             throw InputError(fmt::format(
-                "{}: found a file that is no ledger, expected one that `crackle campaign` made", file.string()));
+                "{}: found a file that is not a ledger, expected one that `crackle campaign` made", file.string()));
     });
     return ledger;
 }
@@ -158,16 +139,16 @@ void CampaignLedger::make_tables(Journal journal) {
     const bool empty = db.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() == 0;
     if (!empty && id != application_id)
         throw InputError(
-            fmt::format("{}: found a file that is no ledger, expected one that `crackle campaign` made; "
-                        "choose another -o",
+            fmt::format("{}: found a file that is not a ledger, expected one that `crackle campaign` made; "
+                        "choose another folder with -o",
                         file_.string()));
     const int version = db.execAndGet("PRAGMA user_version").getInt();
-    if (!empty && version != layout_version)
+    if (!empty && version != layout_version && version != layout_without_hashes)
         throw InputError(
-            fmt::format("{}: found a ledger of layout {}, expected {}; it was made by another version of "
-                        "crackle: choose another -o",
+            fmt::format("{}: found a ledger of layout {}, expected {}; another version of crackle made it, "
+                        "so choose another folder with -o",
                         file_.string(), version, layout_version));
-    // One writer; a stopped process loses no change that was finished.
+    // There is one writer; a killed process loses no finished transaction.
     db.exec(journal == Journal::beside ? "PRAGMA journal_mode = WAL" : "PRAGMA journal_mode = TRUNCATE");
     db.exec(journal == Journal::beside ? "PRAGMA synchronous = NORMAL" : "PRAGMA synchronous = OFF");
     db.exec("PRAGMA foreign_keys = ON");
@@ -176,9 +157,10 @@ void CampaignLedger::make_tables(Journal journal) {
         db.exec(fmt::format("PRAGMA application_id = {}", application_id));
         db.exec(fmt::format("PRAGMA user_version = {}", layout_version));
         db.exec("CREATE TABLE meta(key TEXT PRIMARY KEY, value ANY) STRICT, WITHOUT ROWID");
-        db.exec(
-            "CREATE TABLE test(identity TEXT PRIMARY KEY, state TEXT NOT NULL, tries INTEGER NOT NULL, host TEXT, "
-            "processor_seconds REAL, wall_seconds REAL, exit INTEGER, message TEXT, notices TEXT) STRICT");
+        db.exec(fmt::format("CREATE TABLE test({}, {}, {}) STRICT",
+                            "identity TEXT PRIMARY KEY, state TEXT NOT NULL, tries INTEGER NOT NULL, host TEXT",
+                            "processor_seconds REAL, wall_seconds REAL, exit INTEGER, message TEXT, notices TEXT",
+                            "curve_sha256 TEXT, summary_sha256 TEXT, sha256 TEXT"));
         db.exec("CREATE TABLE figures(identity TEXT PRIMARY KEY REFERENCES test(identity)) STRICT");
         db.exec("CREATE TABLE point(number INTEGER PRIMARY KEY, test TEXT NOT NULL) STRICT");
         db.exec(
@@ -186,43 +168,64 @@ void CampaignLedger::make_tables(Journal journal) {
             "seed INTEGER NOT NULL, variant TEXT NOT NULL, identity TEXT NOT NULL) STRICT");
         make_views();
         change.commit();
+    } else if (version == layout_without_hashes) {
+        SQLite::Transaction change(db);
+        for (const char* column : {"curve_sha256", "summary_sha256", "sha256"})
+            db.exec(fmt::format("ALTER TABLE test ADD COLUMN {} TEXT", column));
+        db.exec(fmt::format("PRAGMA user_version = {}", layout_version));
+        change.commit();
     }
     SQLite::Statement columns(db, "SELECT name FROM pragma_table_info('figures')");
     while (columns.executeStep()) figure_columns_.insert(columns.getColumn(0).getString());
+}
+
+std::vector<std::string> CampaignLedger::columns_of(const char* table) const {
+    SQLite::Statement column(*database_, "SELECT name FROM pragma_table_info(?)");
+    column.bind(1, table);
+    std::vector<std::string> names;
+    while (column.executeStep()) names.push_back(column.getColumn(0).getString());
+    return names;
+}
+
+/// Names of figures, and the names shown for them: " (reached)" is appended to the name of a figure that is also an
+/// axis.
+std::vector<std::pair<std::string, std::string>> CampaignLedger::shown_figures() const {
+    const std::vector<std::string> axes = columns_of("point");
+    std::vector<std::pair<std::string, std::string>> shown;
+    for (const std::string& name : columns_of("figures")) {
+        if (name == "identity") continue;
+        shown.emplace_back(name, std::find(axes.begin(), axes.end(), name) != axes.end() ? name + " (reached)" : name);
+    }
+    return shown;
+}
+
+std::string CampaignLedger::results_query() const {
+    std::string axes, figures;
+    for (const std::string& name : columns_of("point"))
+        if (name != "number") axes += fmt::format("point.{}, ", quoted(name));
+    for (const auto& [name, shown] : shown_figures())
+        figures += fmt::format(", figures.{} AS {}", quoted(name), quoted(shown));
+    return fmt::format(
+        "SELECT plan.row AS row, {}plan.seed AS seed, plan.variant AS variant, plan.identity AS identity, test.state "
+        "AS state, test.processor_seconds AS processor_seconds{} FROM plan JOIN point ON point.number = plan.point "
+        "LEFT JOIN test USING(identity) LEFT JOIN figures USING(identity) ORDER BY plan.row",
+        axes, figures);
 }
 
 void CampaignLedger::make_views() {
     SQLite::Database& db = *database_;
     db.exec("DROP VIEW IF EXISTS results");
     db.exec("DROP VIEW IF EXISTS long");
-    std::vector<std::string> of_point, of_figures, parts;
-    std::set<std::string> axes;
-    SQLite::Statement points(db, "SELECT name FROM pragma_table_info('point')");
-    while (points.executeStep()) {
-        const std::string name = points.getColumn(0).getString();
-        if (name != "number") of_point.push_back("point." + quoted(name));
-        axes.insert(name);
+    std::vector<std::string> parts;
+    for (const auto& [name, shown] : shown_figures()) {
+        if (parts.size() == most_columns_of_long) break;
+        parts.push_back(
+            fmt::format("SELECT plan.row AS row, point.test AS test, plan.variant AS variant, {} AS figure, "
+                        "figures.{} AS value FROM plan JOIN point ON point.number = plan.point JOIN figures "
+                        "USING(identity) WHERE typeof(figures.{}) IN ('real', 'integer')",
+                        literal(shown), quoted(name), quoted(name)));
     }
-    SQLite::Statement figures(db, "SELECT name FROM pragma_table_info('figures')");
-    while (figures.executeStep()) {
-        const std::string name = figures.getColumn(0).getString();
-        if (name == "identity") continue;
-        // What was asked for has the name; what came of it another.
-        const std::string shown = axes.contains(name) ? name + " (reached)" : name;
-        of_figures.push_back(fmt::format(", figures.{} AS {}", quoted(name), quoted(shown)));
-        if (parts.size() < most_columns_of_long)
-            parts.push_back(
-                fmt::format("SELECT plan.row AS row, point.test AS test, plan.variant AS variant, {} AS figure, "
-                            "figures.{} AS value FROM plan JOIN point ON point.number = plan.point JOIN figures "
-                            "USING(identity) WHERE typeof(figures.{}) IN ('real', 'integer')",
-                            literal(shown), quoted(name), quoted(name)));
-    }
-    db.exec(
-        fmt::format("CREATE VIEW results AS SELECT plan.row AS row, {}, plan.seed AS seed, plan.variant AS variant, "
-                    "plan.identity AS identity, test.state AS state, test.processor_seconds AS processor_seconds{} "
-                    "FROM plan JOIN point ON point.number = plan.point LEFT JOIN test USING(identity) LEFT JOIN "
-                    "figures USING(identity) ORDER BY plan.row",
-                    fmt::join(of_point, ", "), fmt::join(of_figures, "")));
+    db.exec("CREATE VIEW results AS " + results_query());
     db.exec("CREATE VIEW long AS " +
             (parts.empty()
                  ? std::string("SELECT 0 AS row, '' AS test, '' AS variant, '' AS figure, 0.0 AS value WHERE 0")
@@ -266,21 +269,23 @@ void CampaignLedger::set_plan(const Plan& plan, const std::vector<std::string>& 
             run(add_row);
         }
         db.exec("CREATE INDEX plan_identity ON plan(identity)");
-        SQLite::Statement meta(db, "INSERT OR REPLACE INTO meta VALUES(?, ?)");
-        const auto note = [&](const char* key, const std::string& value) {
-            meta.bind(1, key);
-            meta.bind(2, value);
-            run(meta);
-        };
         note("title", plan.title);
         note("plan", plan.text);
         note("plan_file", plan.file.filename().string());
         note("results_version", fmt::format("{}", results_version));
         note("rows", rows_mark(plan, identities));
         note("rocks", rocks_text(plan));
+        note(plan_hash_key, hash_of_plan(db));
         make_views();
         change.commit();
     });
+}
+
+void CampaignLedger::note(const std::string& key, const std::string& value) {
+    SQLite::Statement meta(*database_, "INSERT OR REPLACE INTO meta VALUES(?, ?)");
+    meta.bind(1, key);
+    meta.bind(2, value);
+    run(meta);
 }
 
 void CampaignLedger::add_columns(const Figures& figures) {
@@ -297,12 +302,14 @@ void CampaignLedger::record(const RowResult& result, const std::string& host) {
     guarded([&] {
         SQLite::Database& db = *database_;
         SQLite::Transaction change(db);
-        SQLite::Statement test(
-            db,
-            "INSERT INTO test VALUES(?, ?, 1, ?, ?, ?, ?, ?, ?) ON CONFLICT(identity) DO UPDATE SET state = "
-            "excluded.state, tries = tries + 1, host = excluded.host, processor_seconds = excluded.processor_seconds, "
-            "wall_seconds = excluded.wall_seconds, exit = excluded.exit, message = excluded.message, notices = "
-            "excluded.notices");
+        std::string updates = "tries = tries + 1";
+        for (const char* column : {"state", "host", "processor_seconds", "wall_seconds", "exit", "message", "notices"})
+            updates += fmt::format(", {0} = excluded.{0}", column);
+        for (const char* column : {"curve_sha256", "summary_sha256"})
+            updates += fmt::format(", {0} = coalesce(excluded.{0}, {0})", column);
+        SQLite::Statement test(db, fmt::format("INSERT INTO test VALUES(?, ?, 1, ?, ?, ?, ?, ?, ?, ?, ?, NULL) ON "
+                                               "CONFLICT(identity) DO UPDATE SET {}",
+                                               updates));
         test.bind(1, result.identity);
         test.bind(2, result.state);
         test.bind(3, host);
@@ -311,13 +318,22 @@ void CampaignLedger::record(const RowResult& result, const std::string& host) {
         test.bind(6, result.exit);
         if (!result.message.empty()) test.bind(7, result.message);
         if (!result.notices.empty()) test.bind(8, fmt::format("{}", fmt::join(result.notices, "\n")));
+        if (!result.curve_sha256.empty()) test.bind(9, result.curve_sha256);
+        if (!result.summary_sha256.empty()) test.bind(10, result.summary_sha256);
         run(test);
         put_figures(result.identity, result.figures);
+        SQLite::Statement hash(db, "UPDATE test SET sha256 = ? WHERE identity = ?");
+        hash.bind(1, hash_of_test(db, result.identity));
+        hash.bind(2, result.identity);
+        run(hash);
         change.commit();
     });
 }
 
 void CampaignLedger::put_figures(const std::string& identity, const Figures& all) {
+    SQLite::Statement earlier(*database_, "DELETE FROM figures WHERE identity = ?");  // figures of an earlier run
+    earlier.bind(1, identity);
+    run(earlier);
     if (all.empty()) return;
     add_columns(all);
     std::string names = "identity", places = "?";
@@ -325,7 +341,7 @@ void CampaignLedger::put_figures(const std::string& identity, const Figures& all
         names += ", " + quoted(name);
         places += ", ?";
     }
-    SQLite::Statement figures(*database_, fmt::format("INSERT OR REPLACE INTO figures({}) VALUES({})", names, places));
+    SQLite::Statement figures(*database_, fmt::format("INSERT INTO figures({}) VALUES({})", names, places));
     int place = 1;
     figures.bind(place, identity);
     for (const auto& [name, value] : all) {
@@ -353,6 +369,7 @@ std::int64_t CampaignLedger::gather(const std::filesystem::path& other, bool its
             }
             db.exec("CREATE INDEX plan_identity ON plan(identity)");
             db.exec("INSERT OR REPLACE INTO main.meta SELECT * FROM other.meta");
+            note(plan_hash_key, hash_of_plan(db));
         }
         std::vector<std::string> names;
         SQLite::Statement columns(db, "SELECT name FROM pragma_table_info('figures', 'other')");
@@ -362,10 +379,17 @@ std::int64_t CampaignLedger::gather(const std::filesystem::path& other, bool its
             if (figure_columns_.insert(name).second)
                 db.exec(fmt::format("ALTER TABLE main.figures ADD COLUMN {} ANY", quoted(name)));
         }
-        // A test that is done is done, whoever did it.
+        // A finished test is replaced only by one that kept more of its files. A verdict replaces a RowKind::failure.
+        const auto rank = [](const char* row) {
+            return fmt::format(
+                "CASE WHEN {0}.state = '{1}' THEN 3 + ({0}.curve_sha256 IS NOT NULL OR "
+                "{0}.summary_sha256 IS NOT NULL) WHEN {0}.state IN ('{2}', '{3}') THEN 1 ELSE 2 END",
+                row, row_done, row_failed, row_crashed);
+        };
         const int added = db.exec(
-            "INSERT OR REPLACE INTO main.test SELECT * FROM other.test AS o WHERE NOT EXISTS (SELECT 1 FROM main.test "
-            "AS m WHERE m.identity = o.identity AND (m.state = 'done' OR o.state <> 'done'))");
+            fmt::format("INSERT OR REPLACE INTO main.test SELECT * FROM other.test AS o WHERE NOT EXISTS (SELECT 1 "
+                        "FROM main.test AS m WHERE m.identity = o.identity AND {} >= {})",
+                        rank("m"), rank("o")));
         db.exec(fmt::format("INSERT OR IGNORE INTO main.figures({0}) SELECT {0} FROM other.figures",
                             fmt::join(names, ", ")));
         make_views();
@@ -375,12 +399,99 @@ std::int64_t CampaignLedger::gather(const std::filesystem::path& other, bool its
     });
 }
 
+std::vector<std::string> CampaignLedger::drop_damaged() {
+    return guarded([&] {
+        SQLite::Database& db = *database_;
+        std::vector<std::string> dropped;
+        SQLite::Transaction change(db);
+        for (const CheckedRow& row : checked_rows(db)) {
+            if (row.whole) continue;
+            dropped.push_back(called(row.identity));
+            for (const char* table : {"figures", "test"}) {
+                SQLite::Statement drop(db, fmt::format("DELETE FROM {} WHERE identity = ?", table));
+                drop.bind(1, row.identity);
+                run(drop);
+            }
+        }
+        db.exec("DELETE FROM figures WHERE identity NOT IN (SELECT identity FROM test)");
+        change.commit();
+        return dropped;
+    });
+}
+
+std::int64_t CampaignLedger::drop_gone_wrong() {
+    return guarded([&] {
+        SQLite::Transaction change(*database_);
+        database_->exec("DELETE FROM figures WHERE identity IN (SELECT identity FROM test WHERE state <> 'done')");
+        const int dropped = database_->exec("DELETE FROM test WHERE state <> 'done'");
+        change.commit();
+        return static_cast<std::int64_t>(dropped);
+    });
+}
+
 std::map<std::string, std::string> CampaignLedger::ended() const {
     return guarded([&] {
         std::map<std::string, std::string> states;
-        SQLite::Statement tests(*database_, "SELECT identity, state FROM test");
-        while (tests.executeStep()) states.emplace(tests.getColumn(0).getString(), tests.getColumn(1).getString());
+        for (const CheckedRow& row : checked_rows(*database_))
+            if (row.whole) states.emplace(row.identity, row.state);
         return states;
+    });
+}
+
+std::map<std::string, KeptHashes> CampaignLedger::kept_hashes() const {
+    return guarded([&] {
+        std::map<std::string, KeptHashes> hashes;
+        if (!has_hashes(*database_)) return hashes;
+        SQLite::Statement tests(*database_, "SELECT identity, sha256, curve_sha256, summary_sha256 FROM test");
+        while (tests.executeStep()) {
+            const auto text = [&](int k) { return tests.getColumn(k).isNull() ? "" : tests.getColumn(k).getString(); };
+            if (!tests.getColumn(1).isNull()) hashes[text(0)] = {text(2), text(3)};
+        }
+        return hashes;
+    });
+}
+
+/// Text for a test: "row 5 (tension, material.friction_angle = 20, seed 3)"; its identity if the plan does not include
+/// it.
+std::string CampaignLedger::called(const std::string& identity) const {
+    SQLite::Statement row(*database_,
+                          "SELECT plan.row, plan.variant, plan.seed, point.* FROM plan JOIN point ON point.number = "
+                          "plan.point WHERE plan.identity = ? ORDER BY plan.row");
+    row.bind(1, identity);
+    if (!row.executeStep()) return fmt::format("the test {}", identity);
+    constexpr int axes_begin = 5;  // the columns before the axes are row, variant, seed, number and test
+    std::string at = row.getColumn(axes_begin - 1).getString();
+    for (int k = axes_begin; k < row.getColumnCount(); ++k)
+        if (!row.getColumn(k).isNull())
+            at += fmt::format(", {} = {}", row.getColumnName(k), row.getColumn(k).getString());
+    const std::string variant = row.getColumn(1).getString();
+    return fmt::format("row {} ({}, seed {}{})", row.getColumn(0).getInt64(), at, row.getColumn(2).getInt64(),
+                       variant == name_of(Variant::as_asked) ? "" : ", " + variant);
+}
+
+void CampaignLedger::require_whole_plan() const {
+    guarded([&] {
+        const std::string recorded = meta(plan_hash_key);
+        if (recorded.empty() || recorded == hash_of_plan(*database_)) return;
+        throw InputError(fmt::format(
+            "{}: found a plan that is not the one recorded, expected axes, seeds and texts that match its hash; "
+            "run the command that made the ledger again, which restores the plan and keeps finished tests",
+            file_.string()));
+    });
+}
+
+void CampaignLedger::require_whole() const {
+    guarded([&] {
+        require_whole_plan();
+        std::vector<std::string> damaged;
+        for (const CheckedRow& row : checked_rows(*database_))
+            if (!row.whole) damaged.push_back(called(row.identity));
+        if (damaged.empty()) return;
+        throw InputError(
+            fmt::format("{}: {}: found other values than were recorded, expected values that match its hash{}; run the "
+                        "command that made the ledger again, which repeats the test",
+                        file_.string(), damaged.front(),
+                        damaged.size() > 1 ? fmt::format(" (also in {} more tests)", damaged.size() - 1) : ""));
     });
 }
 
@@ -388,11 +499,14 @@ LedgerCounts CampaignLedger::counts() const {
     return guarded([&] {
         SQLite::Statement all(*database_,
                               "SELECT (SELECT count(*) FROM plan), count(*), coalesce(sum(state = 'done'), 0), "
-                              "coalesce(sum(state <> 'done'), 0), coalesce(sum(processor_seconds), 0.0) FROM (SELECT "
-                              "DISTINCT identity FROM plan) LEFT JOIN test USING(identity)");
+                              "coalesce(sum(state <> 'done'), 0), coalesce(sum(state IN (?, ?)), 0), "
+                              "coalesce(sum(processor_seconds), 0.0) FROM (SELECT DISTINCT identity FROM plan) LEFT "
+                              "JOIN test USING(identity)");
+        all.bind(1, row_failed);
+        all.bind(2, row_crashed);
         all.executeStep();
         return LedgerCounts{all.getColumn(0).getInt64(), all.getColumn(1).getInt64(), all.getColumn(2).getInt64(),
-                            all.getColumn(3).getInt64(), all.getColumn(4).getDouble()};
+                            all.getColumn(3).getInt64(), all.getColumn(4).getInt64(), all.getColumn(5).getDouble()};
     });
 }
 
@@ -404,7 +518,24 @@ std::string CampaignLedger::meta(const std::string& key) const {
     });
 }
 
-LedgerTable CampaignLedger::results() const { return query("SELECT * FROM results"); }
+LedgerTable CampaignLedger::results() const {
+    require_whole();
+    // The stored view `results` has no hash, so its query is run here. Cell types are checked, as hashes ignore them.
+    LedgerTable table = guarded([&] { return query(results_query()); });
+    for (const char* column : {"test", "seed", "variant", "identity"}) {
+        const auto at = std::find(table.columns.begin(), table.columns.end(), column) - table.columns.begin();
+        const bool number = std::string_view(column) == "seed";
+        for (const auto& row : table.rows) {
+            const LedgerCell& cell = row[static_cast<std::size_t>(at)];
+            if (number ? std::holds_alternative<double>(cell) : std::holds_alternative<std::string>(cell)) continue;
+            throw InputError(
+                fmt::format("{}: found a row whose {} is missing, expected {}; run the command that made "
+                            "the ledger again, which restores the plan",
+                            file_.string(), column, number ? "a number" : "a text"));
+        }
+    }
+    return table;
+}
 
 LedgerTable CampaignLedger::query(const std::string& sql) const {
     return guarded([&] {

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ledger of a campaign: one SQLite file that says what was planned, what has been run, and what came of it. Written
-// by one process; any number may read it meanwhile, by `crackle campaign show`, sqlite3, pandas.
+// The ledger of a campaign: one SQLite file with the planned tests, those that have been run, and their results. One
+// process writes it; any number of processes may read it at the same time, with `crackle campaign show`, sqlite3 or
+// pandas.
 //
-//   meta     key, value: the plan's text, title, versions; rocks: what each of its tests is made of (keys_of_rock() of
-//   its
-//            first point, without the axes that are for it), as JSON
-//   point    number, test, and a column for each axis of the plan, named by its key
-//   plan     row, point, seed, variant, identity: what the present plan asks for
-//   test     identity, state, tries, host, processor_seconds, wall_seconds, exit, message, notices: all that were run,
-//            of this plan or an earlier one; a test that has no row has not ended
-//   figures  identity, and a column for each figure of summary.json, named as there
-//   results  (view) all of these beside each other, a row of the plan each
-//   long     (view) row, test, variant, figure, value: of figures that are numbers, the first 480
+//   meta      key, value: the plan's text, title, versions; `rocks`: keys_of_rock() of each test's first point, without
+//             the axes that apply to it, as JSON
+//   point     number, test, and a column for each axis of the plan, named by its key
+//   plan      row, point, seed, variant, identity: the rows of the present plan
+//   test      identity, state, tries, host, processor_seconds, wall_seconds, exit, message, notices: all tests, of this
+//             plan or an earlier one, that have ended. curve_sha256, summary_sha256: hashes of the kept files;
+//             sha256: hash of the row, see ledger_hashes.hpp. Earlier versions leave these three empty
+//   figures   identity, and a column for each figure of summary.json, with its name there
+//   results   (view) the tables above joined, one row per row of the plan
+//   long      (view) row, test, variant, figure, value: the first 480 figures that are numbers
 //
-// Tested by tests/specimens/campaign/campaign_test.cpp.
+// Tested by tests/specimens/campaign/ledger_test.cpp and campaign_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -34,56 +35,81 @@ class Database;
 
 namespace crackle {
 
-/// A value of a ledger: nothing, a number, or a word.
+/// A cell of a ledger: empty, a number, or a text.
 using LedgerCell = std::variant<std::monostate, double, std::string>;
 
+/// Rows returned by a query, with the names of the columns.
 struct LedgerTable {
     std::vector<std::string> columns;
     std::vector<std::vector<LedgerCell>> rows;
 };
 
-/// Of the rows of the present plan.
+/// Numbers of rows and tests in the present plan.
 struct LedgerCounts {
-    std::int64_t rows = 0;   ///< planned
-    std::int64_t tests = 0;  ///< different ones among these
+    std::int64_t rows = 0;   ///< planned rows
+    std::int64_t tests = 0;  ///< number of different tests in these rows
     std::int64_t done = 0, gone_wrong = 0;
-    double processor_seconds = 0.0;  ///< of those that have ended
+    std::int64_t failures = 0;       ///< number of tests in gone_wrong with a system failure (RowKind::failure)
+    double processor_seconds = 0.0;  ///< processor time of the tests that have ended, s
 };
 
-/// Where a change is noted until it is done.
+/// Location of SQLite's journal until a transaction is complete.
 enum class Journal : std::uint8_t {
-    beside,  ///< a file that readers look at, too: they see each change at once; on a disc of this machine only
-    within,  ///< for network file systems: who reads meanwhile waits; after a loss of power it may have to be made
-             ///< again
+    beside,  ///< a second file, which readers also read, so that they see each change at once; on local discs only
+    /// For network file systems: readers wait during a change; after a power failure, the ledger may have to be made
+    /// again.
+    within,
 };
 
+/// SHA-256 of the files kept of a test; empty for a file that was not kept.
+struct KeptHashes {
+    std::string curve, summary;
+};
+
+/// The file in which a campaign records its plan and the results of its tests.
 class CampaignLedger {
   public:
-    /// To be written, made where there is none. @throws InputError if it is none of ours, OutputError
+    /// Opens a ledger for writing; creates it if needed. @throws InputError if the file is not a ledger; OutputError
     static CampaignLedger open(const std::filesystem::path& file, Journal journal = Journal::beside);
-    /// To be read. @throws InputError if there is none
+    /// Opens a ledger for reading. @throws InputError if there is no ledger
     static CampaignLedger read(const std::filesystem::path& file);
     CampaignLedger(CampaignLedger&& other) noexcept;
     CampaignLedger& operator=(CampaignLedger&&) = delete;
     ~CampaignLedger();
 
-    /// Puts a plan in the place of the present one, at once or not at all; what was run stays.
-    /// @param identities of plan.rows
+    /// Replaces the present plan in a single transaction; results of tests stay.
+    /// @param identities  identity of the test in each of plan.rows
     void set_plan(const Plan& plan, const std::vector<std::string>& identities);
-    /// Adds what a test gave; one that is there already gets another try.
+    /// Records the result of a test. If the test was recorded before, its row is updated and its number of tries
+    /// incremented.
     void record(const RowResult& result, const std::string& host);
-    /// Adds all tests of another ledger that this one has not, or has not as done, and takes over its plan where asked.
-    /// @return how many
+    /// Adds the tests of another ledger that are missing here or not done here. Check both ledgers first.
+    /// @param its_plan  whether to copy the other ledger's plan as well @return number of tests added
     std::int64_t gather(const std::filesystem::path& other, bool its_plan);
 
-    /// Identities of tests that have ended, by state.
-    std::map<std::string, std::string> ended() const;
-    LedgerCounts counts() const;
-    std::string meta(const std::string& key) const;  ///< empty where there is none
+    /// Removes rows that have changed since they were recorded, so that their tests run again.
+    /// @return descriptions of these rows
+    std::vector<std::string> drop_damaged();
+    /// Removes all tests that ended without results. @return number of rows removed
+    std::int64_t drop_gone_wrong();
 
-    /// Of the present plan, a row each in its order: row, test, axes, seed, variant, state, figures by name.
+    /// States of the tests that have ended, by identity. Damaged rows are left out.
+    std::map<std::string, std::string> ended() const;
+    /// Hashes of kept files, by identity. Tests recorded by earlier versions are left out.
+    std::map<std::string, KeptHashes> kept_hashes() const;
+    /// Number of rows and tests of the plan, by state.
+    LedgerCounts counts() const;
+    std::string meta(const std::string& key) const;  ///< value of a key in `meta`; empty if there is no such key
+
+    /// @throws InputError if the plan has changed since it was recorded
+    void require_whole_plan() const;
+    /// @throws InputError that names the plan, or its first row, that has changed since it was recorded
+    void require_whole() const;
+    /// Results of the present plan, one row per row of the plan: row, test, axes, seed, variant, identity, state,
+    /// processor time, figures by name.
+    /// @throws InputError as require_whole() does, and if a row lacks its test, seed, variant or identity
     LedgerTable results() const;
-    /// Any table or view by a query.
+    /// Result of an SQL query on any table or view. Hashes are not checked.
     LedgerTable query(const std::string& sql) const;
 
   private:
@@ -93,8 +119,13 @@ class CampaignLedger {
     auto guarded(const Work& work) const;
     void make_tables(Journal journal);
     void make_views();
+    std::vector<std::string> columns_of(const char* table) const;
+    std::vector<std::pair<std::string, std::string>> shown_figures() const;
+    std::string results_query() const;
     void add_columns(const Figures& figures);
     void put_figures(const std::string& identity, const Figures& all);
+    void note(const std::string& key, const std::string& value);
+    std::string called(const std::string& identity) const;
 
     std::filesystem::path file_;
     std::unique_ptr<SQLite::Database> database_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Packings of a campaign, each made once and shared by all tests that start from it.
+// Keeps the packings of a campaign. Each is made only once and shared by all tests that start from it.
 // Tested by tests/specimens/campaign/campaign_test.cpp.
 #pragma once
 
@@ -12,18 +12,19 @@
 
 namespace crackle {
 
+/// Folder with the packings of a campaign.
 class PackingStore {
   public:
-    /// @param folder made when there is a packing to keep
+    /// @param folder  folder that is created when the first packing is stored
     PackingStore(std::filesystem::path folder, FileHashes& files) : folder_(std::move(folder)), files_(files) {}
 
-    /// The packing of a case, from the store or made now. Same bits either way. @throws OutputError
+    /// The packing for a case, read from the store or newly made. Both give the same bits. @throws OutputError
     Packing get(const TestCase& test, const PackingRequest& request, const std::function<Packing()>& make);
 
   private:
     std::filesystem::path folder_;
     FileHashes& files_;
-    std::string last_identity_, last_text_;  // of the last one: tests of one packing follow each other
+    std::string last_identity_, last_text_;  // cached for the last packing, because consecutive tests often share one
 };
 
 }  // namespace crackle

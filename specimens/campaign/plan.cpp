@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What comes out of a plan: points and rows. plan_file.cpp reads it.
+// Derives the points and rows of a plan that plan_file.cpp has read.
 #include "specimens/campaign/plan.hpp"
 
 #include <fmt/format.h>
@@ -18,7 +18,7 @@ bool is_for(const Axis& axis, const PlannedTest& test) {
     return axis.tests.empty() || std::find(axis.tests.begin(), axis.tests.end(), test.name) != axis.tests.end();
 }
 
-/// All combinations of the axes of one test: the last axis changes fastest, the design before all grid axes.
+/// Adds all combinations of one test's axes. The last grid axis changes fastest and the design slowest.
 void add_points(Plan& plan, std::size_t test, const std::vector<std::vector<double>>& design) {
     PlanPoint point;
     point.test = test;
@@ -53,12 +53,12 @@ void add_points(Plan& plan, std::size_t test, const std::vector<std::vector<doub
     }
 }
 
-/// Of everything that is random in a case.
+/// Names of all seed keys of a case.
 std::vector<std::string> seeds_of(const TestCase& test) {
     std::vector<std::string> keys;
     if (test.has_table("packing")) keys.emplace_back("packing.seed");
-    if (test.bond.strength_distribution != "none") keys.emplace_back("bond.strength_seed");
-    if (!test.mineral.empty() && test.minerals.assign == "random") keys.emplace_back("minerals.seed");
+    if (test.bond.strength_distribution != StrengthDistribution::none) keys.emplace_back("bond.strength_seed");
+    if (!test.mineral.empty() && test.minerals.assign == MineralAssignment::random) keys.emplace_back("minerals.seed");
     if (!test.joint_set.empty()) keys.emplace_back("joints.seed");
     return keys;
 }
@@ -70,11 +70,6 @@ std::vector<CaseSetting> settings_of(const Plan& plan, const PlanPoint& point) {
 }
 
 }  // namespace
-
-const char* name_of(Variant variant) {
-    constexpr std::array<const char*, variants> names{"as_asked", "half_step", "half_rate"};
-    return names[static_cast<std::size_t>(variant)];
-}
 
 std::string value_text(const CaseValue& value) {
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
@@ -98,7 +93,7 @@ TestCase Plan::test_of(const PlanRow& row) const {
     return test;
 }
 
-// Each is made once, so that no test is begun before all of them are known to be possible.
+// Makes the case of every point, so that no test runs before all cases are known to be valid.
 void judge_points(Plan& plan) {
     for (PlanPoint& point : plan.points) {
         const PlannedTest& kind = plan.tests[point.test];
@@ -110,14 +105,14 @@ void judge_points(Plan& plan) {
             for (const CaseSetting& setting : point.settings) {
                 if (std::find(point.seeds.begin(), point.seeds.end(), setting.key) == point.seeds.end()) continue;
                 throw InputError(
-                    fmt::format("{}: {}: found a value for it beside [packings], which gives every packing its seeds; "
-                                "leave one out",
+                    fmt::format("{}: {}: found a value together with [packings], which sets the seeds of each packing; "
+                                "remove one of the two",
                                 setting.where, setting.key));
             }
             if (plan.packings > 1 && point.seeds.empty()) {
                 throw InputError(
-                    fmt::format("{}: packings.count: found {}, expected 1: nothing in the test {} is random; give it "
-                                "[packing] or a strength_distribution, or leave [packings] out",
+                    fmt::format("{}: packings.count: found {}, expected 1: nothing in the test {} is random; add "
+                                "[packing] or a strength_distribution to its case, or remove [packings]",
                                 plan.file.string(), plan.packings, kind.name));
             }
         } catch (const InputError& error) {
@@ -145,7 +140,7 @@ void expand(Plan& plan, const DesignRequest& design, bool with_companions, std::
         rows += designed ? of_test * static_cast<double>(design.points) : of_test;
     }
     if (rows > static_cast<double>(most_rows)) {
-        throw InputError(fmt::format("{}: found {:.3g} tests, expected at most {}; fewer values, or fewer packings",
+        throw InputError(fmt::format("{}: found {:.3g} tests, expected at most {}; use fewer values or packings",
                                      plan.file.string(), rows, most_rows));
     }
     const auto shares = design_axes > 0 ? design_points(design.sequence, design.points, design_axes)

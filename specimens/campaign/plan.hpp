@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A campaign's plan: which tests it is made of, as its file states them and as they come out of it.
+// A campaign's plan: the tests in its file, and the resulting points and rows.
 //
 //   title = "…"
-//   [[test]]     name, case, set      kinds of test, each a case file with keys set over it
+//   [[test]]     name, case, set      tests, each a case file with keys that override it
 //   [[axis]]     key, values | from, to, count, spacing; tests
-//   [design]     points, sequence     of the axes that have from and to and no count
-//   [packings]   count, first_seed    each a seed of everything that is random in a case; without it a case has its own
+//   [design]     points, sequence     for the axes that have from and to but no count
+//   [packings]   count, first_seed    seeds for everything random in a case; without it, each case keeps its own seeds
 //   [run]        keep, time_limit
 //
-// A point is one of these tests at one combination of the axes; its rows are the same point with the packings. The
-// packings are the same ones for all points.
+// A point is one of these tests at one combination of axis values. Its rows run the point on each of the packings,
+// which are the same for all points.
 // Tested by tests/specimens/campaign/plan_test.cpp.
 #pragma once
 
@@ -23,75 +23,83 @@
 
 namespace crackle {
 
+/// Files to be kept of a test.
 enum class Keep : std::uint8_t {
-    figures,  ///< what the ledger holds
-    curves,   ///< and a curve.csv a test
-    all,      ///< and all files of `crackle test`
+    figures,  ///< only the results in the ledger
+    curves,   ///< also curve.csv for each test
+    all,      ///< also all other files written by `crackle test`
 };
+constexpr auto list_names(Keep) { return in_order("figures", "curves", "all"); }
 
-/// How a row's test differs from what the plan asks for: companions show what step and rate do to a mean.
+/// How a row's test differs from the planned one. Companion runs at half the step or half the rate show the effect of
+/// time step and rate on a mean.
 enum class Variant : std::uint8_t { as_asked, half_step, half_rate };
-inline constexpr int variants = 3;
-const char* name_of(Variant variant);  ///< "as_asked", …
+constexpr auto list_names(Variant) { return in_order("as_asked", "half_step", "half_rate"); }
+inline constexpr int variants = static_cast<int>(table_of_names<Variant>.size());
 
+/// A test of a plan: a case file with settings.
 struct PlannedTest {
     std::string name;
     std::filesystem::path file;
-    std::vector<CaseSetting> settings;  ///< over the case, before the axes'
+    std::vector<CaseSetting> settings;  ///< keys that override the case and are overridden by the axes
     CaseFiles files;
 };
 
-/// One kind of test at one combination of the axes.
+/// A test of the plan at one combination of axis values.
 struct PlanPoint {
-    std::size_t test = 0;               ///< into Plan::tests
-    std::vector<CaseSetting> settings;  ///< of the axes that are for it, in their order
-    std::vector<std::size_t> axes;      ///< into Plan::axes, of these
-    std::vector<std::string> seeds;     ///< keys of its case that a packing's number goes to
-    std::int64_t own_seed = 1;          ///< of its case's packing
+    std::size_t test = 0;               ///< index into Plan::tests
+    std::vector<CaseSetting> settings;  ///< values of the axes that apply to the test, in the order of these axes
+    std::vector<std::size_t> axes;      ///< indices of the axes that apply to the test, in Plan::axes
+    std::vector<std::string> seeds;     ///< keys of the case that are set to the packing's seed
+    std::int64_t own_seed = 1;          ///< seed of the packing as written in the case
 };
 
+/// One test to be run.
 struct PlanRow {
-    std::size_t point = 0;  ///< into Plan::points
-    std::int64_t seed = 0;  ///< of the packing
+    std::size_t point = 0;  ///< index into Plan::points
+    std::int64_t seed = 0;  ///< seed of the packing
     Variant variant = Variant::as_asked;
 };
 
+/// A plan with all its tests, points and rows.
 struct Plan {
     std::filesystem::path file;
-    std::string text;  ///< of the file
+    std::string text;  ///< contents of the plan file
     std::string title;
     std::vector<PlannedTest> tests;
     std::vector<Axis> axes;
-    bool own_seeds = true;  ///< without [packings]: each case has the seeds that it states
+    bool own_seeds = true;  ///< whether each case keeps its own seeds, as without [packings]
     std::int64_t packings = 1, first_seed = 1;
     Keep keep = Keep::figures;
-    double time_limit = 0.0;  ///< s of the wall clock a test; 0: none
+    double time_limit = 0.0;  ///< largest wall-clock time per test, s; 0: no limit
 
     std::vector<PlanPoint> points;
-    std::vector<PlanRow> rows;  ///< by packing, point, variant: rows of one packing lie together
+    /// Ordered by packing, then point, then variant, so that rows with the same packing are adjacent.
+    std::vector<PlanRow> rows;
 
-    /// The test of a row. @throws InputError as read_case()
+    /// The test of a row. @throws InputError as read_case() does
     TestCase test_of(const PlanRow& row) const;
+    /// The planned test to which a row belongs.
     const PlannedTest& kind_of(const PlanRow& row) const { return tests[points[row.point].test]; }
 };
 
 inline constexpr std::int64_t most_plan_rows = 10'000'000;
 
-/// How many points the design axes have, and how they are laid.
+/// Number of points in the design, and the sequence used.
 struct DesignRequest {
     Sequence sequence = Sequence::sobol;
     std::size_t points = 0;
 };
 
-/// Fills in points and rows, and judges every point's keys and values.
-/// @param with_companions rows of half the step and half the rate, too
-/// @throws InputError, also where there would be more than most_rows
+/// Adds all points and rows to a plan, and checks the keys and values of every point.
+/// @param with_companions  whether to add rows with half the time step and half the rate
+/// @throws InputError, also if there would be more than `most_rows` rows
 void expand(Plan& plan, const DesignRequest& design, bool with_companions, std::int64_t most_rows = most_plan_rows);
 
-/// Of points that somebody has put in: their seeds, and whether they are possible. @throws InputError
+/// Determines the seed keys of the points in a plan, and checks whether their cases are valid. @throws InputError
 void judge_points(Plan& plan);
 
-/// As it stands in a plan: 30, 1.5e7, "voronoi".
+/// Text of a value as written in a plan: 30, 1.5e7, "voronoi".
 std::string value_text(const CaseValue& value);
 
 }  // namespace crackle

@@ -20,25 +20,29 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr DeclaredKey plan_keys[]{
-    {"", "title", "a text", "What it is about."},
+    {"", "title", "a text", "Title of the campaign."},
     {"[[test]]", "case", "a file", "Case of `crackle test`, relative to the plan; required."},
-    {"[[test]]", "name", "a text", "What its tests are called; the case's file name without one."},
+    {"[[test]]", "name", "a text", "Name of the test; by default, the case's file name."},
     {"[[test]]", "set", "a table", "Keys of the case with other values: set = {\"loading.max_axial_strain\" = 0.02}."},
     {"[[axis]]", "key", "a key of a case", "\"material.cohesion\", \"mineral[2].cohesion\"; required."},
-    {"[[axis]]", "values", "a list", "The values themselves; or:"},
+    {"[[axis]]", "values", "a list", "The values; alternatively, give the keys below."},
     {"[[axis]]", "from", "a number", "First value, with `to`."},
     {"[[axis]]", "to", "a number", "Last value."},
     {"[[axis]]", "count", "a whole number, 2 to ten million",
-     "So many from first to last; without it the axis is the design's."},
-    {"[[axis]]", "spacing", "\"linear\" or \"logarithmic\"", "Of these; linear by default."},
-    {"[[axis]]", "tests", "a list of names", "Tests that it is for; all by default."},
-    {"[design]", "points", "a whole number, 1 to ten million", "How many fill the box of its axes."},
-    {"[design]", "sequence", "\"sobol\" or \"halton\"", "How; sobol by default."},
-    {"[packings]", "count", "a whole number >= 1", "Specimens of every point, the same ones for all; 1 by default."},
-    {"[packings]", "first_seed", "a whole number >= 0", "Of the first; those after it count up. 1 by default."},
+     "Number of values from first to last; without it the axis belongs to the design."},
+    {"[[axis]]", "spacing", "\"linear\" or \"logarithmic\"", "Spacing of these values; linear by default."},
+    {"[[axis]]", "tests", "a list of names", "The tests to which the axis applies; all by default."},
+    {"[design]", "points", "a whole number, 1 to ten million",
+     "Number of points that fill the box of the design's axes."},
+    {"[design]", "sequence", "\"sobol\" or \"halton\"", "Sequence of the points; sobol by default."},
+    {"[packings]", "count", "a whole number >= 1",
+     "Number of packings tested at every point, the same for all points; 1 by default."},
+    {"[packings]", "first_seed", "a whole number >= 0",
+     "Seed of the first packing; the next packings have consecutive seeds. 1 by default."},
     {"[run]", "keep", "\"figures\", \"curves\" or \"all\"",
-     "What is left of a test beside the ledger; figures by default."},
-    {"[run]", "time_limit", "a number > 0 in s", "Of the wall clock a test: one that takes longer is ended, and told."},
+     "Files of a test to keep in addition to the ledger; figures by default."},
+    {"[run]", "time_limit", "a number > 0 in s",
+     "Largest wall-clock time of a test; a test that takes longer is stopped and reported."},
 };
 
 PlannedTest read_test(const fs::path& file, const KeyedTable& table) {
@@ -55,7 +59,7 @@ PlannedTest read_test(const fs::path& file, const KeyedTable& table) {
                 test.settings.push_back({std::string(key.str()), table.case_value("set", node), line_of(file, node)});
                 continue;
             }
-            // Without quotes loading.kind = … is a table of tables.
+            // An unquoted key, such as loading.kind = …, is parsed as nested tables.
             for (const auto& [inner, value] : *node.as_table())
                 test.settings.push_back({fmt::format("{}.{}", key.str(), inner.str()), table.case_value("set", value),
                                          line_of(file, value)});
@@ -75,9 +79,10 @@ Axis read_axis(const KeyedTable& table, std::int64_t most_values) {
     const toml::node* values = table.get("values");
     const std::optional<double> from = table.number("from"), to = table.number("to");
     const std::optional<std::int64_t> count = table.whole("count", 2, most_values);
-    axis.spacing = table.choice<Spacing>("spacing", {"linear", "logarithmic"});
+    axis.spacing = table.choice<Spacing>("spacing");
     if (values != nullptr) {
-        if (from || to || count) table.refuse(from ? "from" : to ? "to" : "count", "it beside values", "one of both");
+        if (from || to || count)
+            table.refuse(from ? "from" : to ? "to" : "count", "this key together with values", "only one of the two");
         const toml::array* list = values->as_array();
         if (list == nullptr || list->empty()) table.refuse("values", list == nullptr ? kind_name(*values) : "none");
         for (const toml::node& node : *list) axis.values.push_back(table.case_value("values", node));
@@ -85,8 +90,9 @@ Axis read_axis(const KeyedTable& table, std::int64_t most_values) {
     }
     if (!from || !to) table.refuse(from ? "to" : "from", "nothing", "values, or from and to; add them to [[axis]]");
     if (p.kind != ValueKind::real && p.kind != ValueKind::integer)
-        table.refuse("from", "it for a key that has no numbers", "values");
-    if (*from == *to) table.refuse("to", fmt::format("{}, as from", *to), "another number than from");
+        table.refuse("from", "a range for a key without numbers", "values");
+    if (*from == *to)
+        table.refuse("to", fmt::format("{}, the same as `from`", *to), "a number that differs from `from`");
     if (axis.spacing == Spacing::logarithmic && !(*from > 0.0 && *to > 0.0))
         table.refuse("from", fmt::format("{} to {}", *from, *to), "numbers > 0 with logarithmic spacing");
     axis.from = *from;
@@ -106,7 +112,7 @@ void check_names(const Plan& plan) {
         }
         if (!keys.insert(axis.key).second)
             throw InputError(
-                fmt::format("{}: [[axis]] key: found {:.40} twice, expected one axis a key", axis.where, axis.key));
+                fmt::format("{}: [[axis]] key: found {:.40} twice, expected one axis per key", axis.where, axis.key));
     }
 }
 
@@ -133,7 +139,7 @@ std::vector<PlannedTest> read_planned_tests(const KeyedFile& file) {
         if (name.find('/') != std::string::npos || name.front() == '.')
             table.refuse("name", fmt::format("\"{:.40}\"", name), "a name without / that does not begin with a dot");
         if (!names.insert(tests.back().name).second)
-            throw InputError(fmt::format("{}: found two tests called {:.40}, expected a name for each",
+            throw InputError(fmt::format("{}: found two tests called {:.40}, expected different names",
                                          file.path().string(), tests.back().name));
     }
     if (tests.empty())
@@ -146,12 +152,12 @@ Plan read_plan(const fs::path& path, bool with_companions, std::int64_t most_row
     const KeyedFile file(path, "a plan of a campaign", plan_keys);
     Plan plan;
     plan.file = path;
-    plan.text = read_text(path);
+    plan.text = read_text(path, most_bytes_of_keys);
     plan.title = file.top().text("title").value_or(path.stem().string());
     plan.tests = read_planned_tests(file);
     DesignRequest design;
     const KeyedTable design_table = file.table("design");
-    design.sequence = design_table.choice<Sequence>("sequence", {"sobol", "halton"});
+    design.sequence = design_table.choice<Sequence>("sequence");
     const auto points = design_table.whole("points", 1, most_rows);
     design.points = static_cast<std::size_t>(points.value_or(0));
     std::size_t of_design = 0;
@@ -164,13 +170,13 @@ Plan read_plan(const fs::path& path, bool with_companions, std::int64_t most_row
                          fmt::format("at most {}", most_design_axes));
     }
     if (design.points > 0 && of_design == 0)
-        design_table.refuse("points", "no axis for it", "an [[axis]] with from and to, without count");
+        design_table.refuse("points", "no axis of the design", "an [[axis]] with from and to, without count");
     const KeyedTable packings = file.table("packings");
     plan.own_seeds = !file.has("packings");
     plan.packings = packings.whole("count", 1).value_or(1);
     plan.first_seed = packings.whole("first_seed", 0).value_or(1);
     const KeyedTable run = file.table("run");
-    plan.keep = run.choice<Keep>("keep", {"figures", "curves", "all"});
+    plan.keep = run.choice<Keep>("keep");
     plan.time_limit = run.positive("time_limit").value_or(0.0);
     check_names(plan);
     expand(plan, design, with_companions, most_rows);

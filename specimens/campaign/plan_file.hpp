@@ -15,20 +15,22 @@ namespace crackle {
 class KeyedFile;
 class KeyedTable;
 
-/// Reads a plan and judges every point's keys and values.
-/// @param with_companions rows of half the step and half the rate, too
-/// @param most_rows values of an axis, points of a design, and tests in all
+/// Reads a plan and checks the keys and values of every point.
+/// @param with_companions  whether to add rows with half the time step and half the rate
+/// @param most_rows  largest number of values of an axis, of points of a design, and of tests in total
 /// @throws InputError «file:line: key: found X, expected Y; what to do»
 Plan read_plan(const std::filesystem::path& path, bool with_companions = false,
                std::int64_t most_rows = most_plan_rows);
 
-/// The [[test]]s of a file, a plan or another: name, case, set. @throws InputError, also for none, or two of one name
+/// Reads the [[test]] tables of a plan or another file: name, case, set.
+/// @throws InputError, also if there is no such table or a name is repeated
 std::vector<PlannedTest> read_planned_tests(const KeyedFile& file);
 
-/// What `key` of a table names: a key of a case, "material.cohesion". @throws InputError where there is no such key
+/// The key of a case, such as "material.cohesion", that is named by entry `key` of a table.
+/// @throws InputError if a case has no such key
 std::pair<std::string, const Parameter*> read_case_key(const KeyedTable& table);
 
-/// Table of a plan's keys, for people.
+/// Formats the keys of a plan as a table for users.
 std::string describe_plan_keys();
 
 }  // namespace crackle

@@ -8,16 +8,18 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "solver/base/errors.hpp"
-#include "specimens/results/summary_keys.hpp"
+#include "solver/files/text_lines.hpp"
+#include "specimens/summary/summary_keys.hpp"
 
 namespace crackle {
 namespace {
 
-// Of the view `results`: what stands before the axes, between them and the figures, and of that what differs from run
+// Columns of the view `results` before the axes, and those between axes and figures. Some of the latter differ from run
 // to run.
-constexpr std::size_t axes_begin = 2;  // row, test
+constexpr std::size_t axes_begin = 2;  // the columns before the axes are row and test
 constexpr std::array<std::string_view, 5> behind_axes{"seed", "variant", "identity", "state", "processor_seconds"};
 
 std::string cell_text(const LedgerCell& cell) {
@@ -26,9 +28,16 @@ std::string cell_text(const LedgerCell& cell) {
     return "";
 }
 
+/// Whether a spreadsheet would evaluate the text, or remove an apostrophe at its beginning.
+bool looks_like_formula(std::string_view text) {
+    text.remove_prefix(std::min(text.find_first_not_of('\''), text.size()));
+    return text.find_first_of("=+-@\t\r") == 0 && !number_of(text);
+}
+
 std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    std::string quoted = "\"";
+    const bool formula = looks_like_formula(text);
+    if (!formula && text.find_first_of(",\"\r\n") == std::string::npos) return text;
+    std::string quoted = formula ? "\"'" : "\"";
     for (const char letter : text) {
         quoted += letter;
         if (letter == '"') quoted += letter;
@@ -54,33 +63,32 @@ const std::string& text_of(const LedgerCell& cell) {
     return text != nullptr ? *text : none;
 }
 
-/// Of a column; the number of columns where there is none.
+/// Index of a column; the number of columns if there is no such column.
 std::size_t place_in(const LedgerTable& results, std::string_view column) {
     return static_cast<std::size_t>(std::find(results.columns.begin(), results.columns.end(), column) -
                                     results.columns.begin());
 }
 
-/// Not a number where there is none.
+/// Number in a cell; NaN if the cell has no number.
 double number_at(const std::vector<LedgerCell>& row, std::size_t column) {
     const auto* number = column < row.size() ? std::get_if<double>(&row[column]) : nullptr;
     return number != nullptr ? *number : std::nan("");
 }
 
-/// Place of a figure in summary.json by its name, or that of the table it is in.
+/// Position in summary.json of a figure, or of the table that contains the figure.
 std::size_t rank_of(const std::string& figure) {
     const auto& keys = summary_keys();
-    std::string name = figure;
-    if (name.ends_with(converted_suffix)) name.resize(name.size() - std::string_view(converted_suffix).size());
+    const std::string_view name = without_suffix(figure);
     for (std::size_t cut = name.size(); cut != std::string::npos; cut = name.rfind('.', cut - 1)) {
-        const std::string_view part = std::string_view(name).substr(0, cut);
-        const auto at = std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return part == key.what.name; });
+        const std::string_view part = name.substr(0, cut);
+        const auto at = std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return part == key.name; });
         if (at != keys.end()) return static_cast<std::size_t>(at - keys.begin());
         if (cut == 0) break;
     }
     return keys.size();
 }
 
-/// Columns of figures in the order of summary.json, whichever test came first.
+/// Column indices of the figures, in the order of the keys in summary.json, whatever the order of the tests.
 std::vector<std::size_t> ordered_figures(const LedgerTable& results) {
     std::vector<std::size_t> places;
     for (std::size_t k = Columns(results).figures; k < results.columns.size(); ++k) places.push_back(k);
@@ -94,15 +102,10 @@ std::vector<std::size_t> ordered_figures(const LedgerTable& results) {
 }  // namespace
 
 bool refers_to_peak(std::string_view figure) {
-    if (figure.ends_with(converted_suffix)) figure.remove_suffix(std::string_view(converted_suffix).size());
-    constexpr std::array<std::string_view, 7> all{"tangent_modulus_50",
-                                                  "tangent_50_poissons_ratio",
-                                                  "initial_tangent_modulus",
-                                                  "initial_poissons_ratio",
-                                                  "area_strain_peak",
-                                                  "bonds_broken_in_shear_to_peak",
-                                                  "bonds_broken_in_tension_to_peak"};
-    return std::find(all.begin(), all.end(), figure) != all.end();
+    constexpr auto all =
+        in_order("tangent_modulus_50", "tangent_50_poissons_ratio", "initial_tangent_modulus", "initial_poissons_ratio",
+                 "area_strain_peak", "bonds_broken_in_shear_to_peak", "bonds_broken_in_tension_to_peak");
+    return std::ranges::find(all, without_suffix(figure)) != all.end();
 }
 
 std::string PointSummary::at() const {
@@ -143,7 +146,7 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
     }
     const std::size_t units = place_in(results, "material_units"), failed = place_in(results, "failed");
 
-    /// By figure, variant and the packing's number.
+    /// Values by figure and variant, then by packing number.
     using Values = std::map<std::pair<std::size_t, std::string>, std::map<double, double>>;
     std::vector<PointSummary> points;
     std::vector<Values> values;
@@ -168,7 +171,9 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
             ++own.planned;
             own.done += done ? 1 : 0;
             own.gone_wrong += !done && !state.empty() ? 1 : 0;
-            own.area_units = own.area_units || (units < row.size() && text_of(row[units]) == "area");
+            own.failures += !state.empty() && kind_of_row(state) == RowKind::failure ? 1 : 0;
+            own.area_units =
+                own.area_units || (units < row.size() && text_of(row[units]) == name_of(StiffnessUnits::area));
             own.unfailed += held ? 1 : 0;
         }
         const auto* seed = std::get_if<double>(&row[columns.seed]);
@@ -192,6 +197,7 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
                 half_rate.push_back(rate->second);
             }
             points[p].figures[figures[f]] = mean_of(all);
+            points[p].values[figures[f]] = std::move(all);
             if (!asked.empty()) points[p].biases[figures[f]] = bias_of(asked, half_step, half_rate);
         }
     }
@@ -199,25 +205,21 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
 }
 
 std::string unit_of_figure(const std::string& column, bool area_units) {
-    std::string figure = column;  // an element's keys are those of all
+    std::string figure = column;  // keys of list elements are listed once for all elements
     for (std::size_t at = figure.find('['); at != std::string::npos; at = figure.find('[', at + 1)) {
         const std::size_t end = figure.find(']', at);
         if (end != std::string::npos) figure.erase(at + 1, end - at - 1);
     }
     if (figure.ends_with(converted_suffix)) return "Pa";
-    for (const SummaryKey& key : summary_keys()) {
-        if (figure != key.what.name) continue;
-        const std::string unit = key.what.unit;
-        if (unit == "-") return "";
-        return area_units && unit == "N/m" ? "Pa" : unit;
-    }
-    return "";
+    const auto key = std::ranges::find(summary_keys(), figure, &SummaryKey::name);
+    if (key == summary_keys().end() || key->unit == "-") return "";
+    return area_units && key->unit == "N/m" ? "Pa" : key->unit;
 }
 
 std::string verdict_on(const MeanFigure& mean, const MeanBias& bias) {
     const double size = std::abs(mean.mean), chance = mean.standard_error, wrong = std::abs(bias.value);
     if (!std::isfinite(chance) || !std::isfinite(bias.standard_error) || size == 0.0)
-        return "too few packings to tell its bias";
+        return "too few packings for a bias";
     const auto percent = [&](double value, double error) {
         return fmt::format("{:+.2g} ± {:.2g} %", 100.0 * value / size, 100.0 * error / size);
     };
@@ -228,18 +230,20 @@ std::string verdict_on(const MeanFigure& mean, const MeanBias& bias) {
         constexpr double goal = 0.01;
         const double deviation = bias.standard_error * std::sqrt(static_cast<double>(bias.packings));
         const bool unsure = bias.standard_error > goal * size;
-        return parts + (unsure ? fmt::format(": none seen, {:.0f} packings would show 1 %",
+        return parts + (unsure ? fmt::format(": not significant; {:.0f} packings would reveal 1 %",
                                              packings_for(deviation, goal * size))
-                               : std::string(": none seen, the scatter of packings is the error that counts"));
+                               : std::string(": not significant; the scatter of packings is the main error"));
     }
     if (wrong > chance) {
         return fmt::format(
-            "{}: it dominates, ± {:.2g} % of the packings; {} changes that, more packings do not", parts,
-            100.0 * chance / size,
+            "{}: it exceeds the error of ± {:.2g} % due to the scatter of packings; {} reduces it, "
+            "more packings do not",
+            parts, 100.0 * chance / size,
             std::abs(bias.step) > std::abs(bias.rate) ? "a smaller safety_factor" : "a lower rate or rate_tolerance");
     }
-    return fmt::format("{}: the packings dominate, ± {:.2g} %; {:.0f} would bring them level", parts,
-                       100.0 * chance / size, packings_for(mean.deviation, wrong));
+    return fmt::format(
+        "{}: the scatter of the packings is larger, ± {:.2g} %; with {:.0f} packings both would be equal", parts,
+        100.0 * chance / size, packings_for(mean.deviation, wrong));
 }
 
 std::string points_csv(const std::vector<PointSummary>& points, const std::vector<std::string>& figures) {
@@ -250,7 +254,8 @@ std::string points_csv(const std::vector<PointSummary>& points, const std::vecto
     std::string text = "test";
     for (const std::string& key : keys) (text += ',') += csv_field(key);
     text +=
-        ",planned,done,gone_wrong,not_failed,figure,unit,packings,mean,standard_deviation,standard_error,low_95,high_"
+        ",planned,done,gone_wrong,failed_by_system,not_failed,figure,unit,packings,mean,standard_deviation,standard_"
+        "error,low_95,high_"
         "95,"
         "bias,bias_standard_error,bias_step,bias_rate,bias_packings\n";
     for (const PointSummary& point : points) {
@@ -265,8 +270,8 @@ std::string points_csv(const std::vector<PointSummary>& points, const std::vecto
             const auto bias = point.biases.find(figure);
             const auto shown = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; };
             const MeanBias none, &own = bias == point.biases.end() ? none : bias->second;
-            text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", head, point.planned,
-                                point.done, point.gone_wrong, point.unfailed, csv_field(figure),
+            text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", head, point.planned,
+                                point.done, point.gone_wrong, point.failures, point.unfailed, csv_field(figure),
                                 unit_of_figure(figure, point.area_units), mean.count, shown(mean.mean),
                                 shown(mean.deviation), shown(mean.standard_error), shown(mean.low), shown(mean.high),
                                 shown(own.value), shown(own.standard_error), shown(own.step), shown(own.rate),

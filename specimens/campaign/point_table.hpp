@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A campaign's results by points of its plan: what the packings of each point say.
-// Tested by tests/specimens/campaign/campaign_test.cpp.
+// Summarises a campaign's results: for each point of the plan, means over the packings.
+// Tested by tests/specimens/campaign/campaign_test.cpp and point_table_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -16,42 +16,50 @@
 
 namespace crackle {
 
+/// Means over the packings of one point of a plan.
 struct PointSummary {
     std::string test;
-    std::vector<std::pair<std::string, LedgerCell>> axes;  ///< those that are for it
+    std::vector<std::pair<std::string, LedgerCell>> axes;  ///< axes that apply to the test
     std::int64_t planned = 0, done = 0, gone_wrong = 0;
-    std::int64_t unfailed = 0;      ///< done, and not failed by max_axial_strain: they have no strength
-    std::vector<std::size_t> rows;  ///< of the results, as asked
+    std::int64_t failures = 0;  ///< number of tests in gone_wrong with a system failure (RowKind::failure)
+    /// Number of finished tests whose specimen did not fail before max_axial_strain and therefore has no strength.
+    std::int64_t unfailed = 0;
+    std::vector<std::size_t> rows;  ///< indices into the rows of LedgerTable, in planned order
     bool area_units = false;
     std::map<std::string, MeanFigure> figures;
-    std::map<std::string, MeanBias> biases;  ///< where the plan has companions
+    std::map<std::string, std::vector<double>>
+        values;  ///< values that each mean is computed from, in the order of the packings' seeds
+    std::map<std::string, MeanBias> biases;  ///< empty unless the plan has companion runs
 
-    std::string at() const;  ///< "material.cohesion = 2e7, …"; empty without axes
+    std::string at() const;  ///< "material.cohesion = 2e7, …"; empty if no axis applies
 };
 
-/// Figures that refer to the peak: of a test that has not failed they refer to the largest stress so far, and belong to
-/// no mean.
+/// Whether a result refers to the peak. If the specimen has not failed, such results refer to the largest stress
+/// reached and are left out of the means.
 bool refers_to_peak(std::string_view figure);
 
-/// Names of figures that are numbers, in the order of summary.json.
+/// Names of the numeric results, in the order of the keys in summary.json.
 std::vector<std::string> numeric_figures(const LedgerTable& results);
 
-/// Of these, what is looked at first: moduli and strength.
+/// Results of interest to most readers: moduli and strength.
 std::vector<std::string> usual_figures(const LedgerTable& results);
 
-/// @param figures that are asked for @throws InputError for one that no test has, naming those there are
+/// Means and scatter of the requested results for each point.
+/// @param figures  names of the results
+/// @throws InputError if no test has one of them; the message lists the available ones
 std::vector<PointSummary> summarise(const LedgerTable& results, const std::vector<std::string>& figures);
 
-/// Of a figure, as in summary.json; empty for none, or one that it does not list.
-/// @param column its name; of an element of a list "joints[2].length" and its like
+/// Unit of a result as in summary.json; empty if the result has no unit or is not listed there.
+/// @param column  name of the result, which may be an element of a list, such as "joints[2].length"
 std::string unit_of_figure(const std::string& column, bool area_units);
 
-/// What the error of a mean is mostly made of, and what would lessen it, as a sentence.
+/// A sentence on the main source of a mean's error and how to reduce it.
 std::string verdict_on(const MeanFigure& mean, const MeanBias& bias);
 
-/// As CSV, a row a point and figure, in the order asked for.
+/// The points as CSV, one row per point and result, in the requested order. Text that a spreadsheet would evaluate gets
+/// an apostrophe in front: it begins with = + - @ or a tab and is not a number.
 std::string points_csv(const std::vector<PointSummary>& points, const std::vector<std::string>& figures);
-/// As CSV, a row a test, as the view `results` of the ledger but for what differs from machine to machine.
+/// The tests as CSV, one row per test: the view `results` of the ledger without machine-dependent columns.
 std::string tests_csv(const LedgerTable& results);
 
 }  // namespace crackle

@@ -5,25 +5,24 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <new>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
+#include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/loading/expected_run.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/loading/run.hpp"
 #include "specimens/observers/curve.hpp"
-#include "specimens/results/summary.hpp"
+#include "specimens/results/make_summary.hpp"
+#include "specimens/results/sha256.hpp"
 
 namespace crackle {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 double processor_seconds() {
     struct rusage usage = {};
@@ -34,32 +33,42 @@ double processor_seconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// Keys of a summary that tell of the run, or of files.
-constexpr std::array<std::string_view, 18> no_figures{
-    "title",       "note",       "version",      "compiler",     "command",
-    "threads",     "profile",    "wall_seconds", "step_seconds", "particle_steps_per_second",
-    "frame_start", "frame_peak", "columns",      "frame_end",    "units",
-    "files",       "seed",       "notices"};
-// Lists of which each element has a column for each figure. Not of traces: there may be thousands.
-constexpr std::array<std::string_view, 2> lists_of_figures{"cycles", "joints"};
+/// Adds the figures of the visited members.
+struct FigureLister {
+    Figures& figures;
+    std::string prefix = "";
 
-void add_figures(Figures& figures, const std::string& prefix, const Json& table) {
-    for (const auto& [key, value] : table.items()) {
-        if (prefix.empty() && std::find(no_figures.begin(), no_figures.end(), key) != no_figures.end()) continue;
-        const std::string name = prefix + key;
-        if (value.is_object())
-            add_figures(figures, name + ".", value);
-        else if (prefix.empty() && std::ranges::find(lists_of_figures, key) != lists_of_figures.end())
-            for (std::size_t k = 0; k < value.size(); ++k)
-                add_figures(figures, fmt::format("{}[{}].", name, k + 1), value[k]);
-        else if (value.is_boolean())
-            figures.emplace_back(name, value.get<bool>() ? 1.0 : 0.0);
-        else if (value.is_number())
-            figures.emplace_back(name, value.get<double>());
-        else if (value.is_string())
-            figures.emplace_back(name, value.get<std::string>());
+    template <class T>
+    void operator()(const std::string& name, const T& figure, const FigureRow& /*row*/) const {
+        if constexpr (HasFields<T>) {
+            T::fields(figure, *this);
+        } else if constexpr (!std::derived_from<T, Aside<typename T::value_type>>) {
+            if (figure) add(prefix + name, *figure);
+            if constexpr (std::same_as<T, Stress>) (*this)(name + converted_suffix, figure.converted, {});
+        }
     }
-}
+    template <class T>
+    void add(const std::string& name, const T& value) const {
+        if constexpr (HasFields<T>)
+            T::fields(value, FigureLister{figures, name + '.'});
+        else if constexpr (HasNames<T>)
+            figures.emplace_back(name, name_of(value));
+        else if constexpr (std::is_arithmetic_v<T>)
+            figures.emplace_back(name, static_cast<double>(value));
+        else
+            figures.emplace_back(name, value);
+    }
+    /// Elements have a column for each figure; lists of numbers have none.
+    template <class T>
+    void add(const std::string& name, const std::vector<T>& list) const {
+        if constexpr (HasFields<T>)
+            for (std::size_t k = 0; k < list.size(); ++k) add(fmt::format("{}[{}]", name, k + 1), list[k]);
+    }
+    template <class T>
+    void add(const std::string& name, const Table<T>& table) const {
+        for (const auto& [key, value] : table) add(fmt::format("{}.{}", name, key), value);
+    }
+};
 
 std::string curve_text(const VirtualTest& test) {
     std::string text = curve_header(test.setup.pressed());
@@ -67,8 +76,8 @@ std::string curve_text(const VirtualTest& test) {
     return text;
 }
 
-TestSummary loaded_in_memory(const TestCase& description, const RowPlace& place, const TestHooks& hooks,
-                             std::string* curve) {
+Summary loaded_in_memory(const TestCase& description, const RowPlace& place, const TestHooks& hooks,
+                         std::string* curve) {
     VirtualTest test = prepare_test(description, hooks);
     const RunEstimate run = expected_run(test, description.loading.max_axial_strain, roughly_steps_per_second(test));
     if (!place.endless) refuse_endless(test, run);
@@ -78,11 +87,11 @@ TestSummary loaded_in_memory(const TestCase& description, const RowPlace& place,
     return make_summary(test.description, test.setup, test.state, test.world, {});
 }
 
-TestSummary loaded_with_files(const TestCase& description, const std::filesystem::path& folder, const RowPlace& place,
-                              const TestHooks& hooks) {
+Summary loaded_with_files(const TestCase& description, const std::filesystem::path& folder, const RowPlace& place,
+                          const TestHooks& hooks) {
     TestOptions options;
     options.folder = folder;
-    options.force = true;  // what a stopped one has left
+    options.force = options.begins_again = true;  // overwrites the remains of a killed run
     options.most_threads = 1;
     options.endless = place.endless;
     options.command = "crackle campaign";
@@ -93,9 +102,21 @@ TestSummary loaded_with_files(const TestCase& description, const std::filesystem
 
 }  // namespace
 
-Figures figures_of(const TestSummary& summary) {
+RowKind kind_of_row(std::string_view state) {
+    if (state == row_done) return RowKind::result;
+    return state == row_failed || state == row_crashed ? RowKind::failure : RowKind::verdict;
+}
+
+std::string spoken_wrong(std::int64_t gone_wrong, std::int64_t failures) {
+    return fmt::format("{} gone wrong{}", gone_wrong,
+                       failures > 0 ? fmt::format(", {} of them because of the system: the same command runs {} again",
+                                                  failures, failures > 1 ? "them" : "it")
+                                    : "");
+}
+
+Figures figures_of(const Summary& summary) {
     Figures figures;
-    add_figures(figures, "", summary.json());
+    Summary::fields(summary, FigureLister{figures});
     return figures;
 }
 
@@ -119,26 +140,31 @@ RowResult run_row(const TestCase& test, const RowNames& names, Keep keep, const 
     };
     try {
         std::string curve;
-        const TestSummary summary =
+        const Summary summary =
             keep == Keep::all ? loaded_with_files(description, place.folder / "tests" / names.kept, place, hooks)
                               : loaded_in_memory(description, place, hooks, keep == Keep::curves ? &curve : nullptr);
         if (keep == Keep::curves) {
             make_folder(place.folder / "curves");
             replace_file(place.folder / "curves" / (names.kept + ".csv"), curve);
+            result.curve_sha256 = sha256(curve);
         }
+        if (keep == Keep::all)
+            result.summary_sha256 = sha256(read_file(place.folder / "tests" / names.kept / "summary.json"));
         result.figures = figures_of(summary);
-        result.notices = summary.json().at("notices").get<std::vector<std::string>>();
+        result.notices = summary.notices.value_or(std::vector<std::string>());
         result.state = row_done;
     } catch (const OutputError&) {
         throw;
     } catch (const TestInterrupted&) {
         throw;
+    } catch (const UnreadableFile& error) {  // the file existed when the plan was checked
+        went_wrong(row_failed, 4, error.what());
     } catch (const InputError& error) {
         went_wrong(row_refused, 2, error.what());
     } catch (const UnstableRun& error) {
         went_wrong(row_unstable, 3, error.what());
     } catch (const std::bad_alloc&) {
-        went_wrong(row_failed, 2, "found less memory than the specimen needs");
+        went_wrong(row_failed, 4, no_memory);
     } catch (const std::exception& error) {
         went_wrong(row_failed, 4, error.what());
     }

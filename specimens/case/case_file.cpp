@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads a case with toml++ against the declared parameters, and checks the keys against each other.
+// Reads a case with toml++ according to the declared parameters, and checks that its keys are consistent.
 
 #include "specimens/case/case_file.hpp"
 
@@ -31,7 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The value of a node as the parameter wants it. @throws InputError
+/// Converts a node to the type of the parameter. @throws InputError
 CaseValue value_of(const Parameter& p, const toml::node& node, const std::string& where, const std::string& name) {
     const auto refuse = [&](const std::string& found) {
         throw InputError(fmt::format("{}: {}: found {}, expected {}", where, name, found, p.expected()));
@@ -51,7 +51,7 @@ CaseValue value_of(const Parameter& p, const toml::node& node, const std::string
                 const double number = *node.value<double>();
                 if (!p.accepts(number))
                     refuse(shown(node) +
-                           (is_a_size(number) || !std::isfinite(number) ? "" : ", which is no size of anything"));
+                           (is_a_size(number) || !std::isfinite(number) ? "" : ", which is not a possible size"));
                 return CaseValue(number);
             }
             break;
@@ -95,7 +95,7 @@ const TableDescription* find_table(const std::string& name) {
     return nullptr;
 }
 
-/// A table in errors and in TestCase::position: of those that may come several times with its number.
+/// Label of a table in error messages and in TestCase::position; a table that may occur several times gets a number.
 std::string table_label(const std::string& table, std::size_t entry) {
     return find_table(table)->repeated() ? fmt::format("{}[{}]", table, entry + 1) : table;
 }
@@ -127,7 +127,7 @@ void take_value(TestCase& test, const std::string& where, const std::string& tab
     test.position[name] = where;
 }
 
-/// A list of tables takes the place of the whole list in the files before it.
+/// Reads a list of tables. It replaces any list of the same name from the included files.
 void take_list(TestCase& test, const fs::path& file, const TableDescription& table, const toml::node& node) {
     const toml::array* entries = node.as_array();
     if (entries == nullptr ||
@@ -148,8 +148,9 @@ void take_list(TestCase& test, const fs::path& file, const TableDescription& tab
     }
 }
 
-/// Of alternative keys for one quantity, the one that a file uses replaces those of the files before it.
-/// @param writes whether the file writes this full key
+/// If a file uses one of several alternative keys for a quantity, drops the values that earlier files set with the
+/// other keys.
+/// @param writes  a function that returns whether the file contains a full key
 template <class Writes>
 void forget_other_ways(TestCase& test, const Writes& writes) {
     for (const Alternatives& ways : case_alternatives()) {
@@ -167,7 +168,7 @@ void forget_other_ways(TestCase& test, const Writes& writes) {
     }
 }
 
-/// Puts the file's values into the case, over what is there.
+/// Stores the file's values in the case, overriding earlier ones.
 void take_file(TestCase& test, const fs::path& file, const toml::table& content) {
     forget_other_ways(test, [&](const std::string& key) { return static_cast<bool>(content.at_path(key)); });
     for (const auto& [name, node] : content) {
@@ -196,8 +197,8 @@ void take_file(TestCase& test, const fs::path& file, const toml::table& content)
 
 void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::path> within);
 
-/// Takes what a file says after what it includes, so that its own keys stand over it.
-/// @param within the files that include this one, the case first: none may come again
+/// Applies the included file first and then the file itself, whose keys override the included keys.
+/// @param within  the chain of including files, starting with the case; used to reject a file that includes itself
 void take_content(TestCase& test, const fs::path& path, const toml::table& content, std::vector<fs::path> within) {
     if (const toml::node* include = content.get("include")) {
         const std::string where = line_of(path, *include);
@@ -215,9 +216,9 @@ void take_content(TestCase& test, const fs::path& path, const toml::table& conte
         within.push_back(path);
         if (std::any_of(within.begin(), within.end(),
                         [&](const fs::path& file) { return fs::equivalent(file, other, error); })) {
-            throw InputError(
-                fmt::format("{}: include: found {:.200}, which includes this file, expected no ring; remove one", where,
-                            other.string()));
+            throw InputError(fmt::format(
+                "{}: include: found {:.200}, which includes this file, expected no cycle; remove one of the includes",
+                where, other.string()));
         }
         take_with_includes(test, other, std::move(within));
     }
@@ -230,7 +231,7 @@ void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::pa
     take_content(test, path, content, std::move(within));
 }
 
-/// A value as a node of a file, so that it is judged as one.
+/// Converts a value to a TOML node, so that it passes the same checks as a value from a file.
 std::unique_ptr<toml::node> node_of(const CaseValue& value) {
     return std::visit(
         [](const auto& one) -> std::unique_ptr<toml::node> {
@@ -247,7 +248,7 @@ std::unique_ptr<toml::node> node_of(const CaseValue& value) {
         value);
 }
 
-/// Puts one value into the case, over what is there.
+/// Stores one setting in the case, overriding earlier values.
 void take_setting(TestCase& test, const CaseSetting& setting) {
     const std::size_t dot = setting.key.find('.');
     std::string table = dot == std::string::npos ? "" : setting.key.substr(0, dot);
@@ -311,11 +312,12 @@ void fill_defaults(TestCase& test) {
         const std::size_t entries = table.repeated() ? table.count(test) : 1;
         for (std::size_t entry = 0; entry < entries; ++entry) fill_default(test, p, entry);
     }
-    // A real grip is stronger than the rock; pads, jaws and boxes are no part of it.
-    const bool held = test.loading.kind == "tension" || !test.uniaxial();
-    if (held && !test.position.contains("loading.platens")) test.loading.platens = "glued";
-    if (test.loading.platens == "glued" && !test.loading.grip)
-        test.loading.grip = test.loading.kind == "tension" ? default_grip : 0.0;
+    // Glued by default, since a real grip is stronger than the rock, and pads, jaws and boxes are not made of rock.
+    const bool tension = test.loading.kind == LoadingKind::tension;
+    if ((tension || !test.uniaxial()) && !test.position.contains("loading.platens"))
+        test.loading.platens = PlatenKind::glued;
+    if (test.loading.platens == PlatenKind::glued && !test.loading.grip)
+        test.loading.grip = tension ? default_grip : 0.0;
     if (test.title.empty()) test.title = test.source.stem().string();
 }
 
@@ -363,7 +365,7 @@ std::string quoted_text(const std::string& text) {
     return out.str();
 }
 
-/// A value as a case writes it. @param folder that paths are relative to
+/// Formats a value as in a case file. @param folder  the folder that written paths are relative to
 std::string written_value(const TestCase& test, const ResolvedKey& key, const fs::path& folder) {
     const Parameter& p = *key.parameter;
     const CaseValue& value = key.value;
@@ -390,7 +392,7 @@ std::string written_value(const TestCase& test, const ResolvedKey& key, const fs
                            .generic_string());
 }
 
-/// Tables that say nothing where the case has none.
+/// Whether a table is omitted because it does not apply to this case.
 bool left_out(const TestCase& test, const std::string& table) {
     if (table == "minerals") return !test.has_table("mineral");
     if (table == "joints") return !test.jointed();
@@ -432,8 +434,8 @@ void write_resolved_case(std::ostream& out, const TestCase& test, const fs::path
 }
 
 void describe_case_keys(std::ostream& out) {
-    out << "include = \"FILE\" at the top: values of FILE hold wherever the case is silent; FILE may include "
-           "another. A list, such as [[mineral]], holds as a whole. A line has at most "
+    out << "include = \"FILE\" at the top: values of FILE apply to keys that the case does not set; FILE may include "
+           "another. A list, such as [[mineral]], applies as a whole. A line has at most "
         << longest_toml_line << " bytes.\n";
     for (const TableDescription& table : case_tables()) {
         if (!table.name.empty()) out << '\n' << table.heading() << "  " << table.sentence << '\n';

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Case files: everything one virtual test needs to know (test_case.hpp), read from one TOML file.
+// Case files. A case file is a TOML file that completely describes one virtual test (test_case.hpp).
 //
-// Every parameter is declared once (declare_parameter.hpp): table, key, unit, default, range, sentence. The reader, the
-// error texts, `crackle test --keys` and the resolved case that a test leaves beside its results all come from that
-// declaration. A case may begin with include = "other.toml": the other file's values hold wherever the case is silent,
-// so that several tests share one specimen.
+// Every parameter is declared once (declare_parameter.hpp): table, key, unit, default, range and a one-sentence
+// description. The reader, the error messages, `crackle test --keys` and the resolved case stored with the results all
+// use that declaration. A case may begin with include = "other.toml": keys that the case does not set take their values
+// from the other file, so several tests can share one specimen.
 #pragma once
 
 #include <filesystem>
@@ -17,33 +17,36 @@
 
 namespace crackle {
 
-/// A value for one key, over what the files say: a point of a campaign's axis, say.
+/// A value for one key that overrides the case files. Campaigns set the values on their axes in this way.
 struct CaseSetting {
-    std::string key;  ///< "material.cohesion"; of a table that may come several times "mineral[2].cohesion"
+    std::string key;  ///< "material.cohesion", or "mineral[2].cohesion" for a table that may occur several times
     CaseValue value;
-    std::string where;  ///< "file:line" for errors; paths are relative to that file
+    std::string where;  ///< "file:line" for error messages; relative paths start from that file's folder
 };
 
-/// A case that is no file: its text, as TOML or as the same tables in JSON.
+/// A case given as text instead of a file, either as TOML or as the same tables in JSON. Relative paths in it start
+/// from the current folder.
 struct CaseText {
-    std::string name = "case";  ///< in errors, and its title unless it has one
+    std::string name = "case";  ///< used in error messages, and as the title if the text gives no title
     std::string text;
-    bool json = false;  ///< keys have no lines then
-    /// Paths in it are relative to the present folder.
+    bool json = false;  ///< whether the text is JSON; its keys then have no line numbers
 };
 
-/// What a case and the files it includes say, before settings and defaults: read once, made into many tests.
+/// Values from a case file and its includes, before settings and defaults are applied. They are read once and used for
+/// many tests.
 class CaseFiles {
   public:
-    /// @throws InputError as read_case(), but for what only the whole case shows
+    /// @throws InputError as read_case() does, except for errors that only a complete case can show
     explicit CaseFiles(const std::filesystem::path& path);
+    /// Likewise, but from a text instead of a file.
     explicit CaseFiles(const CaseText& text);
 
-    /// The test with settings over what the files say, the last one over those before it. @throws InputError
+    /// Returns the test with settings that override the files. If a key is set several times, the last setting applies.
+    /// @throws InputError
     TestCase with(std::span<const CaseSetting> settings) const;
 
-    /// The joints alone, of a file that need not be a whole case: defaults and checks of [joints], [[joint_set]] and
-    /// [[trace]]; of the rest what the files say. @throws InputError
+    /// Returns only the joints; the file may be an incomplete case. Only [joints], [[joint_set]] and [[trace]] get
+    /// defaults and are checked. Other values stay as written in the files. @throws InputError
     TestCase joints() const;
 
   private:
@@ -52,24 +55,26 @@ class CaseFiles {
 
 /// Reads and checks a case. @throws InputError «file:line: key: found X, expected Y; what to do».
 TestCase read_case(const std::filesystem::path& path);
+/// Likewise, but from a text instead of a file.
 TestCase read_case(const CaseText& text);
 
-/// Writes the case with every value in the open, each with its unit and sentence; reading it back gives the same test.
-/// @param folder where the text will stand: paths are written relative to it.
+/// Writes the case with all values, each with its unit and description. Reading the output gives the same test.
+/// @param folder  the folder where the text will be stored; paths are written relative to this folder
 void write_resolved_case(std::ostream& out, const TestCase& test, const std::filesystem::path& folder);
 
 struct Parameter;
 
-/// One key of a case with the value that it has, written or by default.
+/// One key of a case with its value, which is either set by a file or a default.
 struct ResolvedKey {
     std::string label;  ///< "material.cohesion", "mineral[2].cohesion"
     const Parameter* parameter;
     CaseValue value;
 };
-/// All that have one, in the order of a written case. Equal lists are equal tests, but for what files contain.
+/// All keys that have a value, in the order in which a case is written. Tests with equal lists are equal, except for
+/// the contents of the files they name.
 std::vector<ResolvedKey> resolved_keys(const TestCase& test);
 
-/// The table of all keys with unit, default, range and sentence, for people.
+/// Prints a table of all keys with unit, default, range and description.
 void describe_case_keys(std::ostream& out);
 
 }  // namespace crackle

@@ -7,7 +7,7 @@
 
 namespace crackle {
 
-/// @throws InputError «file:line: key: found X, expected Y; what to do»
+/// Checks that the keys of a case are consistent. @throws InputError «file:line: key: found X, expected Y; what to do»
 void check_consistency(const TestCase& test);
 
 }  // namespace crackle

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How keys are declared: a key is a member of TestCase, whose type gives the kind of value, and what is asked of it.
+// Declarations of keys. A declaration names a member of TestCase, whose type determines the kind of value, and adds the
+// key's requirements.
 // Tested by tests/specimens/case/case_file_test.cpp.
 #pragma once
 
@@ -11,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "solver/base/names.hpp"
 #include "specimens/case/parameter.hpp"
 
 namespace crackle::declaring {
@@ -26,7 +28,7 @@ struct Unwrap<std::optional<T>> {
     static constexpr bool optional = true;
 };
 
-/// The member of a case, or of an entry of one of its lists.
+/// Returns the member of a case, or of one entry in a list of the case.
 template <class Member>
 auto& reach(const Member& member, TestCase& c, std::size_t entry) {
     if constexpr (std::is_invocable_v<Member, TestCase&>) {
@@ -36,7 +38,16 @@ auto& reach(const Member& member, TestCase& c, std::size_t entry) {
     }
 }
 
-/// Declares a parameter held by the member that `member` returns; its type gives the kind of value.
+/// Converts a value to its form in a file: an enumerator is written as its name.
+template <class T>
+CaseValue value_of(const T& held) {
+    if constexpr (std::is_enum_v<T>)
+        return std::string(name_of(held));
+    else
+        return held;
+}
+
+/// Declares the parameter stored in the member that `member` returns; the member's type determines the kind of value.
 template <class Member>
 Parameter declare(std::string table, std::string key, std::string unit, Member member, std::string sentence) {
     using Held = std::remove_cvref_t<decltype(reach(member, std::declval<TestCase&>(), 0))>;
@@ -50,44 +61,48 @@ Parameter declare(std::string table, std::string key, std::string unit, Member m
              : std::is_same_v<T, std::int64_t>        ? ValueKind::integer
              : std::is_same_v<T, double>              ? ValueKind::real
              : std::is_same_v<T, std::string>         ? ValueKind::text
+             : std::is_enum_v<T>                      ? ValueKind::text
              : std::is_same_v<T, std::vector<double>> ? ValueKind::reals
                                                       : ValueKind::text_pair;
+    if constexpr (std::is_enum_v<T>) p.choices = names_of<T>();
     p.presence = Unwrap<Held>::optional ? Presence::optional : Presence::required;
     p.set = [member](TestCase& c, const CaseValue& value, std::size_t entry) {
-        reach(member, c, entry) = std::get<T>(value);
+        if constexpr (std::is_enum_v<T>)
+            reach(member, c, entry) = from_name<T>(std::get<std::string>(value)).value();
+        else
+            reach(member, c, entry) = std::get<T>(value);
     };
     p.get = [member](const TestCase& c, std::size_t entry) -> std::optional<CaseValue> {
-        // It only reaches in; nothing is written.
+        // const is cast away only to call `member`; nothing is written.
         const Held& held = reach(member, const_cast<TestCase&>(c), entry);
         if constexpr (Unwrap<Held>::optional) {
-            if (!held) return std::nullopt;
-            return CaseValue(*held);
+            return held ? std::optional(value_of(*held)) : std::nullopt;
         } else {
-            return CaseValue(held);
+            return value_of(held);
         }
     };
     if constexpr (Unwrap<Held>::optional) p.forget = [member](TestCase& c) { reach(member, c, 0).reset(); };
     return p;
 }
 
-/// Refinements of a declaration, chained behind it.
+/// Requirements of a key, chained after its declaration.
 struct With {
     Parameter p;
     With above(double low) && { return p.lowest = low, p.lowest_allowed = false, std::move(*this); }
     With at_least(double low) && { return p.lowest = low, std::move(*this); }
     With below(double high) && { return p.highest = high, p.highest_allowed = false, std::move(*this); }
     With at_most(double high) && { return p.highest = high, std::move(*this); }
-    With one_of(std::vector<std::string> choices) && { return p.choices = std::move(choices), std::move(*this); }
     With path() && { return p.is_path = true, std::move(*this); }
     With needed_with_table() && { return p.presence = Presence::required_with_table, std::move(*this); }
-    With otherwise(CaseValue value) && {
-        return p.default_value = std::move(value), p.presence = Presence::defaulted, std::move(*this);
+    template <class T>
+    With otherwise(const T& value) && {
+        return p.default_value = value_of(value), p.presence = Presence::defaulted, std::move(*this);
     }
     operator Parameter() && { return std::move(p); }
 };
 
-// NOLINTBEGIN(bugprone-macro-parentheses): names of members and lists of calls
-// Its versions differ on a lambda in a macro.
+// NOLINTBEGIN(bugprone-macro-parentheses): the arguments are member names and call lists
+// Versions of clang-format format a lambda in a macro differently.
 // clang-format off
 #define CRACKLE_MEMBER(path) [](TestCase& c) -> auto& { return c.path; }
 #define CRACKLE_ENTRY(list, path) [](TestCase& c, std::size_t entry) -> auto& { return c.list[entry].path; }
@@ -97,8 +112,5 @@ struct With {
 #define CRACKLE_LIST_KEY(list, key, unit, sentence) \
     With { declare(#list, #key, unit, CRACKLE_ENTRY(list, key), sentence) }
 // NOLINTEND(bugprone-macro-parentheses)
-
-inline CaseValue whole(std::int64_t n) { return CaseValue(n); }
-inline CaseValue words(const char* text) { return CaseValue(std::string(text)); }
 
 }  // namespace crackle::declaring

@@ -6,12 +6,10 @@
 
 #include <algorithm>
 #include <initializer_list>
-#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
 #include "specimens/case/joint_keys.hpp"
 #include "specimens/case/parameters.hpp"
@@ -20,34 +18,39 @@
 namespace crackle {
 namespace {
 
-/// What one choice of a key has for keys of its own.
+/// Keys that one choice of a distribution law requires and allows.
+template <class Choice>
 struct LawKeys {
-    const char* choice;
+    Choice choice;
     std::vector<const char*> needed, allowed;
 };
 
-const std::vector<LawKeys>& orientation_laws() {
-    static const std::vector<LawKeys> all{{"fixed", {"angle"}, {}},
-                                          {"uniform", {"angle", "angle_deviation"}, {}},
-                                          {"von_mises", {"angle", "kappa"}, {}},
-                                          {"fisher", {"dip", "dip_direction", "fisher_k"}, {}}};
+const std::vector<LawKeys<JointOrientation>>& orientation_laws() {
+    using enum JointOrientation;
+    static const std::vector<LawKeys<JointOrientation>> all{{fixed, {"angle"}, {}},
+                                                            {uniform, {"angle", "angle_deviation"}, {}},
+                                                            {von_mises, {"angle", "kappa"}, {}},
+                                                            {fisher, {"dip", "dip_direction", "fisher_k"}, {}}};
     return all;
 }
-const std::vector<LawKeys>& length_laws() {
-    static const std::vector<LawKeys> all{{"persistent", {}, {}},
-                                          {"gaps", {"length_mean", "gap_mean"}, {"length_deviation", "gap_deviation"}},
-                                          {"fixed", {"length_mean"}, {}},
-                                          {"uniform", {"length_mean", "length_deviation"}, {}},
-                                          {"lognormal", {"length_mean", "length_deviation"}, {}},
-                                          {"exponential", {"length_mean"}, {}},
-                                          {"power_law", {"length_min", "length_max", "length_exponent"}, {}}};
+const std::vector<LawKeys<JointLength>>& length_laws() {
+    using enum JointLength;
+    static const std::vector<LawKeys<JointLength>> all{
+        {persistent, {}, {}},
+        {gaps, {"length_mean", "gap_mean"}, {"length_deviation", "gap_deviation"}},
+        {fixed, {"length_mean"}, {}},
+        {uniform, {"length_mean", "length_deviation"}, {}},
+        {lognormal, {"length_mean", "length_deviation"}, {}},
+        {exponential, {"length_mean"}, {}},
+        {power_law, {"length_min", "length_max", "length_exponent"}, {}}};
     return all;
 }
-const std::vector<LawKeys>& spacing_laws() {
-    static const std::vector<LawKeys> all{{"fixed", {}, {}},
-                                          {"uniform", {"spacing_deviation"}, {}},
-                                          {"exponential", {}, {}},
-                                          {"lognormal", {"spacing_deviation"}, {}}};
+const std::vector<LawKeys<JointSpacing>>& spacing_laws() {
+    using enum JointSpacing;
+    static const std::vector<LawKeys<JointSpacing>> all{{fixed, {}, {}},
+                                                        {uniform, {"spacing_deviation"}, {}},
+                                                        {exponential, {}, {}},
+                                                        {lognormal, {"spacing_deviation"}, {}}};
     return all;
 }
 
@@ -59,16 +62,16 @@ class JointCheck {
 
     void run() const {
         if (test_.has_table("joints") && !test_.jointed())
-            refuse("joints", "no [[joint_set]] or [[trace]]", "one", "add it, or remove this");
+            refuse("joints", "no [[joint_set]] or [[trace]]", "at least one", "add one, or remove this table");
         names();
         bool fisher = false;
         for (std::size_t k = 0; k < test_.joint_set.size(); ++k) {
             set(k);
-            fisher = fisher || test_.joint_set[k].orientation == "fisher";
+            fisher = fisher || test_.joint_set[k].orientation == JointOrientation::fisher;
         }
         if (fisher && !written("joints.section_trend"))
             refuse("joints.section_trend", "nothing", find_parameter("joints", "section_trend")->expected(),
-                   "planes are cut by a section whose direction is known");
+                   "the direction of the section is needed to intersect it with planes");
         if (!fisher && written("joints.section_trend"))
             throw key_needs(test_, "joints.section_trend", "a set with orientation = \"fisher\"");
         for (std::size_t k = 0; k < test_.trace.size(); ++k) trace(k);
@@ -99,27 +102,28 @@ class JointCheck {
         const auto take = [&](const std::string& key, const std::string& name) {
             if (name.empty()) refuse(key, "an empty text", "a name", "give one");
             if (!taken.insert(name).second)
-                refuse(key, fmt::format("\"{:.40}\" a second time", name), "a name of its own", "rename one");
+                refuse(key, fmt::format("\"{:.40}\" a second time", name), "a unique name", "rename one");
         };
         for (std::size_t k = 0; k < test_.joint_set.size(); ++k) take(of_set(k, "name"), test_.joint_set[k].name);
         for (std::size_t k = 0; k < test_.trace.size(); ++k)
             if (test_.trace[k].name) take(of_trace(k, "name"), *test_.trace[k].name);
     }
 
-    /// The keys of the law chosen are there, those of other laws are not.
-    void law(std::size_t k, const char* key, const std::string& choice, const std::vector<LawKeys>& laws) const {
+    /// Checks that the keys required by the chosen law are present and those of other laws are absent.
+    template <class Choice>
+    void law(std::size_t k, const char* key, Choice choice, const std::vector<LawKeys<Choice>>& laws) const {
         const auto chosen =
-            std::find_if(laws.begin(), laws.end(), [&](const LawKeys& one) { return choice == one.choice; });
-        const std::string because = fmt::format("{} = \"{}\"", key, choice);
+            std::find_if(laws.begin(), laws.end(), [&](const auto& one) { return choice == one.choice; });
+        const std::string because = fmt::format("{} = \"{}\"", key, name_of(choice));
         for (const char* needed : chosen->needed) need(of_set(k, needed), "joint_set", needed, because + " needs it");
         const auto has = [](const std::vector<const char*>& keys, const std::string& one) {
             return std::find(keys.begin(), keys.end(), one) != keys.end();
         };
-        for (const LawKeys& other : laws) {
+        for (const LawKeys<Choice>& other : laws) {
             for (const auto* keys : {&other.needed, &other.allowed}) {
                 for (const char* one : *keys) {
                     if (!has(chosen->needed, one) && !has(chosen->allowed, one))
-                        exclude(of_set(k, one), because + " does not have it");
+                        exclude(of_set(k, one), because + " does not use it");
                 }
             }
         }
@@ -129,14 +133,15 @@ class JointCheck {
                const std::optional<double>& bound) const {
         if (value && bound && *value >= *bound)
             refuse(of_set(k, key), fmt::format("{} m", *value), fmt::format("less than {} = {} m", bound_key, *bound),
-                   "no length is 0 or less");
+                   "all lengths must be > 0");
     }
 
     void set(std::size_t k) const {
         const TestCase::JointSet& s = test_.joint_set[k];
         law(k, "orientation", s.orientation, orientation_laws());
         law(k, "length", s.length, length_laws());
-        if (s.length != "lognormal") below(k, "length_deviation", s.length_deviation, "length_mean", s.length_mean);
+        if (s.length != JointLength::lognormal)
+            below(k, "length_deviation", s.length_deviation, "length_mean", s.length_mean);
         below(k, "gap_deviation", s.gap_deviation, "gap_mean", s.gap_mean);
         below(k, "length_min", s.length_min, "length_max", s.length_max);
         amount(k);
@@ -152,23 +157,25 @@ class JointCheck {
                    given.empty() ? std::string("no amount") : fmt::format("{}", fmt::join(given, " and ")),
                    fmt::format("one of {}", fmt::join(amounts, ", ")), given.empty() ? "add one" : "remove others");
         }
-        const bool lines = s.length == "persistent" || s.length == "gaps";
+        const bool lines = s.length == JointLength::persistent || s.length == JointLength::gaps;
         if (s.spacing) {
             if (!lines)
-                refuse(of_set(k, "spacing"), fmt::format("length = \"{}\"", s.length), "\"persistent\" or \"gaps\"",
-                       "traces of their own have midpoints, not lines: give p10, p20, p21 or number");
-            law(k, "spacing_law", s.spacing_law.value_or("fixed"), spacing_laws());
-            if (s.spacing_law == "uniform") below(k, "spacing_deviation", s.spacing_deviation, "spacing", s.spacing);
+                refuse(of_set(k, "spacing"), fmt::format("length = \"{}\"", name_of(s.length)),
+                       "\"persistent\" or \"gaps\"",
+                       "such traces have midpoints, but no spacing; give p10, p20, p21 or number");
+            law(k, "spacing_law", s.spacing_law.value_or(JointSpacing::fixed), spacing_laws());
+            if (s.spacing_law == JointSpacing::uniform)
+                below(k, "spacing_deviation", s.spacing_deviation, "spacing", s.spacing);
         } else {
             for (const char* key : {"spacing_law", "spacing_deviation", "through"})
-                expect_beside(of_set(k, key), "an amount by spacing");
+                expect_beside(of_set(k, key), "spacing as the amount");
         }
         if (s.p20 && lines)
-            refuse(of_set(k, "p20"), fmt::format("length = \"{}\"", s.length), "traces with midpoints",
-                   "lines have none: give spacing, p10, p21 or number");
+            refuse(of_set(k, "p20"), fmt::format("length = \"{}\"", name_of(s.length)), "traces with midpoints",
+                   "such lines have no midpoints; give spacing, p10, p21 or number");
         if (s.through && s.through->size() != 2)
             refuse(of_set(k, "through"), counted(s.through->size(), "number"), "two, x and y", "correct it");
-        if (!s.p10) expect_beside(of_set(k, "scan_line"), "an amount by p10");
+        if (!s.p10) expect_beside(of_set(k, "scan_line"), "p10 as the amount");
     }
 
     void trace(std::size_t k) const {
@@ -180,18 +187,19 @@ class JointCheck {
         if (t.points) {
             for (const char* key : {"scale", "offset", "layer"}) expect_beside(of_trace(k, key), "a file");
             if (t.points->size() < 4 || t.points->size() % 2 != 0)
-                refuse(of_trace(k, "points"), counted(t.points->size(), "number"), "x and y of two points or more",
+                refuse(of_trace(k, "points"), counted(t.points->size(), "number"), "x and y of at least two points",
                        "correct it");
             const std::vector<double>& p = *t.points;
             bool apart = false;
             for (std::size_t n = 2; n < p.size(); n += 2) apart = apart || p[n] != p[0] || p[n + 1] != p[1];
-            if (!apart) refuse(of_trace(k, "points"), "a trace of one place", "two or more", "correct it");
+            if (!apart)
+                refuse(of_trace(k, "points"), "points that coincide", "at least two different points", "correct it");
         }
         if (t.offset && t.offset->size() != 2)
             refuse(of_trace(k, "offset"), counted(t.offset->size(), "number"), "two, x and y", "correct it");
     }
 
-    /// Which keys of a joint's mechanics go together.
+    /// Checks that the mechanical properties given for a joint can be combined.
     void mechanics(const JointTable& table) const {
         const TestCase::JointKeys& own = *table.keys;
         const auto key = [&](const char* name) { return table.label + "." + name; };
@@ -199,14 +207,15 @@ class JointCheck {
             for (const char* name : {"strength_factor", "tensile_strength", "cohesion", "residual_friction_angle"})
                 exclude(key(name), "an open joint has no bonds; its faces have friction_angle");
         } else if (own.aperture) {
-            refuse(key("aperture"), fmt::format("{} m", *own.aperture), "none of a bonded joint",
+            refuse(key("aperture"), fmt::format("{} m", *own.aperture), "no aperture for a bonded joint",
                    "write bonded = false, or remove it");
         }
         if (own.tensile_strength && own.cohesion)
-            exclude(key("strength_factor"), "tensile_strength and cohesion stand in its place");
+            exclude(key("strength_factor"), "tensile_strength and cohesion already replace it");
         if (own.friction_angle && own.residual_friction_angle && *own.residual_friction_angle > *own.friction_angle)
             refuse(key("residual_friction_angle"), fmt::format("{} deg", *own.residual_friction_angle),
-                   fmt::format("at most friction_angle, {} deg", *own.friction_angle), "a broken bond is no rougher");
+                   fmt::format("at most friction_angle, {} deg", *own.friction_angle),
+                   "the friction angle of a broken bond must not exceed that of an intact bond");
         if (own.dilation_slip && own.dilation_angle.value_or(0.0) == 0.0)
             throw key_needs(test_, key("dilation_slip"), "a dilation_angle > 0");
     }
@@ -214,7 +223,7 @@ class JointCheck {
     const TestCase& test_;
 };
 
-/// The mechanics of joints against the rock's.
+/// Checks the mechanical properties of a joint against the rock's.
 class JointAgainstRock {
   public:
     JointAgainstRock(const TestCase& test, const JointTable& table) : test_(test), table_(table), own_(*table.keys) {}
@@ -237,7 +246,7 @@ class JointAgainstRock {
         refuse("aperture", fmt::format("{} m", *own_.aperture),
                fmt::format("at most {}, {:.6g} m", meshed ? "the gap of the mesh" : "the radius of the smallest circle",
                            gap),
-               meshed ? "the faces lie no farther apart; lower it or raise mesh.thick" : "lower it");
+               meshed ? "this is the distance between the faces; lower the aperture or raise mesh.thick" : "lower it");
     }
 
   private:
@@ -247,19 +256,21 @@ class JointAgainstRock {
             fmt::format("{}: found {}, expected {}; {}", test_.at(table_.label + "." + name), found, expected, remedy));
     }
 
-    /// Without faces that have a length, and bonds with strengths of their own, there is nothing to change.
+    /// Joint properties require bonds that they can change, and stiffnesses per area, because faces then have a length.
     void laws() const {
-        if (test_.coulomb_bonds() && test_.area_units()) return;
+        const bool across_joints = test_.bond_facts().across_joints;
+        if (across_joints && test_.area_units()) return;
         for (const Parameter& p : joint_mechanics_keys()) {
             if (!test_.position.contains(table_.label + "." + p.key)) continue;
             refuse(p.key.c_str(),
-                   test_.coulomb_bonds() ? "a value with units = \"" + test_.material.units + "\""
-                                         : "a value with bond.law = \"" + test_.bond.law + "\"",
-                   "bond.law = \"coulomb\" and material.units = \"area\" with it", "change these, or remove it");
+                   across_joints ? fmt::format("a value with units = \"{}\"", name_of(test_.material.units))
+                                 : fmt::format("a value with bond.law = \"{}\"", name_of(test_.bond.law)),
+                   fmt::format("bond.law = {} and material.units = \"area\"", laws_with(&BondLawFacts::across_joints)),
+                   "change these, or remove the key");
         }
     }
 
-    /// A rock's angle that stands in a particle file is not known here: the scene is looked at, too.
+    /// Friction angles from a particle file are not known here; they are checked when the scene is built.
     void friction(const TestCase::MaterialKeys& rock) const {
         const auto first = [](std::initializer_list<std::optional<double>> angles) {
             const auto given = std::ranges::find_if(angles, [](const auto& angle) { return angle.has_value(); });
@@ -268,13 +279,14 @@ class JointAgainstRock {
         const std::optional<double> peak = first({own_.friction_angle, rock.friction_angle});
         if (peak && own_.residual_friction_angle && *own_.residual_friction_angle > *peak)
             refuse("residual_friction_angle", fmt::format("{} deg", *own_.residual_friction_angle),
-                   fmt::format("at most the rock's friction_angle, {} deg", *peak), "give its own beside it");
+                   fmt::format("at most the rock's friction_angle, {} deg", *peak),
+                   "give friction_angle of the joint as well");
         const std::optional<double> slides_at = first(
             {own_.residual_friction_angle, own_.friction_angle, rock.residual_friction_angle, rock.friction_angle});
         if (slides_at && own_.dilation_angle.value_or(0.0) > *slides_at)
             refuse("dilation_angle", fmt::format("{} deg", *own_.dilation_angle),
-                   fmt::format("at most the friction angle that it slides at, {} deg", *slides_at),
-                   "with more it would give energy away");
+                   fmt::format("at most the friction angle at which it slides, {} deg", *slides_at),
+                   "a larger angle would create energy");
     }
 
     void strengths(const TestCase::MaterialKeys& rock) const {
@@ -283,14 +295,14 @@ class JointAgainstRock {
         const double factor = own_.strength_factor.value_or(1.0);
         const double tensile = own_.tensile_strength.value_or(factor * *rock.tensile_strength),
                      cohesion = own_.cohesion.value_or(factor * *rock.cohesion);
-        const double friction = correctly_rounded::tan(*angle * std::numbers::pi / 180.0);
-        if (!(friction * tensile > cohesion * (1.0 + 1e-12))) return;
+        const double friction = friction_coefficient(*angle);
+        if (!beyond_apex(friction, tensile, cohesion)) return;
         refuse(own_.tensile_strength ? "tensile_strength"
                : own_.cohesion       ? "cohesion"
                                      : "friction_angle",
                fmt::format("a tensile strength of {:.6g} Pa", tensile),
-               fmt::format("at most its cohesion over tan(friction_angle), {:.6g} Pa", cohesion / friction),
-               "the apex of its bonds' envelope would cut it off; give less tensile_strength or more cohesion");
+               fmt::format("at most its cohesion/tan(friction_angle), {:.6g} Pa", cohesion / friction),
+               "the apex of the strength envelope limits it; lower tensile_strength or raise cohesion");
     }
 
     const TestCase& test_;
@@ -314,12 +326,12 @@ void check_jointed_specimen(const TestCase& test) {
                         "[[trace]]",
                         test.at(key), found, expected));
     };
-    if (test.has_table("mesh") && test.mesh.boundary != "domain")
-        refuse("mesh.boundary", fmt::format("\"{}\"", test.mesh.boundary), "\"domain\"");
-    if (test.has_table("mesh") && test.mesh.merge_destroyed && *test.mesh.kind == "voronoi")
+    if (test.has_table("mesh") && test.mesh.boundary != Boundary::domain)
+        refuse("mesh.boundary", fmt::format("\"{}\"", name_of(test.mesh.boundary)), "\"domain\"");
+    if (test.has_table("mesh") && test.mesh.merge_destroyed && test.mesh.kind == MeshKind::voronoi)
         refuse("mesh.merge_destroyed", "true", "false with kind = \"voronoi\"");
-    if (!test.uniaxial() && test.loading.kind != "direct_shear")
-        refuse("loading.kind", fmt::format("\"{}\"", test.loading.kind),
+    if (!test.uniaxial() && test.loading.kind != LoadingKind::direct_shear)
+        refuse("loading.kind", fmt::format("\"{}\"", name_of(test.loading.kind)),
                "\"compression\", \"tension\", \"biaxial\" or \"direct_shear\"");
     for (const JointTable& table : joint_tables(test))
         if (!table.keys->as_rock()) JointAgainstRock(test, table).run();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks of [joints], [[joint_set]] and [[trace]] against each other: which keys a law has, and needs.
+// Checks [joints], [[joint_set]] and [[trace]] for consistency: which keys each distribution law allows and requires.
 // Tested by tests/specimens/joints/joint_refusal_test.cpp.
 #pragma once
 
@@ -7,15 +7,16 @@
 
 namespace crackle {
 
-/// @throws InputError «file:line: key: found X, expected Y; what to do»
+/// Checks the keys of joints. @throws InputError «file:line: key: found X, expected Y; what to do»
 void check_joints(const TestCase& test);
 
-/// Whether a test can have joints: circles, or a mesh that fills the box, between platens; and whether their mechanics
-/// go with the rock's. @throws InputError
+/// Checks that joints are possible in this test: the specimen must consist of circles, or of a mesh that fills the box,
+/// between platens. Also checks that the mechanical properties of joints are compatible with those of the rock.
+/// @throws InputError
 void check_jointed_specimen(const TestCase& test);
 
-/// Whether joints' apertures close within the gap of a mesh, m, where that is derived, or among circles within the
-/// smallest radius. @throws InputError
+/// Checks that the apertures of joints can close. In a mesh with a derived gap, they must not exceed this gap, m. Among
+/// circles, they must not exceed the smallest radius. @throws InputError
 void check_apertures(const TestCase& test, double gap);
 
 }  // namespace crackle

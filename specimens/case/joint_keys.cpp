@@ -10,7 +10,7 @@
 namespace crackle {
 namespace {
 
-/// @param list  gives the tables of a case, whose entries hold JointKeys of their own
+/// @param list  a function that returns the list of tables in a case whose entries contain JointKeys
 template <class List>
 void add_mechanics(std::vector<Parameter>& all, const char* table, List list) {
     using Keys = TestCase::JointKeys;
@@ -22,44 +22,50 @@ void add_mechanics(std::vector<Parameter>& all, const char* table, List list) {
         return With{declare(table, name, unit, reach_in, sentence)};
     };
     all.push_back(key(&Keys::bonded, "bonded", "",
-                      "Whether bonds hold its faces together; false: open, they push, rub and slide from the start. "
-                      "Bonded if not given."));
-    all.push_back(key(&Keys::strength_factor, "strength_factor", "",
-                      "Times the rock's tensile strength and cohesion; 1 if not given. Mechanics of joints need "
-                      "bond.law = \"coulomb\" and material.units = \"area\"; what is not given is as in the rock.")
-                      .at_least(0)
-                      .at_most(1e6));
-    all.push_back(key(&Keys::tensile_strength, "tensile_strength", "Pa",
-                      "Of its bonds, in place of the rock's times strength_factor; at 0 one breaks when it is pulled.")
-                      .at_least(0));
+                      "Whether bonds hold the joint's faces together. false: the joint is open, so its faces press and "
+                      "slide from the start. true if not given."));
     all.push_back(
-        key(&Keys::cohesion, "cohesion", "Pa", "Likewise; at least tan(friction_angle) times the tensile strength.")
-            .at_least(0));
+        key(&Keys::strength_factor, "strength_factor", "",
+            "Factor on the rock's tensile strength and cohesion; 1 if not given. Mechanics of joints need bond.law = "
+            "\"coulomb\" and material.units = \"area\"; keys that are not given are as in the rock.")
+            .at_least(0)
+            .at_most(1e6));
+    all.push_back(key(&Keys::tensile_strength, "tensile_strength", "Pa",
+                      "Tensile strength of the joint's bonds, in place of strength_factor times the rock's; with 0 a "
+                      "bond breaks as soon as it is pulled.")
+                      .at_least(0));
+    all.push_back(key(&Keys::cohesion, "cohesion", "Pa",
+                      "Cohesion of the joint's bonds, in place of strength_factor times the rock's; at least "
+                      "tan(friction_angle) times the tensile strength.")
+                      .at_least(0));
     all.push_back(key(&Keys::friction_angle, "friction_angle", "deg",
-                      "Of its bonds, and of its faces without bonds where residual_friction_angle is not given.")
+                      "Friction angle of the joint's bonds, and of its faces without bonds if residual_friction_angle "
+                      "is not given.")
                       .at_least(0)
                       .below(90));
     all.push_back(key(&Keys::residual_friction_angle, "residual_friction_angle", "deg",
-                      "Of its faces once bonds have broken, at most friction_angle.")
+                      "Friction angle of the joint's faces after its bonds have broken; at most friction_angle.")
                       .at_least(0)
                       .below(90));
     all.push_back(key(&Keys::normal_stiffness, "normal_stiffness", "Pa/m",
-                      "K_n, stress a closure, in series with the faces' own stiffness: 1/k = 1/k_face + 1/(K_n L). "
-                      "None of its own, as if infinite, if not given.")
+                      "K_n, stress per closure, in series with the stiffness of the faces: 1/k = 1/k_face + 1/(K_n L). "
+                      "Infinite if not given.")
                       .above(0));
-    all.push_back(key(&Keys::shear_stiffness, "shear_stiffness", "Pa/m", "K_s, stress a slip before sliding, likewise.")
+    all.push_back(key(&Keys::shear_stiffness, "shear_stiffness", "Pa/m",
+                      "K_s, shear stress per slip before sliding, in series with the shear stiffness of the faces. "
+                      "Infinite if not given.")
                       .above(0));
     all.push_back(key(&Keys::dilation_angle, "dilation_angle", "deg",
-                      "Faces that slide open by tan(dilation_angle) of their slip, whatever its direction; at most the "
-                      "friction angle that they slide at.")
+                      "Sliding faces open by tan(dilation_angle) times their slip, in both directions; at most the "
+                      "friction angle at which they slide.")
                       .at_least(0)
                       .below(90));
-    all.push_back(
-        key(&Keys::dilation_slip, "dilation_slip", "m", "Slip after which they open no farther; none if not given.")
-            .above(0));
+    all.push_back(key(&Keys::dilation_slip, "dilation_slip", "m",
+                      "Slip after which sliding faces open no farther; no limit if not given.")
+                      .above(0));
     all.push_back(key(&Keys::aperture, "aperture", "m",
-                      "Of an open joint: way that its faces close without force; at most the gap of the mesh, among "
-                      "circles the radius of the smallest.")
+                      "Closure of an open joint's faces without force; at most the gap of the mesh, or the radius of "
+                      "the smallest circle.")
                       .above(0));
 }
 

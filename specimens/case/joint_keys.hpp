@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keys of the mechanics of a joint, the same in [[joint_set]] and [[trace]].
+// Keys for the mechanical properties of a joint, which [[joint_set]] and [[trace]] share.
 // Tested by tests/specimens/joints/joint_refusal_test.cpp.
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace crackle {
 
-/// Of both tables, in the order in which a case is written.
+/// Keys that [[joint_set]] and [[trace]] share, in the order in which a case is written.
 std::vector<Parameter> joint_mechanics_keys();
 
-/// Where joints have mechanics: "joint_set[1]", "trace[2]", with what their tables hold, in the case's order.
+/// A table that may set mechanical properties of joints, "joint_set[1]" or "trace[2]", with its keys.
 struct JointTable {
     std::string label;
     const TestCase::JointKeys* keys;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -14,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of "[[axis]]" the word axis.
+/// The table name in a heading, such as axis in "[[axis]]".
 std::string_view word_of(std::string_view heading) {
     while (!heading.empty() && heading.front() == '[') heading = heading.substr(1, heading.size() - 2);
     return heading;

@@ -1,59 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tables of a TOML file whose keys are declared in a list: what is unknown or of another kind is refused with its file,
-// line and key. Plans of campaigns and rocks to be calibrated are read so.
+// Tables of a TOML file whose keys are declared in a list. Unknown keys and values of the wrong type are rejected with
+// file, line and key. Used to read campaign plans and the rocks to be calibrated.
 // Tested by tests/specimens/campaign/plan_test.cpp.
 #pragma once
 
 #include <toml++/toml.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "solver/base/names.hpp"
 #include "specimens/case/test_case.hpp"
 #include "specimens/case/toml_file.hpp"
 
 namespace crackle {
 
 struct DeclaredKey {
-    const char* table;  ///< "", "[packings]", "[[axis]]" for one that may come several times
+    const char* table;  ///< "", "[packings]", or "[[axis]]" for a table that may occur several times
     const char *key, *expected, *sentence;
 };
 
 /// One table of a file.
 class KeyedTable {
   public:
-    /// @param name as declared  @throws InputError for a key that is not
+    /// @param name  the table's name in the declarations  @throws InputError if the table has a key that is not
+    /// declared
     KeyedTable(const std::filesystem::path& file, std::string name, const toml::table& table,
                std::span<const DeclaredKey> declared);
 
-    std::string where(const char* key) const;  ///< "file:line", of the table where the key is not there
+    std::string where(const char* key) const;  ///< "file:line" of the key, or of the table if the key is missing
     [[noreturn]] void refuse(const char* key, const std::string& found, const std::string& expected) const;
-    /// As the list of keys describes it.
+    /// Rejects a value; the error states the expected value from the declaration.
     [[noreturn]] void refuse(const char* key, const std::string& found) const;
 
     const toml::node* get(const char* key) const { return table_.get(key); }
-    // What a key says; nothing where it is not there. @throws InputError for a value of another kind
+    // The value of a key; empty if the key is missing. @throws InputError if the value has the wrong type
     std::optional<std::string> text(const char* key) const;
     std::optional<double> number(const char* key) const;
     std::optional<double> positive(const char* key) const;
     std::optional<std::int64_t> whole(const char* key, std::int64_t least, std::int64_t most = 1'000'000'000'000) const;
     std::vector<std::string> texts(const char* key) const;
-    /// The place of a word among those that a key understands; the first where the key is not there.
-    template <class Value>
-    Value choice(const char* key, std::initializer_list<const char*> words) const {
-        const std::optional<std::string> found = text(key);
-        if (!found) return Value{};
-        const auto at = std::find_if(words.begin(), words.end(), [&](const char* word) { return *found == word; });
-        if (at == words.end()) refuse(key, shown(*get(key)));
-        return static_cast<Value>(at - words.begin());
+    /// Enumerator named by the key's value; the first enumerator if the key is missing.
+    template <HasNames Value>
+    Value choice(const char* key) const {
+        const std::optional<std::string> name = text(key);
+        const std::optional<Value> found = name ? from_name<Value>(*name) : Value{};
+        if (!found) refuse(key, shown(*get(key)));
+        return *found;
     }
-    /// A value that a key of a case may have.
+    /// Converts a TOML value to a CaseValue.
     CaseValue case_value(const char* key, const toml::node& node) const;
 
   private:
@@ -65,18 +64,19 @@ class KeyedTable {
     std::span<const DeclaredKey> declared_;
 };
 
-/// A file and its declared tables. @param declared outlives it
+/// A file and its declared tables. @param declared  the declarations, which must outlive this object
 class KeyedFile {
   public:
-    /// @param expected in words, "a plan of a campaign" @throws InputError, also for an unknown table or key at the top
+    /// @param expected  the kind of file, such as "a plan of a campaign" @throws InputError, including for unknown
+    /// top-level tables or keys
     KeyedFile(const std::filesystem::path& path, const std::string& expected, std::span<const DeclaredKey> declared);
 
     const std::filesystem::path& path() const { return path_; }
     KeyedTable top() const { return {path_, "", content_, declared_}; }
     bool has(const char* name) const { return content_.get(name) != nullptr; }
-    /// "[name]"; empty where it is not there.
+    /// The table "[name]"; empty if the table is missing.
     KeyedTable table(const char* name) const;
-    /// Each "[[name]]".
+    /// All tables "[[name]]".
     std::vector<KeyedTable> tables(const char* name) const;
 
   private:
@@ -85,7 +85,7 @@ class KeyedFile {
     toml::table content_, absent_;
 };
 
-/// Table of such keys, for people.
+/// Formats the declared keys as a table for users.
 std::string describe_declared_keys(std::span<const DeclaredKey> declared);
 
 }  // namespace crackle

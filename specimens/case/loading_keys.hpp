@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The keys of how it is tested: loading, confinement, numerics, output.
+// Keys that describe how a specimen is tested: loading, confinement, numerics, output.
 // Tested by tests/specimens/case/case_file_test.cpp.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace crackle {
 
-/// In the order in which a case is written.
+/// The keys in the order in which a case is written.
 std::vector<Parameter> loading_keys();
 
 }  // namespace crackle

@@ -25,7 +25,7 @@ class MineralCheck {
             for (const char* table : {"minerals", "mineral_pair"}) {
                 if (test_.has_table(table))
                     refuse(table == std::string("minerals") ? table : "mineral_pair[1]", "no [[mineral]]",
-                           "one table a mineral", "add them, or remove this");
+                           "one table per mineral", "add them, or remove this table");
             }
             return;
         }
@@ -58,10 +58,10 @@ class MineralCheck {
             const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
             if (std::all_of(name.begin(), name.end(), is_digit))
                 refuse(key_of(k, "name"), name.empty() ? "an empty text" : fmt::format("\"{:.40}\"", name),
-                       "a name with a letter", "a whole number in a file of labels is a mineral's place in the list");
+                       "a name with a letter",
+                       "a whole number in a file of labels is the position of a mineral in the list");
             if (!taken.insert(name).second)
-                refuse(key_of(k, "name"), fmt::format("\"{:.40}\" a second time", name), "a name of its own",
-                       "rename one");
+                refuse(key_of(k, "name"), fmt::format("\"{:.40}\" a second time", name), "a unique name", "rename one");
         }
     }
 
@@ -76,37 +76,37 @@ class MineralCheck {
             }
             sum += *share;
             if (sum > 1.0 + share_rounding)
-                refuse(key_of(k, "area_share"), fmt::format("{}, with those before it {:g}", *share, sum),
-                       "at most 1 in sum", "lower a share");
+                refuse(key_of(k, "area_share"), fmt::format("{}, which makes a sum of {:g}", *share, sum),
+                       "a sum of at most 1", "lower a share");
         }
-        const std::string& assign = test_.minerals.assign;
-        if (assign != "random" && assign != "size") return;  // labels and images give what they give
+        if (!test_.minerals.by_share()) return;  // area fractions follow from the labels or the image
         if (open > 1) {
             refuse("mineral[1]", fmt::format("{} minerals without area_share", open), "at most one",
-                   "give all others theirs");
+                   "give the others their shares");
         }
         if (open == 1 && sum >= 1.0 - share_rounding)
-            refuse("mineral[1]", "a mineral without area_share where the others fill all", "a rest for it",
-                   "lower a share, or remove it");
+            refuse("mineral[1]", "a mineral without area_share although the others fill the specimen",
+                   "shares that leave an area for it", "lower a share, or remove it");
         if (open == 0 && sum < 1.0 - share_rounding)
-            refuse("mineral[1]", fmt::format("shares of {:g} in sum", sum), "1 in sum",
-                   "raise one, or leave one out, which then has the rest");
+            refuse("mineral[1]", fmt::format("shares with a sum of {:g}", sum), "a sum of 1",
+                   "raise a share, or omit the share of one mineral, which then gets the rest");
     }
 
     void files() const {
-        const std::string& assign = test_.minerals.assign;
-        for (const char* key : {"labels", "image"}) {
+        const MineralAssignment assign = test_.minerals.assign;
+        for (const MineralAssignment file : {MineralAssignment::labels, MineralAssignment::image}) {
+            const char* key = name_of(file);
             const std::string name = std::string("minerals.") + key;
             const bool written = test_.position.contains(name);
-            if (written && assign != key) throw key_needs(test_, name, fmt::format("assign = \"{}\"", key));
-            if (!written && assign == key)
+            if (written && assign != file) throw key_needs(test_, name, fmt::format("assign = \"{}\"", key));
+            if (!written && assign == file)
                 refuse(name, "nothing", "a file name in quotes", fmt::format("assign = \"{}\" needs it", key));
         }
         std::map<std::uint32_t, std::string> taken;
         for (std::size_t k = 0; k < test_.mineral.size(); ++k) {
             const TestCase::Mineral& m = test_.mineral[k];
             if (!m.colour) {
-                if (assign == "image")
+                if (assign == MineralAssignment::image)
                     refuse(key_of(k, "colour"), "nothing", "\"#rrggbb\"", "assign = \"image\" needs it");
                 continue;
             }
@@ -118,23 +118,25 @@ class MineralCheck {
             const auto [at, is_new] = taken.emplace(*colour, m.name);
             if (!is_new)
                 refuse(key_of(k, "colour"), fmt::format("\"{}\", which {} has", *m.colour, at->second),
-                       "a colour of its own", "change one");
+                       "a unique colour", "change one");
         }
     }
 
-    /// Dashpots and ratios in series have no common form.
+    /// Dashpots and damping ratios cannot be combined in series.
     void damping() const {
         const TestCase::MaterialKeys& rock = test_.material;
         const bool dashpots = rock.normal_damping || rock.shear_damping;
         for (std::size_t k = 0; k < test_.mineral.size(); ++k) {
             const TestCase::MaterialKeys& own = test_.mineral[k].own;
             if (own.damping_ratio && dashpots)
-                refuse(key_of(k, "damping_ratio"), "a ratio where [material] has dashpots", "one way for all",
-                       "give dashpots here or a ratio there");
+                refuse(key_of(k, "damping_ratio"), "a ratio although [material] has dashpots",
+                       "the same kind of damping everywhere",
+                       "give dashpots for the mineral, or a ratio in [material]");
             for (const bool normal : {true, false}) {
                 if (!(normal ? own.normal_damping : own.shear_damping) || dashpots) continue;
-                refuse(key_of(k, normal ? "normal_damping" : "shear_damping"), "a dashpot where [material] has none",
-                       "one way for all", "give damping_ratio here or dashpots there");
+                refuse(key_of(k, normal ? "normal_damping" : "shear_damping"),
+                       "a dashpot although [material] has no dashpots", "the same kind of damping everywhere",
+                       "give damping_ratio for the mineral, or dashpots in [material]");
             }
         }
     }
@@ -153,17 +155,17 @@ class MineralCheck {
             std::sort(between.begin(), between.end());
             if (!taken.emplace(between, k).second)
                 refuse(key + ".between", fmt::format("{} and {} a second time", between[0], between[1]),
-                       "one table a pair", "join the two");
+                       "one table per pair", "merge the two tables");
             const auto& keys = mineral_pair_keys();
             const auto is_written = [&](const std::string& one) {
                 return test_.position.contains(fmt::format("{}.{}", key, one));
             };
             if (std::none_of(keys.begin(), keys.end(), is_written))
-                refuse(key, "names alone", fmt::format("one at least of {}", fmt::join(keys, ", ")),
+                refuse(key, "only the names", fmt::format("at least one of {}", fmt::join(keys, ", ")),
                        "add one, or remove the table");
             if (is_written("contact_modulus") != is_written("stiffness_ratio"))
                 refuse(key, "one of contact_modulus and stiffness_ratio", "both, or neither",
-                       "the pair's own stand in place of the two minerals'");
+                       "together they replace the values of the two minerals");
         }
     }
 

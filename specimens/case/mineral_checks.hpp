@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks of [minerals], [[mineral]] and [[mineral_pair]] against each other.
+// Checks [minerals], [[mineral]] and [[mineral_pair]] for consistency.
 // Tested by tests/specimens/making/minerals_test.cpp.
 #pragma once
 
@@ -7,10 +7,10 @@
 
 namespace crackle {
 
-/// Shares written in decimals may miss 1 by so much.
+/// Largest allowed difference between 1 and the sum of area fractions, which are written as rounded decimals.
 inline constexpr double share_rounding = 1e-6;
 
-/// @throws InputError «file:line: key: found X, expected Y; what to do»
+/// Checks the keys of minerals. @throws InputError «file:line: key: found X, expected Y; what to do»
 void check_minerals(const TestCase& test);
 
 }  // namespace crackle

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How one parameter of a case is declared: its place, unit, range, sentence, and where TestCase holds it.
+// Declaration of one parameter of a case: table, key, unit, range, description, and the member of TestCase that stores
+// the value.
 // Tested by tests/specimens/case/case_file_test.cpp.
 #pragma once
 
@@ -18,39 +19,42 @@
 
 namespace crackle {
 
+/// Type of a value in a case file.
 enum class ValueKind { flag, integer, real, text, text_pair, reals };
 
-/// Who must write a key.
+/// Whether a key must be written.
 enum class Presence {
-    required,             ///< every case
-    required_with_table,  ///< every case that has the key's table
-    optional,             ///< not required; absent means absent
-    defaulted,            ///< not required; absent means the default
+    required,             ///< in every case
+    required_with_table,  ///< in every case that has the key's table
+    optional,             ///< not required and without a default
+    defaulted,            ///< not required, with a default
 };
 
+/// A key of a case: what it accepts, and the member that it sets.
 struct Parameter {
     std::string table;  ///< "" for keys at the top of the file
     std::string key;
-    std::string unit;  ///< "" where there is none
+    std::string unit;  ///< "" for a key without a unit
     ValueKind kind = ValueKind::real;
     Presence presence = Presence::optional;
     std::optional<CaseValue> default_value;
     double lowest = -std::numeric_limits<double>::infinity();
     double highest = std::numeric_limits<double>::infinity();
     bool lowest_allowed = true, highest_allowed = true;
-    std::vector<std::string> choices;  ///< of a text; empty: any
+    std::vector<std::string> choices;  ///< allowed texts; empty if any text is allowed
     bool is_path = false;
     std::string sentence;
 
-    // Of a table that may come several times, entry is its place from 0; else it is not used.
+    // `entry` is the zero-based index of a table that may occur several times; otherwise it is unused.
     std::function<void(TestCase&, const CaseValue&, std::size_t entry)> set;
     std::function<std::optional<CaseValue>(const TestCase&, std::size_t entry)> get;
-    std::function<void(TestCase&)> forget;  ///< makes an optional one absent; empty of the others
+    std::function<void(TestCase&)> forget;  ///< removes the value of an optional key; empty for other keys
 
+    /// Table and key, as in "material.cohesion".
     std::string full_key() const { return table.empty() ? key : table + "." + key; }
-    /// What is accepted, in words: "a number > 0 in m".
+    /// Description of the accepted values, such as "a number > 0 in m".
     std::string expected() const;
-    /// Whether a number lies in the range, and is_a_size().
+    /// Whether a number lies in the key's range and satisfies is_a_size().
     bool accepts(double value) const;
 };
 

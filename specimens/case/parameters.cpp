@@ -14,7 +14,7 @@
 namespace crackle {
 namespace {
 
-/// A number of [material] as a key of the list's entries, which hold MaterialKeys of their own.
+/// Turns a key of [material] into a key of a list whose entries contain MaterialKeys.
 template <class List>
 Parameter owned(const Parameter& of_material, std::string table, List list) {
     Parameter p = of_material;
@@ -36,7 +36,8 @@ Parameter owned(const Parameter& of_material, std::string table, List list) {
     return p;
 }
 
-/// Minerals have every number of [material], pairs of them what belongs to a contact.
+/// Adds the keys of minerals and mineral pairs. Minerals have all numeric keys of [material], mineral pairs only the
+/// keys that describe a contact.
 void add_minerals_keys(std::vector<Parameter>& all) {
     const auto minerals = [](auto& c) -> auto& { return c.mineral; };
     const auto pairs = [](auto& c) -> auto& { return c.mineral_pair; };
@@ -65,10 +66,13 @@ const std::vector<Parameter>& case_parameters() {
 }
 
 const std::vector<std::string>& mineral_pair_keys() {
-    static const std::vector<std::string> keys{"normal_stiffness", "shear_stiffness",        "friction_angle",
-                                               "contact_modulus",  "stiffness_ratio",        "tensile_strength",
-                                               "cohesion",         "residual_friction_angle"};
-    return keys;
+    static const std::vector<std::string> all = [] {
+        std::vector<std::string> keys{"normal_stiffness", "shear_stiffness", "friction_angle", "contact_modulus",
+                                      "stiffness_ratio"};
+        for (const BondConstant& constant : all_bond_constants()) keys.emplace_back(constant.key);
+        return keys;
+    }();
+    return all;
 }
 
 std::vector<std::string> material_tables(const TestCase& test) {
@@ -93,8 +97,10 @@ TestCase::MaterialKeys mineral_material(const TestCase& test, std::size_t minera
 
 TestCase::MaterialKeys pair_material(const TestCase& test, std::size_t pair) {
     TestCase::MaterialKeys keys = test.mineral_pair[pair].own;
-    for (auto key : {&TestCase::MaterialKeys::tensile_strength, &TestCase::MaterialKeys::cohesion,
-                     &TestCase::MaterialKeys::friction_angle}) {
+    std::vector<std::optional<double> TestCase::MaterialKeys::*> weaker{&TestCase::MaterialKeys::friction_angle};
+    for (const BondConstant& constant : all_bond_constants())
+        if (!constant.is_angle) weaker.push_back(constant.given);
+    for (const auto key : weaker) {
         if (keys.*key) continue;
         for (std::size_t k = 0; k < test.mineral.size(); ++k) {
             if (std::ranges::find(test.mineral_pair[pair].between, test.mineral[k].name) ==
@@ -135,29 +141,31 @@ const std::vector<Alternatives>& case_alternatives() {
 const std::vector<TableDescription>& case_tables() {
     static const std::vector<TableDescription> all{
         {"", "Top of the file."},
-        {"particles", "A specimen from a file; the alternative is [packing]."},
-        {"packing", "A specimen made here; the alternative is [particles]."},
+        {"particles", "A specimen read from a file, in place of [packing]."},
+        {"packing", "A specimen made by packing circles, in place of [particles]."},
         {"mesh", "Turns the circles into polygons; without it they stay circles."},
-        {"material", "Of the specimen; with [particles], each key overrides the file's."},
-        {"minerals", "How grains get the minerals below."},
-        {"mineral", "One table a mineral; numbers that it does not give are [material]'s, which platens have.",
+        {"material", "Material of the specimen; with [particles], each key overrides the file's value."},
+        {"minerals", "How grains get the minerals listed below."},
+        {"mineral",
+         "One table per mineral; values that it does not give are taken from [material], which also describes the "
+         "platens.",
          [](const TestCase& c) { return c.mineral.size(); }, [](TestCase& c, std::size_t n) { c.mineral.resize(n); }},
         {"mineral_pair",
          "Contacts between two minerals, in place of springs in series and the smaller friction of the two.",
          [](const TestCase& c) { return c.mineral_pair.size(); },
          [](TestCase& c, std::size_t n) { c.mineral_pair.resize(n); }},
-        {"joints", "How joint sets are drawn."},
-        {"joint_set", "One table a set of joints, drawn by its laws.",
+        {"joints", "How traces of joints are generated."},
+        {"joint_set", "One table per set of joints, generated from its distributions.",
          [](const TestCase& c) { return c.joint_set.size(); },
          [](TestCase& c, std::size_t n) { c.joint_set.resize(n); }},
-        {"trace", "One table a measured trace, or a file of them.", [](const TestCase& c) { return c.trace.size(); },
-         [](TestCase& c, std::size_t n) { c.trace.resize(n); }},
-        {"bond", "What holds the particles together, and how it breaks."},
-        {"shape", "What is cut from the packing, of brazilian, bending and scb."},
+        {"trace", "One table per measured trace, or per file of traces.",
+         [](const TestCase& c) { return c.trace.size(); }, [](TestCase& c, std::size_t n) { c.trace.resize(n); }},
+        {"bond", "Bonds between particles, and how they break."},
+        {"shape", "Shape that is cut from the packing, for brazilian, bending and scb."},
         {"loading", "The kind of test, and how it is loaded: the lower platen is fixed, the upper one moves."},
-        {"confinement", "Of a biaxial test."},
-        {"numerics", "How it is computed."},
-        {"output", "What is written."},
+        {"confinement", "Pressure on the sides, for a biaxial test."},
+        {"numerics", "How the test is computed."},
+        {"output", "What the test writes."},
     };
     return all;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All parameters of a case: what the declarations of specimen_keys.hpp and loading_keys.hpp come to. Used by the case
-// reader alone.
+// All parameters of a case, collected from specimen_keys.hpp and loading_keys.hpp. Only the case reader uses them.
 // Tested by tests/specimens/case/case_file_test.cpp.
 #pragma once
 
@@ -16,35 +15,40 @@ namespace crackle {
 
 /// All parameters, in the order in which a case is written.
 const std::vector<Parameter>& case_parameters();
-/// Nothing if there is no such key.
+/// Returns the parameter of a key, or nullptr if there is no such key.
 const Parameter* find_parameter(const std::string& table, const std::string& key);
 
-/// Alternative keys for one quantity, each by its full keys. Where a file uses one, the others of the files it includes
-/// go.
+/// Alternative ways to state one quantity, each a list of full keys. If a file uses one alternative, values of the
+/// other alternatives from included files are dropped.
 using Alternatives = std::vector<std::vector<std::string>>;
+/// Alternatives for all quantities that can be stated in several ways.
 const std::vector<Alternatives>& case_alternatives();
 
-/// A sentence about each table; the order of tables in a written case.
+/// Name and one-sentence description of a table.
 struct TableDescription {
     std::string name;
     std::string sentence;
-    // Only of tables that may come several times, [[name]]:
+    // Only for tables that may occur several times, [[name]]:
     std::function<std::size_t(const TestCase&)> count = {};
     std::function<void(TestCase&, std::size_t)> set_count = {};
 
+    /// Whether the table may occur several times.
     bool repeated() const { return static_cast<bool>(count); }
+    /// Heading of the table in a case file.
     std::string heading() const { return repeated() ? "[[" + name + "]]" : "[" + name + "]"; }
 };
+/// All tables, in the order in which a case is written.
 const std::vector<TableDescription>& case_tables();
 
-/// What a mineral's grains are made of: [material]'s keys with the mineral's own over them.
+/// Material of a mineral's grains: the keys of [material], overridden by the keys of the mineral.
 TestCase::MaterialKeys mineral_material(const TestCase& test, std::size_t mineral);
 
-/// What a pair gives itself, and of strengths and friction the weaker mineral's where it does not.
+/// Material of contacts between two minerals: the keys of the pair. Strengths and friction angles that the pair does
+/// not set are those of the weaker mineral.
 TestCase::MaterialKeys pair_material(const TestCase& test, std::size_t pair);
 /// Keys of [material] that a [[mineral_pair]] may override.
 const std::vector<std::string>& mineral_pair_keys();
-/// The tables that hold keys of [material]: that itself, "mineral[1]", …, "mineral_pair[1]", …
+/// The tables that hold keys of [material]: [material] itself, "mineral[1]", …, "mineral_pair[1]", …
 std::vector<std::string> material_tables(const TestCase& test);
 
 }  // namespace crackle

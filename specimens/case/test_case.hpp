@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A case as data: everything one virtual test needs to know. case_file.hpp reads it, parameters.hpp declares its keys.
+// One test case as data: the complete description of a virtual test. case_file.hpp reads it; parameters.hpp declares
+// its keys.
 //
-// Units: any consistent set, SI in what we ship. Strictly 2D: stiffnesses, stresses and moduli in N/m.
+// Units: any consistent set; the supplied cases use SI. The model is strictly 2D: stiffnesses, stresses and moduli are
+// in N/m.
 // Tested by tests/specimens/case/case_file_test.cpp.
 #pragma once
 
@@ -14,264 +16,345 @@
 #include <variant>
 #include <vector>
 
+#include "mesher/mesher.hpp"
 #include "solver/base/errors.hpp"
+#include "solver/base/names.hpp"
+#include "solver/scene/bond_strength.hpp"
+#include "solver/scene/scene.hpp"
 
 namespace crackle {
 
-/// A value as TOML knows it.
+/// Value of a key: one of the types that TOML provides.
 using CaseValue =
     std::variant<bool, std::int64_t, double, std::string, std::array<std::string, 2>, std::vector<double>>;
 
-/// Of a packing whose case sets no damping: a particle ringing on its contacts loses 95 % of its energy a
-/// period, exp(-4πh) = 1/20; it shortens the stable step by a fifth.
+/// Distribution of the radii in a packing.
+enum class RadiusLaw : std::uint8_t { uniform, lognormal, sieve };
+constexpr auto list_names(RadiusLaw) { return in_order("uniform", "lognormal", "sieve"); }
+
+constexpr auto list_names(MeshKind) { return in_order("delaunay", "voronoi"); }
+constexpr auto list_names(Boundary) { return in_order("domain", "seeds"); }
+
+/// How minerals are assigned to grains.
+enum class MineralAssignment : std::uint8_t { random, size, labels, image };
+constexpr auto list_names(MineralAssignment) { return in_order("random", "size", "labels", "image"); }
+
+/// Orientation of the modelled section through a 3D joint system.
+enum class JointSection : std::uint8_t { vertical, horizontal };
+constexpr auto list_names(JointSection) { return in_order("vertical", "horizontal"); }
+
+/// Distribution of the orientations of a joint set.
+enum class JointOrientation : std::uint8_t { fixed, uniform, von_mises, fisher };
+constexpr auto list_names(JointOrientation) { return in_order("fixed", "uniform", "von_mises", "fisher"); }
+
+/// Distribution of trace lengths.
+enum class JointLength : std::uint8_t { persistent, gaps, fixed, uniform, lognormal, exponential, power_law };
+constexpr auto list_names(JointLength) {
+    return in_order("persistent", "gaps", "fixed", "uniform", "lognormal", "exponential", "power_law");
+}
+
+/// Distribution of the spacing between the lines of a joint set.
+enum class JointSpacing : std::uint8_t { fixed, uniform, exponential, lognormal };
+constexpr auto list_names(JointSpacing) { return in_order("fixed", "uniform", "exponential", "lognormal"); }
+
+/// Kind of test; test_kind() in specimens/kinds returns its description.
+enum class LoadingKind : std::uint8_t { compression, tension, biaxial, brazilian, bending, scb, direct_shear };
+constexpr auto list_names(LoadingKind) {
+    return in_order("compression", "tension", "biaxial", "brazilian", "bending", "scb", "direct_shear");
+}
+
+/// How platens hold the specimen.
+enum class PlatenKind : std::uint8_t { bonded, glued, frictional };
+constexpr auto list_names(PlatenKind) { return in_order("bonded", "glued", "frictional"); }
+
+/// Shape of the jaws of a Brazilian test.
+enum class JawShape : std::uint8_t { arc, flat, curved };
+constexpr auto list_names(JawShape) { return in_order("arc", "flat", "curved"); }
+
+/// The strain that is increased at a steady rate.
+enum class LoadingControl : std::uint8_t { axial, lateral };
+constexpr auto list_names(LoadingControl) { return in_order("axial", "lateral"); }
+
+/// What applies the confining pressure to the sides.
+enum class ConfiningSide : std::uint8_t { membrane, walls };
+constexpr auto list_names(ConfiningSide) { return in_order("membrane", "walls"); }
+
+/// Floating-point precision of the coordinates in frames.
+enum class FramePrecision : std::uint8_t { single_, double_ };
+constexpr auto list_names(FramePrecision) { return in_order("single", "double"); }
+
+/// Damping ratio of a packing if the case sets no damping. A particle vibrating on its contacts then loses 95 % of its
+/// energy per period, since exp(-4πh) = 1/20. This damping reduces the stable time step by a fifth.
 inline constexpr double default_damping_ratio = 0.2383941;  // ln(20)/(4π)
 
-/// Share of the height at each end that glued platens hold in tension, unless the case gives another.
+/// Default grip: fraction of the height at each end that glued platens hold in tension.
 inline constexpr double default_grip = 0.1;
 
-/// One virtual test as the user wrote it, defaults filled in. Units and ranges: parameters.hpp.
+/// One virtual test as the user wrote it, with defaults filled in. Units and ranges: see parameters.hpp.
 struct TestCase {
     std::string title;
 
+    /// Table [particles].
     struct Particles {
-        std::optional<std::string> file;  ///< as written; resolve_path() leads to it
+        std::optional<std::string> file;  ///< path as written in the case file; resolve_path() resolves it
     } particles;
 
+    /// Table [packing].
     struct Packing {
-        std::optional<double> width, height;    // m
-        std::optional<std::int64_t> count;      // circles; with height_to_width in place of width and height
+        std::optional<double> width, height;  // m
+        std::optional<std::int64_t> count;  // number of circles; used with height_to_width instead of width and height
         std::optional<double> height_to_width;  // -
-        std::string sizes = "uniform";
+        RadiusLaw sizes = RadiusLaw::uniform;
         std::optional<double> radius_min, radius_max;               // m
         std::optional<double> radius_median, radius_log_deviation;  // m, -
         std::optional<std::string> sieve;                           // CSV file
-        std::optional<double> cell_diameter, cell_spread;           // m, -; of the mesh's cells, in place of radii
+        std::optional<double> cell_diameter, cell_spread;           // m, -; size of mesh cells, instead of radii
         std::optional<double> mean_overlap;                         // m
         std::optional<double> void_ratio;                           // -
         std::int64_t seed = 1;
     } packing;
 
+    /// Table [mesh].
     struct Mesh {
-        std::optional<std::string> kind;
-        std::optional<double> thick;  ///< m; absent until the cells are counted: derived_mesh_thick()
+        std::optional<MeshKind> kind;
+        std::optional<double> thick;  ///< m; empty until the cells have been counted, see derived_mesh_thick()
         std::optional<double> inset;  // m
-        std::string boundary = "domain";
+        Boundary boundary = Boundary::domain;
         bool merge_destroyed = false;
     } mesh;
 
-    struct MaterialKeys {
-        std::optional<double> density;                  // kg/m2
-        std::optional<double> normal_stiffness;         // N/m
-        std::optional<double> shear_stiffness;          // N/m
-        std::optional<double> friction_angle;           // degrees
-        std::optional<double> damping_ratio;            // -
-        std::optional<double> normal_damping;           // N s/m
-        std::optional<double> shear_damping;            // N s/m
-        std::string units = "point";                    // or "area": the five below, strengths in Pa
-        std::optional<double> contact_modulus;          // Pa
-        std::optional<double> stiffness_ratio;          // -, k_n over k_s
-        std::optional<double> tensile_strength;         // N, or Pa
-        std::optional<double> cohesion;                 // N, or Pa
-        std::optional<double> residual_friction_angle;  // degrees
+    /// Keys of [material], which minerals and pairs of minerals have, too.
+    struct MaterialKeys : BondConstants {
+        std::optional<double> density;                 // kg/m2
+        std::optional<double> normal_stiffness;        // N/m
+        std::optional<double> shear_stiffness;         // N/m
+        std::optional<double> friction_angle;          // degrees
+        std::optional<double> damping_ratio;           // -
+        std::optional<double> normal_damping;          // N s/m
+        std::optional<double> shear_damping;           // N s/m
+        StiffnessUnits units = StiffnessUnits::point;  // area: the two keys below replace stiffnesses
+        std::optional<double> contact_modulus;         // Pa
+        std::optional<double> stiffness_ratio;         // -, k_n over k_s
     } material;
 
+    /// Table [minerals].
     struct Minerals {
-        std::string assign = "random";
+        MineralAssignment assign = MineralAssignment::random;
         std::int64_t seed = 1;
-        std::optional<std::string> labels, image;  ///< files as written
+        std::optional<std::string> labels, image;  ///< paths as written in the case file
+
+        /// Whether the case states area fractions.
+        bool by_share() const { return assign == MineralAssignment::random || assign == MineralAssignment::size; }
     } minerals;
 
+    /// A table [[mineral]].
     struct Mineral {
         std::string name;
-        std::optional<double> area_share;   ///< -; of one that has none: what the others leave
-        std::optional<std::string> colour;  ///< in the image
-        MaterialKeys own;                   ///< over [material]'s
+        std::optional<double> area_share;   ///< -; if empty, the remainder left by the other minerals
+        std::optional<std::string> colour;  ///< colour of this mineral in the image
+        MaterialKeys own;                   ///< overrides the keys of [material]
     };
     std::vector<Mineral> mineral;
 
+    /// A table [[mineral_pair]].
     struct MineralPair {
         std::array<std::string, 2> between;
-        MaterialKeys own;  ///< over what the two minerals give
+        MaterialKeys own;  ///< overrides the values that follow from the two minerals
     };
     std::vector<MineralPair> mineral_pair;
 
+    /// Table [joints].
     struct Joints {
         std::int64_t seed = 1;
-        std::string section = "vertical";     // or "horizontal"
-        std::optional<double> section_trend;  // degrees from north, clockwise: where +x of the section points
+        JointSection section = JointSection::vertical;
+        std::optional<double> section_trend;  // degrees from north, clockwise: azimuth of the section's +x axis
         std::optional<double> shortest;       // m
         std::optional<double> snap;           // m
     } joints;
 
-    /// What a joint does in place of the rock; where nothing is given it is as the rock.
-    struct JointKeys {
-        std::optional<bool> bonded;                     // true if not given
-        std::optional<double> strength_factor;          // -
-        std::optional<double> tensile_strength;         // Pa
-        std::optional<double> cohesion;                 // Pa
-        std::optional<double> friction_angle;           // degrees
-        std::optional<double> residual_friction_angle;  // degrees
-        std::optional<double> normal_stiffness;         // Pa/m
-        std::optional<double> shear_stiffness;          // Pa/m
-        std::optional<double> dilation_angle;           // degrees
-        std::optional<double> dilation_slip;            // m
-        std::optional<double> aperture;                 // m
+    /// Mechanical properties of a joint that differ from the rock's; a missing key keeps the rock's value.
+    struct JointKeys : BondConstants {
+        std::optional<bool> bonded;              // true if absent
+        std::optional<double> strength_factor;   // -
+        std::optional<double> friction_angle;    // degrees
+        std::optional<double> normal_stiffness;  // Pa/m
+        std::optional<double> shear_stiffness;   // Pa/m
+        std::optional<double> dilation_angle;    // degrees
+        std::optional<double> dilation_slip;     // m
+        std::optional<double> aperture;          // m
 
         friend bool operator==(const JointKeys&, const JointKeys&) = default;
+        /// Whether the joint is without bonds.
         bool open() const { return bonded && !*bonded; }
+        /// Whether the joint has no mechanical properties of its own.
         bool as_rock() const { return *this == JointKeys{}; }
     };
 
-    /// Joints drawn by laws (specimens/joints). Which keys go together: case/joint_checks.cpp.
+    /// A joint set drawn from distributions (specimens/joints). case/joint_checks.cpp checks which keys may be
+    /// combined.
     struct JointSet {
         std::string name;
-        std::string orientation = "fixed";
-        std::optional<double> angle, angle_deviation, kappa;  // degrees from +x, counter-clockwise; degrees; -
+        JointOrientation orientation = JointOrientation::fixed;
+        std::optional<double> angle, angle_deviation, kappa;  // degrees counter-clockwise from +x; degrees; -
         std::optional<double> dip, dip_direction, fisher_k;   // degrees; degrees from north, clockwise; -
-        std::string length = "persistent";
+        JointLength length = JointLength::persistent;
         std::optional<double> length_mean, length_deviation;  // m
         std::optional<double> length_min, length_max;         // m
         std::optional<double> length_exponent;                // -
         std::optional<double> gap_mean, gap_deviation;        // m
-        std::optional<std::int64_t> number;                   // of one set one of these five:
+        std::optional<std::int64_t> number;                   // a set gives exactly one of these five values:
         std::optional<double> p10, p20, p21;                  // 1/m, 1/m2, m/m2
         std::optional<double> spacing;                        // m
-        std::optional<double> scan_line;                      // degrees from +x, of p10
-        std::optional<std::string> spacing_law;               // "fixed" if not given
+        std::optional<double> scan_line;                      // degrees from +x; direction of the scan line of p10
+        std::optional<JointSpacing> spacing_law;              // fixed if absent
         std::optional<double> spacing_deviation;              // m
         std::optional<std::vector<double>> through;           // m, x and y
         JointKeys own;
     };
     std::vector<JointSet> joint_set;
 
-    /// Measured traces: points of one, or a file of any number.
+    /// Measured traces: the points of one trace, or a file with any number of traces.
     struct Trace {
         std::optional<std::string> name;
         std::optional<std::vector<double>> points;  // m, x1, y1, x2, y2, ...
-        std::optional<std::string> file;            ///< as written
-        std::optional<std::string> layer;           ///< of a DXF file
-        std::optional<double> scale;                // m a unit of the file
+        std::optional<std::string> file;            ///< path as written in the case file
+        std::optional<std::string> layer;           ///< layer of a DXF file
+        std::optional<double> scale;                // m per length unit of the file
         std::optional<std::vector<double>> offset;  // m, x and y
         JointKeys own;
     };
     std::vector<Trace> trace;
+    /// Whether the specimen has joints.
     bool jointed() const { return !joint_set.empty() || !trace.empty(); }
 
+    /// Table [bond].
     struct Bond {
-        std::string law = "back_tension";       // or "coulomb"
+        BondLaw law = BondLaw::back_tension;
         std::optional<double> thick;            // m
         std::optional<double> gap;              // m
         double range = 0.0;                     // -
         std::optional<double> tensile_factor;   // -
         std::optional<double> cohesion_factor;  // -
-        std::string strength_distribution = "none";
+        StrengthDistribution strength_distribution = StrengthDistribution::none;
         std::optional<double> strength_cv;  // -
         std::optional<std::int64_t> strength_seed;
     } bond;
 
+    /// Table [shape].
     struct Shape {
         std::optional<double> diameter, notch;  // m
     } shape;
 
+    /// Table [loading].
     struct Loading {
-        std::string kind = "compression";         // test_kinds() of specimens/kinds has them
-        std::optional<double> axial_strain_rate;  // 1/s; or:
+        LoadingKind kind = LoadingKind::compression;
+        std::optional<double> axial_strain_rate;  // 1/s; alternative to rate_tolerance
         std::optional<double> rate_tolerance;
         double max_axial_strain = 0.0;
         double strength_drop = 0.0;
         double stop_at_share_of_peak = 0.0;
-        std::string platens;                                  // "bonded", "glued" or "frictional"
-        std::optional<double> grip;                           // -, of the height; glued platens only
+        PlatenKind platens = PlatenKind::bonded;
+        std::optional<double> grip;                           // -; fraction of the height, for glued platens only
         std::optional<double> platen_friction_angle;          // degrees
-        std::optional<double> half_angle;                     // degrees, of a jaw's arc
-        std::optional<std::string> jaws;                      // "arc" if not given, "flat" or "curved"
+        std::optional<double> half_angle;                     // degrees; half the angle spanned by a jaw's arc
+        std::optional<JawShape> jaws;                         // an arc if absent
         std::optional<double> span, pad_width;                // m
         std::optional<double> normal_stress;                  // N/m, or Pa
         std::optional<double> normal_stiffness;               // N/m2, or Pa/m
-        std::optional<std::string> control;                   // "axial" if not given, or "lateral"
+        std::optional<LoadingControl> control;                // axial if absent
         std::optional<double> box_gap;                        // m
-        std::optional<std::vector<double>> unload_at_strain;  // -; or:
+        std::optional<std::vector<double>> unload_at_strain;  // -; alternative to unload_at_stress
         std::optional<std::vector<double>> unload_at_stress;  // N/m, or Pa
-        std::optional<double> unload_to;                      // -, of the stress where unloading began
+        std::optional<double> unload_to;                      // -; fraction of the stress at which unloading began
 
-        bool by_lateral_strain() const { return control.value_or("axial") == "lateral"; }
+        /// Whether the lateral strain, instead of the axial strain, grows at a steady rate.
+        bool by_lateral_strain() const { return control == LoadingControl::lateral; }
+        /// Whether the specimen is unloaded and reloaded.
         bool unloads() const { return unload_at_strain || unload_at_stress; }
 
-        /// So many times as fast: a tolerance goes by the square of the rate it allows.
+        /// Multiplies the loading rate by `by`. The rate tolerance is multiplied by `by` squared, because it is
+        /// proportional to the square of the rate.
         void scale_rate(double by) {
             if (axial_strain_rate) *axial_strain_rate *= by;
             if (rate_tolerance) *rate_tolerance *= by * by;
         }
     } loading;
 
+    /// Table [confinement].
     struct Confinement {
-        std::optional<double> pressure;   // N/m, or Pa
-        std::optional<std::string> side;  ///< "membrane" or "walls"
+        std::optional<double> pressure;     // N/m, or Pa
+        std::optional<ConfiningSide> side;  ///< a membrane if absent
 
-        bool by_walls() const { return side.value_or("membrane") == "walls"; }
+        /// Whether walls, instead of a membrane, press on the sides.
+        bool by_walls() const { return side == ConfiningSide::walls; }
     } confinement;
 
+    /// Table [numerics].
     struct Numerics {
         std::optional<double> time_step;  // s
         double safety_factor = 0.0;
         std::int64_t threads = 1;
-        std::string contact_law;
-        std::string integrator;
+        SegmentLaw contact_law = SegmentLaw::rounded;
+        Integrator integrator = Integrator::leapfrog;
         bool intact = false;
         bool allow_unstable = false;
     } numerics;
 
+    /// Table [output].
     struct Output {
         std::int64_t curve_rows = 0;
-        std::optional<std::int64_t> frames;  ///< absent until the bodies are counted: default_frames()
-        std::string frame_precision;         ///< of points: "single" or "double"
+        std::optional<std::int64_t> frames;  ///< empty until the bodies have been counted, see default_frames()
+        FramePrecision frame_precision = FramePrecision::single_;
         bool slips = false;
         bool emission = false;
         double checkpoint_interval = 0.0;              // s, wall clock
         std::optional<double> out_of_plane_thickness;  // m
     } output;
 
-    /// No key: the companions of a test are made with it. Times the damping of every material, after packing.
+    /// Factor on the damping of every material, applied after packing. It is not a key; only companion runs set it.
     double damping_scale = 1.0;
-    double step_scale = 1.0;  ///< of a derived time step
+    double step_scale = 1.0;  ///< factor on the derived time step
 
-    /// A smaller safety factor would leave alone a step that the bound holds below it.
+    /// Halves the time step. Halving the safety factor might not halve the step, which other bounds can limit.
     void halve_step() {
         if (numerics.time_step) *numerics.time_step *= 0.5;
         step_scale *= 0.5;
     }
 
-    std::filesystem::path source;  ///< the case file
-    std::map<std::string, std::string>
-        position;  ///< "table.key" or "list[2].key" → "file:line", for keys that a file sets
-    std::map<std::string, bool> table_present;  ///< "packing", "mesh", …
-    std::vector<std::filesystem::path> inputs;  ///< files read so far, the case first
+    std::filesystem::path source;                 ///< the case file
+    std::map<std::string, std::string> position;  ///< "table.key" or "list[2].key" → "file:line"
+    std::map<std::string, bool> table_present;    ///< "packing", "mesh", …
+    std::vector<std::filesystem::path> inputs;    ///< files read so far, starting with the case file
 
+    /// Whether a file has this table. @param table  the name of the table, without brackets
     bool has_table(const std::string& table) const { return table_present.contains(table); }
-    bool confined() const { return loading.kind == "biaxial"; }
-    /// A force beside that of the driving part does work: the curve has a column for it.
-    bool pressed() const { return confined() || loading.kind == "direct_shear"; }
-    /// The whole packing between platens, whose stress and strain are the rock's.
+    /// Whether a pressure acts on the sides.
+    bool confined() const { return loading.kind == LoadingKind::biaxial; }
+    /// Whether a force other than that of the driving part does work; the curve then has a column for this work.
+    bool pressed() const { return confined() || loading.kind == LoadingKind::direct_shear; }
+    /// Whether the whole packing lies between platens, so that stress and strain are those of the rock.
     bool uniaxial() const {
-        return loading.kind == "compression" || loading.kind == "tension" || loading.kind == "biaxial";
+        return loading.kind == LoadingKind::compression || loading.kind == LoadingKind::tension || confined();
     }
-    bool coulomb_bonds() const { return bond.law == "coulomb"; }
-    bool area_units() const { return material.units == "area"; }
-    /// Of stresses and moduli: force over a length, or over an area.
+    /// What is true of its bonds by their law.
+    const BondLawFacts& bond_facts() const { return facts_of(bond.law); }
+    /// Whether stiffness and strengths are given per area, in Pa.
+    bool area_units() const { return material.units == StiffnessUnits::area; }
+    /// Unit of stresses and moduli: force per length, or force per area.
     const char* stress_unit() const { return area_units() ? "Pa" : "N/m"; }
-    /// «file:line: table.key», or «file: table.key» for a key that no file sets.
+    /// «file:line: table.key», or «file: table.key» for a key that is not set in any file.
     std::string at(const std::string& key) const;
-    /// A path written in the case, relative to the file that wrote it.
+    /// Path of a file named in the case, resolved relative to the file that names it.
     std::filesystem::path resolve_path(const std::string& key, const std::string& written) const;
 };
 
-/// Of a key that needs something else in the case. @param what is missing: units = "area"
+/// Error for a key that requires something missing from the case. @param what  the missing part, such as units = "area"
 InputError key_needs(const TestCase& test, const std::string& key, const std::string& what);
 
-/// Of a key that the rest of the case leaves no room for. @param because a sentence
+/// Error for a key that conflicts with the rest of the case. @param because  a sentence that gives the reason
 InputError key_without_room(const TestCase& test, const std::string& key, const std::string& because);
 
-/// Every file that a test of this case reads: the case, what it includes, and what its keys name.
+/// All files that a test of this case reads: the case, the files it includes, and the files named by its keys.
 std::vector<std::filesystem::path> files_read(const TestCase& test);
 
 }  // namespace crackle

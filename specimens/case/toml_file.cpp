@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a JSON value is in TOML. @param where, key of it, for errors
+/// Converts a JSON value to TOML. @param where, key  the position of the value, for error messages
 std::unique_ptr<toml::node> node_of(const Json& value, const std::string& where, const std::string& key = {}) {
     if (value.is_boolean()) return std::make_unique<toml::value<bool>>(value.get<bool>());
     if (value.is_number_integer()) return std::make_unique<toml::value<std::int64_t>>(value.get<std::int64_t>());
@@ -44,7 +44,7 @@ toml::table parse_toml(const std::filesystem::path& path, const std::string& exp
     if (!is_file(path)) {
         throw InputError(fmt::format("{}: found no such file, expected {}; check the path", path.string(), expected));
     }
-    return parse_toml_text(path, read_text(path));
+    return parse_toml_text(path, read_text(path, most_bytes_of_keys));
 }
 
 toml::table parse_toml_text(const std::filesystem::path& name, const std::string& text) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// TOML files as toml++ reads them, and how errors name what stands in them.
+// Reads TOML files with toml++ and formats their contents for error messages.
 // Tested by tests/specimens/case/case_file_test.cpp.
 #pragma once
 
@@ -10,19 +10,21 @@
 
 namespace crackle {
 
-/// @param expected in words, "a case file" @throws InputError «file:line: …» if there is none, or it is not TOML
+/// Reads a TOML file. @param expected  the kind of file, such as "a case file" @throws InputError «file:line: …» if the
+/// file is missing or not valid TOML
 toml::table parse_toml(const std::filesystem::path& path, const std::string& expected);
 
-/// The same of a text. @param name for errors
+/// Parses a text. @param name  the name of the text in error messages
 toml::table parse_toml_text(const std::filesystem::path& name, const std::string& text);
-/// The same content written as JSON, an object; its nodes have no lines. @throws InputError where it is something else
+/// Converts a JSON object to a TOML table; its nodes have no line numbers. @throws InputError if the text is not a JSON
+/// object
 toml::table toml_of_json(const std::filesystem::path& name, std::string_view json);
 
-/// "file:line"; "file" of a node that comes from no line.
+/// The position "file:line", or only "file" for a node without a line number.
 std::string line_of(const std::filesystem::path& file, const toml::node& node);
-/// What a node is, "a whole number".
+/// Name of a node's type, such as "a whole number".
 std::string kind_name(const toml::node& node);
-/// Its value where it is short enough, texts in quotes; else what it is.
+/// The value of a node if it is short, with text in quotes; otherwise the name of its type.
 std::string shown(const toml::node& node);
 
 }  // namespace crackle

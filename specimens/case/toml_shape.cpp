@@ -10,7 +10,8 @@
 namespace crackle {
 namespace {
 
-/// Goes through a text that is TOML, or up to where it is none: what it says behind that is not looked at by anybody.
+/// Scans a text up to its end, or up to the first position at which it is not valid TOML. The result does not depend on
+/// anything after that position.
 class Walk {
   public:
     Walk(const std::string& name, std::string_view text) : name_(name), rest_(text) {}
@@ -50,11 +51,12 @@ class Walk {
 
     void refuse_beyond_ascii(char c) const {
         if ((static_cast<unsigned char>(c) & 0x80U) != 0)
-            refuse("a letter that is not ASCII outside of a text", "keys and values without; put it into quotes");
+            refuse("a letter that is not ASCII outside of a text",
+                   "only ASCII letters in keys and values; put it into quotes");
     }
 
-    /// Texts and brackets begin a key or a value, and a key has one value: behind anything else the parser takes what
-    /// comes on this line for part of a number, before it finds that it is none.
+    /// A quotation mark or opening bracket must begin a key or a value, and a key has one value. Otherwise the parser
+    /// would read the rest of the line as a number before it detects the error.
     bool is_misplaced(char c) const {
         const bool begins = c == '"' || c == '\'' || c == '[' || c == '{';
         if (begins) return std::string_view("\n=[,{").find(before_) == std::string_view::npos;
@@ -66,7 +68,7 @@ class Walk {
         rest_.remove_prefix(count);
     }
 
-    /// A text in quotes, or in three of them over several lines.
+    /// Skips a quoted string, or a multi-line string in triple quotes.
     void pass_text(char quote) {
         const std::string three(3, quote);
         const bool several = rest_.starts_with(three);
@@ -77,10 +79,11 @@ class Walk {
                 pass(std::min<std::size_t>(2, rest_.size()));
             } else if (several ? rest_.starts_with(three) : rest_.front() == quote) {
                 pass(several ? 3 : 1);
-                while (several && rest_.starts_with(quote)) pass(1);  // up to two that belong to the text
+                while (several && rest_.starts_with(quote))
+                    pass(1);  // up to two quotation marks at the end belong to the text
                 return;
             } else {
-                if (!several && rest_.front() == '\n') return;  // not closed
+                if (!several && rest_.front() == '\n') return;  // the string is not closed
                 if (misplaced_) refuse_beyond_ascii(rest_.front());
                 pass(1);
             }
@@ -89,12 +92,12 @@ class Walk {
 
     const std::string& name_;
     std::string_view rest_;
-    char before_ = '\n';  // the last that is no blank
+    char before_ = '\n';  // last character that is not white space
     int line_ = 1;
-    std::string open_;        // brackets
-    bool assigned_ = false;   // the key has its =
-    bool misplaced_ = false;  // something on this line
-    int levels_ = 0;          // of the entry so far
+    std::string open_;        // brackets that are open
+    bool assigned_ = false;   // whether the key's = has been read
+    bool misplaced_ = false;  // whether something on this line is misplaced
+    int levels_ = 0;          // bracket depth in the current entry
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The shape of a TOML text before its parser sees it: that one recurses by levels of tables, and a text of a few
-// kilobytes has enough of them to use up the stack; and letters beyond ASCII lead it to where its authors say that it
-// cannot come (toml++ 3.3, is_non_ascii_horizontal_whitespace()), while keys have none.
+// Checks the structure of a TOML text before it is parsed. The parser recurses once per nested table, so a text of a
+// few kilobytes could overflow the stack. Non-ASCII letters outside quotes lead the parser to code that its authors
+// regard as unreachable (toml++ 3.3, is_non_ascii_horizontal_whitespace()). No key of a case contains such letters.
 // Tested by tests/specimens/case/case_file_test.cpp.
 #pragma once
 
@@ -10,12 +10,13 @@
 
 namespace crackle {
 
-/// Bytes; no line of a case needs more.
+/// Largest length of a line in bytes; no line of a case needs more.
 inline constexpr int longest_toml_line = 10'000;
-/// Dots of keys and opening brackets in one entry, `a.b = [{c = 1}]` has three. A case has at most two.
+/// Largest number of dots and opening brackets in one entry; `a.b = [{c = 1}]` has three. A case has at most two.
 inline constexpr int deepest_toml_entry = 100;
 
-/// @param name of the file. @throws InputError naming the line that is too long, too deep, or has such a letter
+/// Checks the structure of a text. @param name  the name of the file @throws InputError naming a line that is too long,
+/// is nested too deeply, or contains a non-ASCII letter outside quotes
 void check_toml_shape(const std::string& name, std::string_view text);
 
 }  // namespace crackle

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/contact/point_motion.hpp"
+#include "solver/laws/bond_laws.hpp"
 #include "solver/linear/vibration.hpp"
 #include "solver/measure/point_view.hpp"
 #include "specimens/elastic/held_parts.hpp"
@@ -15,22 +15,13 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// A rate with what it may be wrong by: less than that is nothing.
-struct Rate {
-    double value = 0.0, error = 0.0;
-};
-
-/// Strain at which something that is `now` and grows by `slope` a unit of strain has gone; infinite where it grows, or
-/// falls by no more than the slope's error.
-double strain_of_loss(double now, Rate slope) { return slope.value < -slope.error ? -now / slope.value : infinite; }
-
 /// Overlap growth and slip of every bonded point per unit of strain, from their springs.
 struct PointRates {
     Rate closing, slipping;
 };
 
-/// Error of a spring's stretch: of the solve, and of rounding where neighbours' displacements nearly cancel, a sum of
-/// six products.
+/// Error of a spring's stretch: the error of the solve, plus the rounding error of a sum of six products if the
+/// neighbours' displacements nearly cancel.
 double stretch_error(const Spring& spring, const ElasticSolution& solution) {
     if (!(spring.stiffness > 0.0)) return 0.0;
     double size = 0.0;
@@ -52,17 +43,6 @@ std::vector<PointRates> rates_of(const World& world, const ElasticSolution& solu
     return rates;
 }
 
-/// The limit that is met first under forces that grow with the strain. A coulomb bond does not slide.
-/// @param normal, shear N a unit of strain
-void fail_by_envelope(LinearBond& bond, const BondStrength<double>& strength, Rate normal, Rate shear) {
-    bond.strength = strength.tensile;
-    const double parts = strain_of_loss(strength.tensile, normal);
-    const double shears = strain_of_loss(strength.cohesion, {strength.friction * normal.value - shear.value,
-                                                             strength.friction * normal.error + shear.error});
-    bond.break_strain = std::min(parts, shears);
-    bond.slip_strain = infinite;
-}
-
 LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate, double strain) {
     const PointView view = view_point(world, k);
     LinearBond bond;
@@ -75,19 +55,13 @@ LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate,
     bond.closing = rate.closing.value * strain;
     bond.normal_force = normal.value * strain;
     bond.shear_force = -view.shear_stiffness * rate.slipping.value * strain;
-    if (world.settings.bond_law == BondLaw::coulomb) {
-        fail_by_envelope(bond, bond_strength(world, k), normal, shear);
-        return bond;
-    }
     const bool held = (world.points.state[k].flags & point_held) != 0;
-    bond.strength = held ? infinite : view.normal_stiffness * view.bond_overlap;
-    bond.break_strain = strain_of_loss(bond.strength, normal);
-    // Limit less shear force; without a shear spring or a limit nothing ever slides.
-    bond.slip_strain = shear.value > shear.error && std::isfinite(view.friction)
-                           ? strain_of_loss(view.friction * bond.strength,
-                                            {view.friction * view.normal_stiffness * rate.closing.value - shear.value,
-                                             view.friction * normal.error + shear.error})
-                           : infinite;
+    const ElasticLimits limits = with_law(world.settings.bond_law, [&]<class Bond>() {
+        return Bond::elastic_limits(law_of(world, k), view.bond_overlap, held, {rate.closing, normal, shear});
+    });
+    bond.strength = limits.strength;
+    bond.break_strain = limits.break_strain;
+    bond.slip_strain = limits.slip_strain;
     return bond;
 }
 
@@ -101,7 +75,8 @@ std::optional<FirstEvent> first_of(const std::vector<LinearBond>& bonds, double 
     return first;
 }
 
-/// The solution is for unit strain in tension; a test may compress.
+/// Rates at all points for unit strain in the direction of loading. The solution is for tension; its sign is reversed
+/// for compression.
 std::vector<PointRates> rates_of_test(const World& world, const TestSetup& setup, const Moduli& moduli) {
     const double sense = setup.compression ? -1.0 : 1.0;
     std::vector<PointRates> rates = rates_of(world, moduli.solution);
@@ -172,7 +147,7 @@ ElasticAnalysis analyse_elastic(const World& world, const TestSetup& setup, cons
     result.time_step = world.stepping.time_step;
     result.free = find_free_motions(world, bodies_of_parts(setup));
     const std::int64_t all_free = result.free.count;
-    // Walls, which no bond holds along x, are none of the specimen: one free motion each.
+    // A wall is not part of the specimen and no bond holds it along x, so it would count as a free motion.
     result.free.count -= static_cast<std::int64_t>(std::erase_if(result.free.bodies, [&](BodyIndex b) {
         return std::ranges::any_of(setup.parts, [&](const SetupPart& part) { return part.wall && part.body == b; });
     }));

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the linear solution gives for a bonded specimen between its platens: moduli, the bonds that give way first, the
-// stable time step, free motions, vibration modes. No time stepping.
+// Results from the linear solution of a bonded specimen between its platens: moduli, the bonds that fail first, the
+// stable time step, free motions and vibration modes. No time stepping is needed.
 //
-// With ε the axial strain in the sense of the test and a_n, a_t a point's growth of overlap and slip per unit of it,
-//     break:  δ0 + ε a_n = 0                         (linear, no slip)
-//     slip:   k_s |a_t| ε = μ k_n (δ0 + ε a_n)       (Coulomb limit, solver/MODEL.md 4.2)
-// A point that opens slips before it breaks unless it does not shear at all, for its limit goes with its overlap.
+// Let ε be the axial strain in the direction of loading, and a_n, a_t the growth of a point's overlap and slip per unit
+// of ε:
+//       break:  δ0 + ε a_n = 0                         (linear, no slip)
+//       slip:   k_s |a_t| ε = μ k_n (δ0 + ε a_n)       (Coulomb limit, solver/MODEL.md 4.2)
+// The Coulomb limit of an opening point falls with its overlap, so the point slips before it breaks, unless its shear
+// force is zero.
 #pragma once
 
 #include <cstdint>
@@ -13,73 +15,68 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/fields.hpp"
 #include "solver/linear/elastic.hpp"
 #include "specimens/elastic/moduli.hpp"
 #include "specimens/setup/setup.hpp"
 
 namespace crackle {
 
-/// A bonded point under the linear solution; forces and closing at `ElasticAnalysis::strain`.
+/// A bonded point in the linear solution. `closing` and the forces refer to the axial strain `ElasticAnalysis::strain`.
 struct LinearBond {
     int body_i = 0, body_j = 0;  ///< input ids
     Vec2 position;               // m
-    double strength = 0.0;       ///< N, in tension: k_n δ0, or a coulomb bond's own; infinite where it cannot break
-    double overlap = 0.0;        // m, δ0
-    double closing = 0.0;        // m, growth of the overlap
-    double normal_force = 0.0;   // N, compression positive
-    double shear_force = 0.0;    // N, on body_i along the normal from i to j turned by +90 degrees
-    double break_strain = 0.0;   ///< infinite where the point is squeezed
-    double slip_strain = 0.0;    ///< infinite where it sticks forever
+    /// N, in tension: k_n δ0, or the tensile strength of a coulomb bond; infinite if it cannot break.
+    double strength = 0.0;
+    double overlap = 0.0;       // m, δ0, initial overlap
+    double closing = 0.0;       // m, growth of the overlap under `strain`
+    double normal_force = 0.0;  // N, compression positive
+    double shear_force = 0.0;   // N, on body_i; positive along the normal from i to j turned by +90 degrees
+    double break_strain = 0.0;  ///< axial strain at which the point breaks; infinite if it closes
+    double slip_strain = 0.0;   ///< axial strain at which the point slides; infinite if it never does
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("body_i", s.body_i);
-        visit("body_j", s.body_j);
-        visit("position", s.position);
-        visit("strength", s.strength);
-        visit("overlap", s.overlap);
-        visit("closing", s.closing);
-        visit("normal_force", s.normal_force);
-        visit("shear_force", s.shear_force);
-        visit("break_strain", s.break_strain);
-        visit("slip_strain", s.slip_strain);
-    }
+    CRACKLE_FIELDS(body_i, body_j, position, strength, overlap, closing, normal_force, shear_force, break_strain,
+                   slip_strain);
 };
 
+/// The first bond to break or slide.
 struct FirstEvent {
-    double strain = 0.0;  ///< axial, positive in the sense of the test
+    double strain = 0.0;  ///< axial strain, positive in the direction of loading
     double stress = 0.0;  // N/m
     std::size_t bond = 0;
 };
 
+/// Results of the linear solution for a specimen.
 struct ElasticAnalysis {
     double youngs_modulus = 0.0, poissons_ratio = 0.0;  // N/m, -
-    double residual = 0.0;                              ///< of the solve, over its load
-    double strain = 0.0;                                ///< of the bond forces
+    double residual = 0.0;                              ///< residual of the solve, relative to its load
+    double strain = 0.0;                                ///< axial strain for which the bond forces are listed
     std::vector<LinearBond> bonds;
     std::optional<FirstEvent> first_break, first_slip;
-    double stable_time_step = 0.0;  // s, exact
+    double stable_time_step = 0.0;  // s, exact limit
     bool stable_time_step_proved = false;
-    double time_step_bound = 0.0, time_step = 0.0;  // s, guaranteed without an eigenvalue solve; what a test would take
+    // s; lower bound on the stable step that needs no eigenvalue solve; step that a test would use
+    double time_step_bound = 0.0, time_step = 0.0;
     FreeMotions free;
     std::vector<int> free_ids;        ///< input ids of the bodies that can move without resistance
-    std::vector<double> frequencies;  // rad/s, lowest modes that store energy
+    std::vector<double> frequencies;  // rad/s, of the lowest modes that store elastic energy
     std::int64_t unknowns = 0;
 };
 
-/// Axial strain at which a share of the bonded points (at least one) slide or, where they do not slide, break by the
-/// linear solution; infinite where they never do. @param moduli of a world with bonded platens, `world` itself or its
-/// twin with the same bodies
+/// Axial strain at which a given fraction of the bonded points (at least one) fail in the linear solution: they slide
+/// or, if they do not slide, break. Infinite if fewer ever fail.
+/// @param moduli  solution for a world with bonded platens, either `world` itself or one with the same bodies
 double yield_strain(const World& world, const TestSetup& setup, const Moduli& moduli, double share);
 
-/// Axial strain at which half of the points of closed open joints slide by the linear solution, from the forces that
-/// they bear now; infinite where they never do, or none bears any.
+/// Axial strain at which half of the closed points of open joints slide in the linear solution, starting from their
+/// present forces. Infinite if they never do, or if no such point carries a force.
 double joint_slip_strain(const World& world, const TestSetup& setup, const Moduli& moduli);
 
-/// @param world bonded with its platens, not yet loaded, with the platens and side particles of `setup`
-/// @param moduli of this world (solve_moduli())
-/// @param strain at which bond forces are given (sense of the test)
-/// @param modes lowest vibration modes to find, platens held
+/// Linear results of a specimen that is bonded but not yet loaded.
+/// @param world  world with the platens and side particles of `setup`
+/// @param moduli  result of solve_moduli() for this world
+/// @param strain  axial strain for which bond forces are listed, positive in the direction of loading
+/// @param modes  number of lowest vibration modes to find, with the platens held
 ElasticAnalysis analyse_elastic(const World& world, const TestSetup& setup, const Moduli& moduli, double strain,
                                 int modes);
 

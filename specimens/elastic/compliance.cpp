@@ -15,7 +15,7 @@
 namespace crackle {
 namespace {
 
-/// A body's part of a side of the box.
+/// Part of one side of the box covered by a body.
 struct OuterFace {
     BodyIndex body;
     double from, to;  // m, along the side
@@ -29,7 +29,7 @@ struct Side {
     double outwards;       // 1 or -1
 };
 
-/// Bonds of each body that linear solutions know.
+/// Number of bonds of each body that are included in linear solutions.
 std::vector<int> bonds_of_bodies(const World& world) {
     std::vector<int> bonds(world.bodies.size(), 0);
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
@@ -41,8 +41,9 @@ std::vector<int> bonds_of_bodies(const World& world) {
     return bonds;
 }
 
-/// The faces of bodies on a side, grown to meet each other and the corners: before the inset they did. Of a circle that
-/// reaches the side it is as wide as that, unless it hangs on one bond and could bear nothing.
+/// The faces of bodies on a side, extended to meet each other and the corners, as they did before the inset. A circle
+/// that reaches the side has a face as wide as its diameter, unless it has a single bond and therefore cannot carry a
+/// load.
 std::vector<OuterFace> faces_on(const World& world, const Side& side, double inset) {
     const double near = inset + 1e-6 * (side.high - side.low);
     std::vector<OuterFace> faces;

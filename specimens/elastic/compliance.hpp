@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compliance of a bonded rectangle of polygons or circles by the linear solution under uniform tractions on its four
+// Compliance of a bonded rectangle of polygons or circles, from linear solutions under uniform tractions on its four
 // sides:
 //
 //     (ε_x, ε_y, γ_xy) = S (σ_x, σ_y, τ_xy)            S in 1/Pa (area units) or m/N, stress tensile positive
 //
-// three load cases, strains of the whole by the motion of its sides, ε_ij = ½∮(u_i n_j + u_j n_i) ds / A. No platens:
-// they would hinder oblique joints. Persistent sets of joints at the spacing S, of normal n, stiffnesses K_n and K_s a
-// length, add (Amadei and Goodman 1981)
+// It follows from three load cases. The mean strains are those of the sides with displacements u:
+//     ε_ij = ½∮(u_i n_j + u_j n_i) ds / A
+// There are no platens, which would restrain oblique joints. A persistent set of joints at spacing S, with normal n and
+// stiffnesses K_n and K_s per length, adds (Amadei and Goodman 1981)
 //
 //     ε = (n⊗[u] + [u]⊗n)/(2S),   [u] = (n·σn) n/K_n + (σn - (n·σn) n)/K_s
 //
@@ -20,16 +21,17 @@
 
 namespace crackle {
 
-/// By rows: ε_x, ε_y, γ_xy; columns: σ_x, σ_y, τ_xy.
+/// Compliance matrix. Rows: ε_x, ε_y, γ_xy; columns: σ_x, σ_y, τ_xy.
 using Compliance = std::array<std::array<double, 3>, 3>;
 
-/// @param world bonded polygons that fill `box` but for `inset`, m, by which their outer edges lie inside it, or
-/// circles, of which those that reach a side are pulled there @throws InputError where a side has none, or there is no
-/// linear solution
+/// Compliance of `world`: bonded polygons whose outer edges lie inside `box`, or bonded circles, loaded where they
+/// reach a side.
+/// @param inset  distance of the polygons' outer edges from the sides of the box, m
+/// @throws InputError if no body reaches a side, or if there is no linear solution
 Compliance compliance_of(const World& world, const Domain& box, double inset);
 
-/// What a persistent set adds. @param angle rad, of its traces from +x  @param spacing m
-/// @param normal_stiffness, shear_stiffness Pa/m
+/// Additional compliance due to a persistent set of joints.
+/// @param angle  angle of the traces, counter-clockwise from +x, rad  @param spacing  distance between the traces, m
 Compliance compliance_of_set(double angle, double spacing, double normal_stiffness, double shear_stiffness);
 
 }  // namespace crackle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts that hold and drive a specimen, as a linear solution takes them.
+// The parts that hold and drive a specimen, as boundary conditions of a linear solution.
 // Tested by tests/specimens/kinds/test_kind_test.cpp.
 #pragma once
 
@@ -10,7 +10,8 @@
 
 namespace crackle {
 
-/// Supports in place, the driving part moved by this along its axis, m.
+/// Prescribed motions of the parts: the supports are at rest; the driving part is displaced along its axis.
+/// @param way  displacement of the driving part, m
 inline std::vector<Prescribed> prescribed_parts(const TestSetup& setup, double way) {
     std::vector<Prescribed> prescribed;
     prescribed.reserve(setup.parts.size());
@@ -21,13 +22,14 @@ inline std::vector<Prescribed> prescribed_parts(const TestSetup& setup, double w
     return prescribed;
 }
 
-/// What takes part in a linear solution: bonds, and where walls press what they touch besides.
+/// Points included in a linear solution: bonds and, if walls press on the specimen, also points in contact.
 inline ClosedPoints closed_points(const TestSetup& setup) {
     return setup.has_walls() ? ClosedPoints::touching : ClosedPoints::bonded;
 }
 
-/// N/m: force that moves the driving part less that on the supports, along the axis, halved, over the section.
-/// @param reaction of prescribed_parts()
+/// Nominal stress, N/m: half the difference between the axial force on the driving part and that on the supports,
+/// divided by the section.
+/// @param reaction  reactions of prescribed_parts(), in the same order
 inline double nominal_stress(const TestSetup& setup, const std::vector<BodyMotion>& reaction) {
     double sum = 0.0;
     for (std::size_t k = 0; k < setup.parts.size(); ++k) {

@@ -16,7 +16,7 @@
 namespace crackle {
 namespace {
 
-/// What keeps a formula of persistent joints from saying something of these; empty where nothing does.
+/// Reason why the formulas for persistent joints do not apply; empty if they do.
 std::string not_persistent(const JointNetwork& network) {
     for (const JointTrace& trace : network.traces) {
         if (std::isinf(trace.whole_length)) continue;

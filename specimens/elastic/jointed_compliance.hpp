@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compliance of a case's jointed specimen beside that of the same mesh with its traces welded, and of what persistent
-// traces add to that by Amadei and Goodman (compliance.hpp), each by its own direction and length.
+// Compliance of a case's jointed specimen, and of the same mesh with its traces welded. For comparison, it gives the
+// compliance that persistent traces add according to Amadei and Goodman (compliance.hpp); each trace has its own
+// direction and length.
 // Tested by tests/specimens/elastic/jointed_compliance_test.cpp.
 #pragma once
 
@@ -13,14 +14,17 @@
 
 namespace crackle {
 
+/// Compliance of a specimen with joints, without joints, and as theory predicts it.
 struct JointedCompliance {
     Compliance jointed{}, welded{};
-    std::optional<Compliance> expected;  ///< welded, and what persistent traces add; of no others
-    std::string why_not;                 ///< it is not
+    /// Compliance of the welded specimen plus that of persistent traces; empty if the traces are not persistent.
+    std::optional<Compliance> expected;
+    std::string why_not;  ///< reason why there is no expected compliance
 };
 
-/// Makes the specimen, bonds it without platens and solves. @return nothing of a case without joints, or whose cells do
-/// not fill a box  @throws InputError where there is no linear solution; TestInterrupted
+/// Makes the specimen, bonds it without platens and solves for both compliances.
+/// @return empty if the case has no joints, or if its cells do not fill a box
+/// @throws InputError if there is no linear solution; TestInterrupted
 std::optional<JointedCompliance> jointed_compliance(const TestCase& test, const TestHooks& hooks);
 
 }  // namespace crackle

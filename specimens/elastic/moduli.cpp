@@ -11,10 +11,11 @@
 namespace crackle {
 namespace {
 
-// As find_free_motions() has it: below this share of its springs' stiffness a motion takes no energy.
+// A motion stores no energy if it has less than this fraction of its springs' stiffness, as in find_free_motions().
 constexpr double free_share = 1e-9;
 
-/// J, that all springs take up where every body moves with the mean strain of 1: no solution takes more.
+/// Energy of all springs if every body moves with a uniform axial strain of 1, J; an upper bound on that of the
+/// solution.
 double energy_of_mean_strain(const World& world, const TestSetup& setup) {
     const double low = world.bodies.state[setup.bottom].y, high = world.bodies.state[setup.top].y;
     std::vector<BodyMotion> motion(world.bodies.size());
@@ -31,11 +32,11 @@ double energy_of_mean_strain(const World& world, const TestSetup& setup) {
 void refuse_mechanism(const World& world, const TestSetup& setup, double energy) {
     const double share = energy / energy_of_mean_strain(world, setup);
     if (share > free_share) return;
-    throw InputError(fmt::format(
-        "found a mechanism: strained as a whole the specimen takes up {:.1g} of the energy that its springs "
-        "would if all particles moved alike, for they roll or slide past one another; expected "
-        "shear_stiffness and friction_angle above 0, and bonds that reach from platen to platen",
-        share));
+    throw InputError(
+        fmt::format("found a mechanism: under a uniform strain, the specimen stores {:.1g} of the energy that its "
+                    "springs would store if all particles followed it. Its particles roll or slide past one another; "
+                    "expected shear_stiffness and friction_angle above 0, and bonds that reach from platen to platen",
+                    share));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Young's modulus and Poisson's ratio of a bonded specimen by the definitions of the curve, from the linear solution.
+// Young's modulus and Poisson's ratio of a bonded specimen, from the linear solution, with strains and stress defined
+// as in curve.csv.
 // Tested by tests/specimens/elastic/analysis_test.cpp.
 #pragma once
 
@@ -8,20 +9,23 @@
 
 namespace crackle {
 
+/// Moduli of a specimen between its platens, from the linear solution.
 struct Moduli {
     double youngs_modulus;     // N/m
-    double poissons_ratio;     ///< not a number without side particles
-    double gauge_modulus;      ///< N/m, over the strain of the axial gauge length; not a number without its particles
-    ElasticSolution solution;  ///< for an axial strain of 1 in tension, the lower platen in place
+    double poissons_ratio;     ///< NaN without side particles
+    double gauge_modulus;      ///< N/m, from the strain of the axial gauge length; NaN without gauge particles
+    ElasticSolution solution;  ///< for an axial strain of 1 in tension, with the lower platen fixed
 };
 
+/// Moduli, and the strain up to which they hold.
 struct SmallStrain {
     Moduli moduli;
-    double yield_strain;  ///< axial, where the first points have given way by the linear solution; infinite: never
+    /// Axial strain at which the first points fail in the linear solution; infinite if none ever does.
+    double yield_strain;
 };
 
-/// @param world bonded, with the platens and side particles of `setup`
-/// @throws InputError where there is no linear solution, or one of a mechanism, which bears nothing
+/// Moduli of a specimen. @param world  bonded world with the platens and side particles of `setup`
+/// @throws InputError if there is no linear solution, or if the specimen is a mechanism, which carries no load
 Moduli solve_moduli(const World& world, const TestSetup& setup);
 
 }  // namespace crackle

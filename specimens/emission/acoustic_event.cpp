@@ -8,7 +8,7 @@
 namespace crackle {
 namespace {
 
-/// As the files have numbers; what is infinite has none.
+/// Text of a number as written to files; infinite values are written as nan.
 std::string written(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "nan"; }
 
 }  // namespace
@@ -21,21 +21,22 @@ const std::vector<AcousticColumn>& acoustic_columns() {
     using Event = const AcousticEvent&;
     static const std::vector<AcousticColumn> columns{
         {{"time", "s since loading began", "", "of the first break"}, [](Event e, double) { return written(e.time); }},
-        {{"axial_strain", "-", "positive in the sense of the test", "at the first break"},
+        {{"axial_strain", "-", "axial strain at the first break, positive in the direction of loading"},
          [](Event e, double) { return written(e.axial_strain); }},
-        {{"duration", "s", "from the first break to the end of the window that the last one left open"},
+        {{"duration", "s", "from the first break to the end of the window after the last one"},
          [](Event e, double) { return written(e.duration); }},
-        {{"x", "m", "mean place of the breaks, rightwards"}, [](Event e, double) { return written(e.centre.x); }},
-        {{"y", "m", "mean place of the breaks, upwards"}, [](Event e, double) { return written(e.centre.y); }},
+        {{"x", "m", "mean x of the breaks"}, [](Event e, double) { return written(e.centre.x); }},
+        {{"y", "m", "mean y of the breaks"}, [](Event e, double) { return written(e.centre.y); }},
         {{"radius", "m", "of the source disc: a mean particle diameter beyond the outermost break"},
          [](Event e, double) { return written(e.radius); }},
-        {{"breaks", "", "bonded points that broke in it"}, [](Event e, double) { return fmt::format("{}", e.breaks); }},
-        {{"breaks_in_shear", "", "of these, by `mode` of events.csv"},
+        {{"breaks", "", "number of bonded points that broke in the event"},
+         [](Event e, double) { return fmt::format("{}", e.breaks); }},
+        {{"breaks_in_shear", "", "number of these in shear, by `mode` of events.csv"},
          [](Event e, double) { return fmt::format("{}", e.breaks_in_shear); }},
-        {{"energy", "J", "taken by its breaks", "the sum of `energy` of events.csv, not what waves carry off"},
+        {{"energy", "J", "taken by its breaks", "the sum of `energy` of events.csv, not the energy that waves carry"},
          [](Event e, double) { return written(e.energy); }},
-        {{"moment_xx", "N m", "positive pushes outwards",
-          "the moment tensor's symmetric part, when its scalar moment was largest"},
+        {{"moment_xx", "N m", "positive: outward forces",
+          "symmetric part of the moment tensor at its largest scalar moment"},
          [](Event e, double) { return written(e.moment.xx); }},
         {{"moment_xy", "N m", "likewise"}, [](Event e, double) { return written(0.5 * (e.moment.xy + e.moment.yx)); }},
         {{"moment_yy", "N m", "likewise"}, [](Event e, double) { return written(e.moment.yy); }},
@@ -43,15 +44,15 @@ const std::vector<AcousticColumn>& acoustic_columns() {
          [](Event e, double) { return written(scalar_moment(e.moment)); }},
         {{"rise_time", "s", "from the first break to the largest moment"},
          [](Event e, double) { return written(e.rise_time); }},
-        {{"moment_magnitude", "-", "Mw = 2/3 log10 M0 - 6; nan of no moment",
+        {{"moment_magnitude", "-", "Mw = 2/3 log10 M0 - 6; nan without a moment",
           "with area units M0 times `output.out_of_plane_thickness`, 1 m if not given"},
          [](Event e, double thickness) { return written(moment_magnitude(e, thickness)); }},
-        {{"energy_magnitude", "-", "Me = 2/3 log10 energy - 3.2; nan of none", "likewise"},
+        {{"energy_magnitude", "-", "Me = 2/3 log10 energy - 3.2; nan without energy", "likewise"},
          [](Event e, double thickness) { return written(energy_magnitude(thickness * e.energy)); }},
         {{"isotropic", "%",
-          "R = 100 tr M/(|tr M| + |m1*| + |m2*|), m* the deviator in two dimensions; nan of no moment"},
+          "R = 100 tr M/(|tr M| + |m1*| + |m2*|), m* the deviator in two dimensions; nan without a moment"},
          [](Event e, double) { return written(isotropic_percent(e.moment)); }},
-        {{"type", "word", "`opening` where R is above 30, `closing` below -30, else `shear`; `none` of no moment"},
+        {{"type", "word", "`opening` if R is above 30, `closing` below -30, else `shear`; `none` without a moment"},
          [](Event e, double) {
              const double percent = isotropic_percent(e.moment);
              return std::string(std::isnan(percent) ? "none" : name_of(source_type(percent)));

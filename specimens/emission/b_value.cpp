@@ -14,7 +14,7 @@ namespace crackle {
 namespace {
 
 constexpr double bin_width = 0.1, above_curvature = 0.2;
-constexpr double outside = 0.05;  // of the interval
+constexpr double outside = 0.05;  // probability outside the 95 % interval
 
 std::vector<double> sorted_above(std::span<const double> magnitudes, double completeness) {
     std::vector<double> above;
@@ -30,7 +30,7 @@ double mean_excess(std::span<const double> above) {
     return sum / static_cast<double>(above.size());
 }
 
-/// Of sorted excesses from the exponential law of this mean.
+/// Kolmogorov-Smirnov distance between the distribution of sorted excesses and the exponential law with this mean.
 double distance_from_law(std::span<const double> above, double mean) {
     const auto count = static_cast<double>(above.size());
     double largest = 0.0;
@@ -42,7 +42,7 @@ double distance_from_law(std::span<const double> above, double mean) {
     return largest;
 }
 
-/// Stephens' 5 % point of the distance from an exponential law whose mean is that of the sample.
+/// Whether a distance is below Stephens' 5 % point for an exponential law whose mean is that of the sample.
 bool passes(double distance, double count) {
     constexpr double five_percent = 1.094;
     const double root = std::sqrt(count);
@@ -64,7 +64,7 @@ double by_curvature(std::span<const double> magnitudes) {
     return (static_cast<double>(fullest) + 0.5) * bin_width + above_curvature;
 }
 
-/// At most so many observed magnitudes are tried for Mc, evenly by rank.
+/// Largest number of observed magnitudes that are tried as Mc, evenly spaced by rank.
 constexpr std::size_t most_tries = 64;
 
 double by_distance(std::span<const double> magnitudes) {

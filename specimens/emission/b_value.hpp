@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How often events of each magnitude come: log10 N(>= M) = a - b M above a magnitude of completeness Mc, below which
-// they are missed or, in a specimen of particles, cannot be.
+// Frequency-magnitude law of events: log10 N(>= M) = a - b M above a magnitude of completeness Mc. Smaller events are
+// missed or, in a specimen of particles, cannot occur.
 //
-// Maximum likelihood (Aki, Bull. Earthq. Res. Inst. 43, 1965): b = log10(e)/(mean M - Mc) of the N events above Mc,
-// here times (N - 1)/N, for it is too large by N/(N - 1) in the mean. Magnitudes are exact, so nothing is corrected for
-// bins. Standard error: 2.30 b² sqrt(Σ(M - mean)²/(N (N - 1))) (Shi & Bolt, Bull. Seism. Soc. Am. 72, 1982), which does
-// not take the law for granted; the 95 % interval is that of the law, for then 2 N times the ratio of the true b to
-// Aki's has the χ² distribution with 2 N degrees of freedom. How well Mc is known is in neither.
+// Maximum likelihood (Aki, Bull. Earthq. Res. Inst. 43, 1965): b = log10(e)/(mean M - Mc), where the mean is over the N
+// events above Mc. This estimate is too large by a factor of N/(N - 1) on average and is corrected for it. Magnitudes
+// are exact and need no correction for bins. Standard error: 2.30 b² sqrt(Σ(M - mean)²/(N (N - 1))) (Shi & Bolt, Bull.
+// Seism. Soc. Am. 72, 1982), which does not assume that the law holds. The 95 % interval does assume it: 2 N times the
+// ratio of the true b to Aki's estimate then has a χ² distribution with 2 N degrees of freedom. Neither error includes
+// the uncertainty of Mc.
 // Tested by tests/specimens/emission/b_value_test.cpp.
 #pragma once
 
@@ -16,38 +17,47 @@
 
 namespace crackle {
 
-/// Fewer events above Mc give no b; fewer than `few_magnitudes` one that is marked.
+/// No b is computed from fewer than `fewest_magnitudes` events above Mc; with fewer than `few_magnitudes`, b is marked
+/// as uncertain.
 inline constexpr std::size_t fewest_magnitudes = 50, few_magnitudes = 200;
 
-/// Not a number where there are too few.
+/// The frequency-magnitude law fitted to events; values are NaN if there are too few events.
 struct BValue {
-    std::size_t events = 0;                                          ///< above Mc: the number behind all else
+    std::size_t events = 0;  ///< number of events above Mc, on which all other values are based
     double completeness = std::numeric_limits<double>::quiet_NaN();  ///< Mc
     double b = std::numeric_limits<double>::quiet_NaN();
     double standard_error = std::numeric_limits<double>::quiet_NaN();
-    double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();  ///< 95 %
-    double a = std::numeric_limits<double>::quiet_NaN();  ///< log10 of the events above magnitude 0, by the line
-    /// Largest distance of the shares above each magnitude from the line's (Kolmogorov-Smirnov), and whether it is one
-    /// that such a law passes in 19 of 20 cases (Stephens, J. Am. Stat. Assoc. 69, 1974; slope from the same events).
+    /// Ends of the 95 % interval of b.
+    double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
+    /// log10 of the number of events above magnitude 0 according to the fitted line.
+    double a = std::numeric_limits<double>::quiet_NaN();
+    /// Largest difference between the observed fraction of events above a magnitude and that of the fitted law
+    /// (Kolmogorov-Smirnov). `straight`: whether events that follow such a law exceed this distance in at least one
+    /// case of 20 (Stephens, J. Am. Stat. Assoc. 69, 1974; slope estimated from the same events).
     double distance = std::numeric_limits<double>::quiet_NaN();
     bool straight = false;
 
+    /// Whether there are enough magnitudes for a value of b.
     bool known() const { return events >= fewest_magnitudes; }
+    /// Whether the value is based on few magnitudes.
     bool of_few() const { return events < few_magnitudes; }
 };
 
-/// Of events above a magnitude that is known. @param magnitudes in any order; no NaN
+/// b of the events above a known magnitude of completeness. @param magnitudes  magnitudes in any order; not NaN
 BValue b_value_above(std::span<const double> magnitudes, double completeness);
 
+/// Method of finding the magnitude of completeness, above which all events are assumed to be observed.
 enum class Completeness {
-    maximum_curvature,  ///< middle of the fullest bin of 0.1, and 0.2 more (Wiemer & Wyss 2000; Woessner & Wiemer 2005)
-    least_distance      ///< the observed magnitude above which `distance` is least (Clauset et al., SIAM Rev. 51, 2009)
+    maximum_curvature,  ///< middle of the fullest bin of 0.1, plus 0.2 (Wiemer & Wyss 2000; Woessner & Wiemer 2005)
+    /// The observed magnitude above which `BValue::distance` is least (Clauset et al., SIAM Rev. 51, 2009).
+    least_distance
 };
-/// Mc; not a number of fewer than 50 magnitudes. `least_distance` leaves 50 above it.
+/// Magnitude of completeness Mc; NaN for fewer than 50 magnitudes. With `least_distance`, at least 50 magnitudes lie
+/// above it.
 double completeness_of(std::span<const double> magnitudes, Completeness rule);
 
-/// b above the Mc of a rule. Of `least_distance` without errors, interval and `straight`: the same events have chosen
-/// it, and the errors would be too small by a quarter.
+/// b of the events above Mc, which is found by the given rule. With `least_distance`, errors, interval and `straight`
+/// are left out: the same events determine Mc, so the errors would be too small by a quarter.
 BValue fit_b_value(std::span<const double> magnitudes, Completeness rule);
 
 }  // namespace crackle

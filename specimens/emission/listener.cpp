@@ -29,7 +29,7 @@ bool comes_before(const EarlierForce& a, PointKind kind, const PointKey& key) {
     return a.kind != kind ? a.kind < kind : key_of(kind, a.point) < key;
 }
 
-/// Where a point stands in what is ordered by kind and key; the end if it is not there.
+/// Finds a point in a list sorted by kind and key. @return the end of the list if the point is not in it
 std::vector<EarlierForce>::const_iterator find_earlier(const std::vector<EarlierForce>& before, PointKind kind,
                                                        const ContactPoint& point) {
     const PointKey key = key_of(kind, point);
@@ -40,7 +40,7 @@ std::vector<EarlierForce>::const_iterator find_earlier(const std::vector<Earlier
 
 bool is_source(const OpenEvent& open, BodyIndex body) { return std::ranges::binary_search(open.bodies, body); }
 
-/// Force on body_i just before its bond broke, N: that of the break.
+/// Force on body_i just before its bond broke, N, as stored with the break.
 Vec2 force_of_break(const BreakEvent& one, Vec2 normal) {
     return one.shear_force * perpendicular(normal) - one.normal_force * normal;
 }
@@ -53,7 +53,7 @@ double mean_damping_ratio(const World& world, const TestSetup& setup) {
         if ((world.points.state[k].flags & point_bonded) == 0 || setup.is_platen(point.body_i) ||
             setup.is_platen(point.body_j))
             continue;
-        // Shares are in the root mass: the critical dashpot is 2 sqrt(k_n) times it.
+        // Damping ratios are stored relative to the root mass m: the critical dashpot is 2 sqrt(k_n) m.
         const ContactLaw& law = world.settings.laws[world.points.state[k].law];
         const double mass = root_mass_of(world, k);
         sum += (law.normal_damping + law.normal_damping_ratio_term * mass) /
@@ -66,7 +66,7 @@ double mean_damping_ratio(const World& world, const TestSetup& setup) {
 }  // namespace
 
 double mean_field_shear_modulus(const World& world, const TestSetup& setup) {
-    std::vector<BodyMotion> shear(world.bodies.size());  // of a shear strain of 1
+    std::vector<BodyMotion> shear(world.bodies.size());  // motion for a shear strain of 1
     for (std::size_t b = 0; b < shear.size(); ++b)
         shear[b] = {0.5 * world.bodies.state[b].y, 0.5 * world.bodies.state[b].x, 0.0};
     double twice_energy = 0.0;
@@ -85,8 +85,8 @@ EmissionRule emission_rule(const World& world, const TestSetup& setup, double yo
         rule.mean_field ? mean_field_shear_modulus(world, setup) : youngs_modulus / (2.0 * (1.0 + poissons_ratio));
     if (!(shear_modulus > 0.0)) {
         throw InputError(
-            fmt::format("found a shear modulus of {:.4g} N/m, expected one above 0: of E = {:.4g} and nu = "
-                        "{:.4g} of the linear solution",
+            fmt::format("found a shear modulus of {:.4g} N/m, expected one above 0: it follows from E = {:.4g} and nu "
+                        "= {:.4g} of the linear solution",
                         shear_modulus, youngs_modulus, poissons_ratio));
     }
     double mass = 0.0, diameters = 0.0;
@@ -184,7 +184,7 @@ void EmissionListener::add_body(OpenEvent& open, BodyIndex body, std::span<const
     const PointIndex walls = world_.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     for (const PointIndex k : points_of(body)) {
         const ContactPoint point = world_.points.contact[k];
-        // What lies between two source bodies does not count, and never will again.
+        // Points between two source bodies are excluded for good.
         if (k < walls && is_source(open, point.body_i == body ? point.body_j : point.body_i)) continue;
         const PointKind kind = kind_of_point(world_, k);
         const auto broke = std::ranges::find_if(

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Acoustic emission while a test runs: clusters breaks into events and measures the moment of each source.
+// Acoustic emission during a test: groups breaks into events and measures the moment tensor of each source.
 //
-// A break opens an event: a source disc of the radius of one mean particle diameter about it, and a window of twice the
-// time that a shear wave takes over that radius (a crack runs at about half its speed). A break inside both joins the
-// oldest such event: the centre is then the mean place of the breaks, the disc reaches a diameter beyond the outermost
-// of them, and the window begins anew with the new radius. The source's bodies are those that the breaks parted,
-// platens excepted: these are part of what surrounds it. Its moment is
-//     M_ij = Σ ΔF_i r_j    over the contact points between a source body and any other
-// ΔF [N] the change of the elastic force on the other since just before the break that made the body one of the source,
-// r [m] from the centre to the point; of a point between two source bodies both forces cancel. After Hazzard & Young
-// (Int. J. Rock Mech. Min. Sci. 37, 2000; 41, 2004). Kept is the tensor of the largest scalar moment over the duration.
+// A break opens an event: a source disc and a window. The radius of the disc is one mean particle diameter. The window
+// is twice the time that a shear wave takes to cross that radius (a crack runs at about half the shear wave speed). A
+// later break inside the disc and the window joins the event, or the oldest of several such events. The centre then
+// moves to the mean position of the breaks, the disc extends one diameter beyond the outermost break, and the window
+// starts again for the new radius. The source's bodies are those that the breaks separated, except platens, which
+// belong to the surroundings. Its moment is
+//       M_ij = Σ ΔF_i r_j    over the contact points between a source body and any other
+// where ΔF [N] is the change of the elastic force on the other body, measured from just before the break that made the
+// source body part of the event. The arm r [m] leads from the centre to the point. Forces at a point between two source
+// bodies cancel. The tensor with the largest scalar moment during the event is kept. The method follows Hazzard & Young
+// (Int. J. Rock Mech. Min. Sci. 37, 2000; 41, 2004).
 //
-// Forces are those of the force passes, so that nothing is missed between two; in the pass that finds a break they are
-// still those of before it, but for the bond's own, which its event has. The window means something only where masses
-// are physical and damping is light: a damped particle does not ring, and waves die out within the source.
+// Forces are taken after every force pass, so no break is missed. In the pass that finds a break, they are still the
+// forces before the break. Only the force of the broken bond is missing; it is stored with the break. The window is
+// meaningful only if masses are physical and damping is light. Otherwise particles do not vibrate, and waves decay
+// within the source.
 // Tested by tests/specimens/emission/listener_test.cpp.
 #pragma once
 
@@ -22,119 +25,103 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/fields.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/emission/acoustic_event.hpp"
 #include "specimens/setup/setup.hpp"
 
 namespace crackle {
 
-/// How events are told apart; what a test's linear solution and its masses give.
+/// Parameters that group breaks into events, from a test's linear solution and its masses.
 struct EmissionRule {
-    double diameter = 0.0;          // m, mean of the particles (of circles of their areas); 0: nothing is listened to
+    double diameter = 0.0;          // m, mean particle diameter (of circles of equal area); 0: emission is off
     double shear_wave_speed = 0.0;  // m/s, sqrt(G/ρ)
-    bool mean_field = false;        ///< G is mean_field_shear_modulus(), else that of the linear solution
-    double density = 0.0;           // kg/m2, of the specimen with its pores
-    double damping_ratio = 0.0;     ///< mean over bonds of the normal dashpot over the critical one
-    /// m, by which moments and energies of the world are multiplied before magnitudes are taken: in area units they are
-    /// those of 1 m, in point units those of the plate as it is.
+    bool mean_field = false;        ///< whether G is mean_field_shear_modulus() rather than that of the linear solution
+    double density = 0.0;           // kg/m2, of the specimen including its pores
+    double damping_ratio = 0.0;     ///< mean over bonds of the normal dashpot relative to critical damping
+    /// Factor on moments and energies before magnitudes are computed, m. In area units, magnitudes refer to a thickness
+    /// of 1 m; in point units, to the actual plate.
     double thickness = 1.0;
 
+    /// Whether events are recorded.
     bool on() const { return diameter > 0.0; }
-    double window(double radius) const { return 2.0 * radius / shear_wave_speed; }  // s
+    /// Duration for which a source stays open after a break, s. @param radius  radius of the source, m
+    double window(double radius) const { return 2.0 * radius / shear_wave_speed; }
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("diameter", s.diameter);
-        visit("shear_wave_speed", s.shear_wave_speed);
-        visit("mean_field", s.mean_field);
-        visit("density", s.density);
-        visit("damping_ratio", s.damping_ratio);
-        visit("thickness", s.thickness);
-    }
+    CRACKLE_FIELDS(diameter, shear_wave_speed, mean_field, density, damping_ratio, thickness);
 };
 
-/// N/m, of the bonds between particles were all of these to move with one pure shear, none of them turning, over the
-/// area of what is tested: but for the platens' bonds, which are left out, no less than the specimen's own (Voigt's
-/// bound).
+/// Shear modulus of the bonds between particles, N/m, averaged over the tested area, if all particles moved with a
+/// uniform pure shear and did not rotate. Bonds to platens are left out. Apart from these, it is an upper bound on the
+/// specimen's modulus (Voigt).
 double mean_field_shear_modulus(const World& world, const TestSetup& setup);
 
-/// G = E/(2 (1 + ν)), as it is in two dimensions, or the mean field's where these are not known.
-/// @param youngs_modulus, poissons_ratio of the linear solution, NaN: there is none @param thickness m, out of plane
-/// @throws InputError where there is no shear wave
+/// Rule with G = E/(2 (1 + ν)), as in two dimensions, or with mean_field_shear_modulus() if E or ν is unknown.
+/// @param youngs_modulus, poissons_ratio  results of the linear solution; NaN if there is no solution
+/// @param thickness  out of plane, m
+/// @throws InputError if the shear modulus is not positive
 EmissionRule emission_rule(const World& world, const TestSetup& setup, double youngs_modulus, double poissons_ratio,
                            double thickness);
 
-/// Force of a point before the break that brought it into an event.
+/// Force at a contact point just before the break that made one of its bodies part of an event.
 struct EarlierForce {
     PointKind kind = PointKind::circle_circle;
     ContactPoint point{};
-    Vec2 force, place;  // N on body_i; m
+    Vec2 force, place;  // force on body_i, N, and its position, m
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("kind", s.kind);
-        visit("point", s.point);
-        visit("force", s.force);
-        visit("place", s.place);
-    }
+    CRACKLE_FIELDS(kind, point, force, place);
 };
 
 /// An event whose window has not ended.
 struct OpenEvent {
-    AcousticEvent event;               ///< its duration and moment so far
-    std::vector<Vec2> places;          // m, of its breaks
-    std::vector<BodyIndex> bodies;     ///< of the source, sorted
-    std::vector<EarlierForce> before;  ///< of their points that bore something, by kind and key (point_order.hpp)
+    AcousticEvent event;            ///< the event, with its duration and moment up to now
+    std::vector<Vec2> places;       // m, positions of the event's breaks
+    std::vector<BodyIndex> bodies;  ///< bodies of the source, sorted
+    /// Earlier forces at those points of the bodies that carried a load, sorted by kind and key (point_order.hpp).
+    std::vector<EarlierForce> before;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("event", s.event);
-        visit("places", s.places);
-        visit("bodies", s.bodies);
-        visit("before", s.before);
-    }
+    CRACKLE_FIELDS(event, places, bodies, before);
 };
 
-/// Part of a test's state.
+/// Events and rule of a test; part of the test's saved state.
 struct Emission {
     EmissionRule rule;
-    std::vector<OpenEvent> open;        ///< in the order in which they began
-    std::vector<AcousticEvent> events;  ///< in the order in which they ended
+    std::vector<OpenEvent> open;        ///< ordered by the time at which they began
+    std::vector<AcousticEvent> events;  ///< ordered by the time at which they ended
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("rule", s.rule);
-        visit("open", s.open);
-        visit("events", s.events);
-    }
+    CRACKLE_FIELDS(rule, open, events);
 };
 
+/// Groups breaks into acoustic events while a test runs.
 class EmissionListener {
   public:
+    /// @param emission  state to continue from; all three arguments must outlive the listener
     EmissionListener(const World& world, const TestSetup& setup, Emission& emission)
         : world_(world), setup_(setup), emission_(emission), surfaces_(emission.open.size()) {}
 
-    /// Whether a force pass is to be listened to. @param broke found it a break
+    /// Whether listen() must be called after a force pass. @param broke  whether the pass found a break
     bool hears(bool broke) const { return emission_.rule.on() && (broke || !emission_.open.empty()); }
 
-    /// After a force pass, whether bodies have moved since or not. @param breaks that it found @param axial_strain then
-    /// @return how many events ended before it: the last of Emission::events
+    /// Updates the events after a force pass; bodies may have moved since. @param breaks  breaks found in the pass
+    /// @param axial_strain  axial strain at the time of the pass
+    /// @return number of events that ended before the pass; they are the last ones in Emission::events
     std::size_t listen(std::span<const BreakEvent> breaks, double axial_strain);
-    /// Ends all events. @return how many
+    /// Ends all open events. @return number of events ended
     std::size_t end_all();
 
   private:
     /// A point on the surface of a source.
     struct SurfacePoint {
         PointIndex point;
-        bool of_i;           ///< body_i is the source's
-        std::size_t before;  ///< into OpenEvent::before; npos: bore nothing then
+        bool of_i;           ///< whether body_i belongs to the source
+        std::size_t before;  ///< index into OpenEvent::before; npos if the point carried no force then
     };
-    /// Of an open event; found again where the list was built or it gained a body.
+    /// Surface of an open event; searched again after the contact list was rebuilt or a body joined.
     struct Surface {
         bool found = false;
         std::vector<SurfacePoint> points;
-        std::vector<std::size_t> gone;  ///< of OpenEvent::before those that are not listed any more
+        /// Indices into OpenEvent::before of points that are no longer in the contact list.
+        std::vector<std::size_t> gone;
     };
     using PointRange = std::span<const PointIndex>;
 
@@ -150,10 +137,11 @@ class EmissionListener {
     const World& world_;
     const TestSetup& setup_;
     Emission& emission_;
-    std::vector<Surface> surfaces_;  // of Emission::open, in the same order
+    std::vector<Surface> surfaces_;  // surfaces of Emission::open, in the same order
     std::int64_t list_builds_ = -1;
-    std::vector<PointIndex> points_, points_begin_;  // by body: those of body b from points_begin_[b] on
-    std::vector<char> marks_;                        // by body; 0 between calls
+    // Points of all bodies, body after body: those of body b begin at points_[points_begin_[b]].
+    std::vector<PointIndex> points_, points_begin_;
+    std::vector<char> marks_;  // scratch memory, by body; all 0 between calls
 };
 
 }  // namespace crackle

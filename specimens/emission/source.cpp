@@ -10,7 +10,7 @@
 namespace crackle {
 namespace {
 
-constexpr double least_isotropic = 30.0;  // percent, either way
+constexpr double least_isotropic = 30.0;  // percent, positive for opening, negative for closing
 
 double two_thirds_log10(double value) {
     if (!(value > 0.0)) return -std::numeric_limits<double>::infinity();
@@ -39,18 +39,6 @@ double isotropic_percent(const MomentTensor& moment) {
 SourceType source_type(double percent) {
     if (percent > least_isotropic) return SourceType::opening;
     return percent < -least_isotropic ? SourceType::closing : SourceType::shear;
-}
-
-const char* name_of(SourceType type) {
-    switch (type) {
-        case SourceType::opening:
-            return "opening";
-        case SourceType::closing:
-            return "closing";
-        case SourceType::shear:
-            break;
-    }
-    return "shear";
 }
 
 double moment_magnitude(double moment) { return two_thirds_log10(moment) - 6.0; }

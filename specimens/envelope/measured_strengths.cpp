@@ -20,8 +20,10 @@
 #include "specimens/campaign/ledger.hpp"
 #include "specimens/case/parameters.hpp"
 #include "specimens/making/cell_sizes.hpp"
+#include "specimens/measures/parting.hpp"
 #include "specimens/recordings/curve_points.hpp"
 #include "specimens/recordings/test_results.hpp"
+#include "specimens/summary/summary_file.hpp"
 
 namespace crackle {
 namespace {
@@ -45,7 +47,7 @@ std::string shown_value(const RockKeys& keys, const std::string& key) {
     return at == keys.end() ? "nothing" : fmt::format("{:.60}", at->second);
 }
 
-/// The first key, by its name, in which two rocks differ.
+/// Name of the first key whose values differ between two rocks.
 std::optional<std::string> first_difference(const RockKeys& a, const RockKeys& b) {
     std::set<std::string> keys;
     for (const RockKeys* rock : {&a, &b})
@@ -55,29 +57,31 @@ std::optional<std::string> first_difference(const RockKeys& a, const RockKeys& b
     return std::nullopt;
 }
 
-/// One test, whoever ran it.
+/// A test from a test's folder or a campaign.
 struct StrengthTest {
-    std::string where;    ///< for messages
-    std::string packing;  ///< by whom it is drawn again
-    Json figures;         ///< of summary.json, by name
+    std::string where;    ///< description in messages
+    std::string packing;  ///< name of the packing, by which tests are drawn again
+    Summary figures;
     RockKeys rock;
-    std::optional<CurvePoints> curve = {};  ///< where one is asked for and was kept
+    std::optional<CurvePoints> curve = {};  ///< set if the curve was requested and kept
 };
 
-/// Adds tests, each judged against those before it.
+/// Collects tests, each of which is checked against the first one.
 class Collection {
   public:
     explicit Collection(const StrengthMeasure& measure) { all_.measure = measure; }
 
     void add(const StrengthTest& test) {
-        const std::string kind = word_of(test.figures, "kind");
-        const bool pulled = kind == "tension";
-        if (!pulled && kind != "compression" && kind != "biaxial") {
+        const Summary& figures = test.figures;
+        const Stated<LoadingKind>& kind = figures.about.kind;
+        const bool pulled = kind == LoadingKind::tension;
+        if (!pulled && kind != LoadingKind::compression && kind != LoadingKind::biaxial) {
             leave_out(test.where,
-                      fmt::format("is a test of another kind, {}: its peak is no strength over confinement", kind));
+                      fmt::format("is a test of another kind, {}: its peak is not a strength under confinement",
+                                  kind.name()));
             return;
         }
-        const std::string unit = word_of(test.figures, "material_units") == "area" ? "Pa" : "N/m";
+        const std::string unit = figures.about.material_units == StiffnessUnits::area ? "Pa" : "N/m";
         if (all_.unit.empty()) {
             all_.unit = unit;
             first_ = test;
@@ -88,13 +92,13 @@ class Collection {
             leave_out(test.where, why_without(test, pulled));
             return;
         }
-        const std::string parted = word_of(test.figures, "failed_at");
-        if (pulled && (parted == "platen" || parted == "grip")) {
-            leave_out(test.where, fmt::format("parted at the {}: that is not the rock's tensile strength", parted));
+        const auto parted = from_name<PartingPlace>(figures.damage.failed_at.value_or(""));
+        if (pulled && parted.value_or(PartingPlace::gauge) != PartingPlace::gauge) {
+            leave_out(test.where,
+                      fmt::format("parted at the {}: that is not the rock's tensile strength", name_of(*parted)));
             return;
         }
-        const double pressure = number_of(test.figures, "confining_pressure");
-        const double confinement = std::isfinite(pressure) ? pressure : 0.0;
+        const double confinement = figures.confinement.confining_pressure.value_or(0.0);
         const auto [at, is_new] = seen_.emplace(std::tuple(pulled, confinement, test.packing), test.where);
         if (!is_new) {
             throw InputError(fmt::format(
@@ -108,6 +112,7 @@ class Collection {
             all_.compressions.push_back({test.packing, confinement, strength});
     }
     void leave_out(const std::string& where, const std::string& why) { ++left_out_[{where, why}]; }
+    void count_failure() { ++all_.failures; }
 
     MeasuredStrengths taken() {
         for (const auto& [one, count] : left_out_) {
@@ -119,57 +124,60 @@ class Collection {
 
   private:
     double strength_of(const StrengthTest& test, bool pulled) const {
-        if (pulled) return number_of(test.figures, "peak_stress");
-        if (!all_.measure.strain) return number_of(test.figures, all_.measure.figure.c_str());
+        if (pulled) return test.figures.strength.peak_stress.or_nan();
+        if (!all_.measure.strain) return number_of(json_of(test.figures), all_.measure.figure.c_str());
         return test.curve ? stress_at(*test.curve, *all_.measure.strain) : std::nan("");
     }
-    /// Why it has none.
+    /// Reason why a test has no strength.
     std::string why_without(const StrengthTest& test, bool pulled) const {
         const StrengthMeasure& measure = all_.measure;
         if (!pulled && measure.strain) {
             return test.curve ? fmt::format("does not reach a strain of {:g}", *measure.strain)
-                              : std::string("its curve was not kept: [run] keep = \"curves\" of the plan keeps them");
+                              : std::string("its curve was not kept; set keep = \"curves\" under [run] in the plan");
         }
         if (!pulled && measure.figure != "peak_stress") return "has no " + measure.figure;
-        return "did not fail by loading.max_axial_strain (--figure largest_stress or --strain take tests that harden)";
+        return "did not fail before loading.max_axial_strain (--figure largest_stress or --strain accept tests that "
+               "harden)";
     }
 
     void require_same(const StrengthTest& test, const std::string& unit) const {
         if (unit != all_.unit) {
-            throw InputError(
-                fmt::format("envelope: {}: found stresses in {}, expected {} as in {}; give tests of one rock",
-                            test.where, unit, all_.unit, first_.where));
+            throw InputError(fmt::format(
+                "envelope: {}: found stresses in {}, expected {} as in {}; all tests must be of the same rock",
+                test.where, unit, all_.unit, first_.where));
         }
         if (const std::optional<std::string> key = first_difference(test.rock, first_.rock)) {
-            const std::string expected = first_.rock.contains(*key) ? shown_value(first_.rock, *key) + " as in "
-                                                                    : "no value, as it has none in ";
-            throw InputError(fmt::format("envelope: {}: {}: found {}, expected {}{}; give tests of one rock",
-                                         test.where, *key, shown_value(test.rock, *key), expected, first_.where));
+            const std::string expected =
+                first_.rock.contains(*key) ? shown_value(first_.rock, *key) + " as in " : "no value, as in ";
+            throw InputError(
+                fmt::format("envelope: {}: {}: found {}, expected {}{}; all tests must be of the same rock", test.where,
+                            *key, shown_value(test.rock, *key), expected, first_.where));
         }
     }
 
     MeasuredStrengths all_;
     StrengthTest first_;
-    std::map<std::tuple<bool, double, std::string>, std::string> seen_;  // to where
+    // Descriptions of the tests added, by kind, confinement and packing.
+    std::map<std::tuple<bool, double, std::string>, std::string> seen_;
     std::map<std::pair<std::string, std::string>, int> left_out_;
 };
 
-/// The resolved case states the gap that a silent one was given.
-bool is_derived_gap(double thick, const Json& summary) {
+/// Whether the gap in the resolved case was derived, since the original case did not state it.
+bool is_derived_gap(double thick, const SpecimenFigures& specimen) {
     constexpr double rounding = 1e-9;
-    const double area = number_of(summary, "initial_width") * number_of(summary, "initial_height");
-    return std::abs(thick / derived_gap(area, number_of(summary, "particles")) - 1.0) < rounding;
+    const double area = specimen.initial_width.or_nan() * specimen.initial_height.or_nan();
+    return std::abs(thick / derived_gap(area, specimen.particles.or_nan()) - 1.0) < rounding;
 }
 
 StrengthTest read_test(const fs::path& folder, FileHashes& files) {
     StrengthTest test;
     test.where = folder.string();
     const TestResults results = read_results(folder);
-    test.figures = results.summary.json();
+    test.figures = results.summary;
     test.curve = strain_and_stress(results.curve);
     const TestCase made = read_case(folder / "case.toml");
     test.rock = keys_of_rock(made, files);
-    if (made.mesh.thick && is_derived_gap(*made.mesh.thick, test.figures)) test.rock.erase("mesh.thick");
+    if (made.mesh.thick && is_derived_gap(*made.mesh.thick, test.figures.specimen)) test.rock.erase("mesh.thick");
     if (made.particles.file) {
         const std::string hash = files.of(made.resolve_path("particles.file", *made.particles.file));
         test.packing = fmt::format("{:.8}, {}, {}, {}", hash, made.bond.strength_seed.value_or(0), made.minerals.seed,
@@ -180,7 +188,7 @@ StrengthTest read_test(const fs::path& folder, FileHashes& files) {
     return test;
 }
 
-/// As keys_of_rock() has it.
+/// Text of a value as in keys_of_rock().
 std::string axis_text(const std::string& key, const LedgerCell& cell) {
     if (const auto* text = std::get_if<std::string>(&cell)) return *text;
     const double value = std::get<double>(cell);
@@ -190,7 +198,7 @@ std::string axis_text(const std::string& key, const LedgerCell& cell) {
     return fmt::format("{}", value);
 }
 
-/// A row of a ledger by the names of its columns.
+/// A row of a ledger with access by column name.
 struct LedgerRow {
     const LedgerTable& table;
     const std::vector<LedgerCell>& cells;
@@ -203,7 +211,7 @@ struct LedgerRow {
         }
         return all;
     }
-    /// The folder's, with what the plan calls the row.
+    /// Folder of the ledger, followed by the name of the row's test.
     std::string where(const fs::path& folder) const {
         std::string text = fmt::format("{}, {}", folder.string(), std::get<std::string>(cells[1]));
         for (std::size_t k = 2; table.columns[k] != "seed"; ++k)
@@ -211,7 +219,7 @@ struct LedgerRow {
                 text += fmt::format(", {} = {}", table.columns[k], axis_text(table.columns[k], cells[k]));
         return text;
     }
-    /// Values of the axes that are for it, which stand between the test's name and the seed.
+    /// Values of the axes that apply to the row's test, from the columns between the test's name and the seed.
     RockKeys axes() const {
         RockKeys all;
         for (std::size_t k = 2; table.columns[k] != "seed"; ++k)
@@ -221,17 +229,33 @@ struct LedgerRow {
     }
 };
 
+/// Keys of a test's rock. @param rocks  entry `rocks` of the ledger
+RockKeys keys_of(const Json& rocks, const std::string& test, const fs::path& folder) {
+    RockKeys keys;
+    const auto found = rocks.is_object() ? rocks.find(test) : rocks.end();
+    const bool known = found != rocks.end() && found->is_object() &&
+                       std::ranges::all_of(*found, [](const Json& value) { return value.is_string(); });
+    if (!known) {
+        throw InputError(
+            fmt::format("envelope: {}: found no rock of test {} in the ledger, expected the keys "
+                        "of its case; run `crackle campaign` again, which keeps finished tests",
+                        folder.string(), test));
+    }
+    for (const auto& [key, value] : found->items()) keys[key] = value.get<std::string>();
+    return keys;
+}
+
 void add_campaign(Collection& all, const fs::path& folder, bool with_curves) {
     const CampaignLedger ledger = CampaignLedger::read(ledger_file(folder));
-    const KeptTests kept(folder);
+    const KeptTests kept(folder, ledger.kept_hashes());
     const std::string text = ledger.meta("rocks");
     if (text.empty()) {
         throw InputError(
-            fmt::format("envelope: {}: found no record of what its tests are made of, expected that of its plan; call "
-                        "`crackle campaign` again, which keeps what has been run",
+            fmt::format("envelope: {}: found no record of the tests' rocks in the ledger, expected one; run "
+                        "`crackle campaign` again, which keeps finished tests",
                         folder.string()));
     }
-    const Json rocks = Json::parse(text);
+    const Json rocks = Json::parse(text, nullptr, false);
     const LedgerTable table = ledger.results();
     for (const std::vector<LedgerCell>& cells : table.rows) {
         const LedgerRow row{table, cells};
@@ -240,22 +264,20 @@ void add_campaign(Collection& all, const fs::path& folder, bool with_curves) {
         const std::string state = word_of(figures, "state");
         if (state != row_done) {
             all.leave_out(row.where(folder), state.empty() ? "not run yet" : "gone wrong (" + state + ")");
+            if (!state.empty() && kind_of_row(state) == RowKind::failure) all.count_failure();
             continue;
         }
-        RockKeys rock = rocks.at(word_of(figures, "test")).get<RockKeys>();
+        RockKeys rock = keys_of(rocks, word_of(figures, "test"), folder);
         for (const auto& [key, value] : row.axes()) rock[key] = value;
-        StrengthTest test{row.where(folder), fmt::format("{:.0f}", number_of(figures, "seed")), figures, rock};
-        const std::optional<fs::path> curve = with_curves ? kept.curve(word_of(figures, "identity")) : std::nullopt;
-        if (curve) test.curve = strain_and_stress(number_table(*curve, read_file(*curve)));
+        StrengthTest test{row.where(folder), fmt::format("{:.0f}", number_of(figures, "seed")), summary_from(figures),
+                          rock};
+        const auto curve = with_curves ? kept.read_curve(word_of(figures, "identity")) : std::nullopt;
+        if (curve) test.curve = strain_and_stress(number_table(curve->file, curve->text));
         all.add(test);
     }
 }
 
-}  // namespace
-
-namespace {
-
-/// Of summary.json: what can stand over a confining pressure.
+/// Stresses in summary.json that can be plotted against a confining pressure.
 constexpr std::array<std::string_view, 4> axial_stresses = {"peak_stress", "largest_stress", "crack_initiation_stress",
                                                             "crack_damage_stress"};
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Strengths of one rock from the folders that tests and campaigns have left: compressions with the pressure on their
-// sides, and tensions. That it is one rock is checked by the cases: tests may differ in what keys_of_rock() leaves out
-// (specimens/campaign/identity.hpp), and in a gap between cells that was derived from their number.
+// Strengths of one rock, read from the folders of tests and campaigns: compressions with their confining pressure, and
+// tensions. All cases must describe the same rock. They may differ in keys that keys_of_rock() leaves out
+// (specimens/campaign/identity.hpp), and in a gap between cells that was derived from the number of cells.
 // Tested by tests/tools/commands/envelope_test.cpp.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -15,26 +16,33 @@
 
 namespace crackle {
 
-/// What is taken for the strength of a compression; tensile strengths are peaks.
+/// The stress that counts as the strength of a compression test; tensile strengths are always peaks.
 struct StrengthMeasure {
-    std::string figure = "peak_stress";  ///< a stress of summary.json: largest_stress of tests that harden
-    std::optional<double> strain = {};   ///< in its place the stress that the curve has at this axial strain
+    /// Name of a stress in summary.json, for example largest_stress for tests that harden.
+    std::string figure = "peak_stress";
+    std::optional<double> strain = {};  ///< if set, the strength is the stress at this axial strain
 
-    std::string spoken() const;      ///< "strengths", "largest stresses", "stresses at a strain of 0.02"
-    std::string spoken_one() const;  ///< "strength", "largest stress", "stress at a strain of 0.02"
+    /// Name in the plural: "strengths", "largest stresses", "stresses at a strain of 0.02".
+    std::string spoken() const;
+    /// Name in the singular: "strength", "largest stress", "stress at a strain of 0.02".
+    std::string spoken_one() const;
 };
 
+/// Strengths read from folders of results.
 struct MeasuredStrengths {
     StrengthMeasure measure;
-    std::vector<StrengthPoint> compressions;  ///< confinement 0 or that of a biaxial test
-    std::vector<double> tensions;             ///< tensile strengths, positive, of tests that parted in their gauge
-    std::vector<std::string> left_out;        ///< what has no strength, and why, a sentence each
-    std::string unit;                         ///< "Pa" or "N/m"
+    std::vector<StrengthPoint> compressions;  ///< strengths of compression tests (confinement 0) and biaxial tests
+    /// Tensile strengths, positive, of specimens that separated within the gauge length.
+    std::vector<double> tensions;
+    std::vector<std::string> left_out;  ///< one sentence for each test without a strength, giving the reason
+    /// Number of tests of campaigns among these with a system failure (RowKind::failure).
+    std::int64_t failures = 0;
+    std::string unit;  ///< unit of the stresses, "Pa" or "N/m"
 };
 
-/// @param folders of `crackle test` and of `crackle campaign`, any number of both
-/// @throws InputError for a folder without results, tests in several units or of several rocks, one test twice; for a
-/// figure that is no stress
+/// Reads the strengths of one rock. @param folders  results of `crackle test` and of `crackle campaign`, in any number
+/// @throws InputError for a folder without results, tests in different units or of different rocks, a repeated test, or
+/// a figure that is not a stress
 MeasuredStrengths read_strengths(std::span<const std::filesystem::path> folders, const StrengthMeasure& measure = {});
 
 }  // namespace crackle

@@ -26,10 +26,10 @@ constexpr std::size_t redrawn = 10'000;
 constexpr std::uint64_t bootstrap_seed = 1;
 constexpr double degrees_a_radian = 180.0 / std::numbers::pi;
 
-/// The tests at one confinement: least squares know no more of them than their mean.
+/// The tests at one confinement, represented by their mean; least squares need no more.
 struct WeightedPoint {
     double confinement, strength;
-    double weight;  // root of their number, over the mean strength there
+    double weight;  // square root of the number of tests, divided by their mean strength
 };
 using WeightedPoints = std::vector<WeightedPoint>;
 
@@ -37,7 +37,7 @@ struct Line {
     double intercept, slope;
 };
 
-/// y = a + b x, each equation times its weight.
+/// Fits y = a + b x by least squares; each equation is multiplied by its weight.
 Line weighted_line(const WeightedPoints& points, auto&& x_of, auto&& y_of, auto&& weight_of) {
     Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
@@ -63,7 +63,8 @@ struct HoekBrown {
     }
 };
 
-/// Residuals for Eigen's Levenberg-Marquardt, by the logarithms of C and m, which stay positive.
+/// Residuals for Eigen's Levenberg-Marquardt solver. The unknowns are the logarithms of C and m, which therefore stay
+/// positive.
 struct HoekBrownResiduals {
     using Scalar = double;
     using InputType = Eigen::VectorXd;
@@ -98,7 +99,7 @@ struct HoekBrownResiduals {
 };
 
 HoekBrown fit_hoek_brown(const WeightedPoints& points) {
-    // (σ1 - σ3)² scatters by twice its size times that of σ1.
+    // The error of (σ1 - σ3)² is 2 (σ1 - σ3) times that of σ1.
     const auto difference = [](const WeightedPoint& p) { return p.strength - p.confinement; };
     const Line start = weighted_line(
         points, [](const WeightedPoint& p) { return p.confinement; },
@@ -113,7 +114,7 @@ HoekBrown fit_hoek_brown(const WeightedPoints& points) {
     return HoekBrownResiduals::law_of(x);
 }
 
-/// Tests by packing, in the order of names.
+/// Tests grouped by packing, in the order of the packings' names.
 std::map<std::string, std::vector<StrengthPoint>> by_packing(std::span<const StrengthPoint> tests) {
     std::map<std::string, std::vector<StrengthPoint>> packings;
     for (const StrengthPoint& test : tests) packings[test.packing].push_back(test);
@@ -148,7 +149,7 @@ double friction_angle(double slope) {
 
 double cohesion(const Line& line) { return line.intercept / (2.0 * std::sqrt(line.slope)); }
 
-/// The six numbers, in the order of the envelope's members.
+/// The six fitted numbers, in the order of the envelope's members.
 using Numbers = std::array<double, 6>;
 using FittedNumbers = std::array<FittedNumber*, 6>;
 constexpr std::size_t slope_number = 1, angle_number = 2;
@@ -159,7 +160,8 @@ Numbers numbers_of(const WeightedPoints& points) {
     return {line.intercept, line.slope, friction_angle(line.slope), cohesion(line), law.strength, law.m};
 }
 
-/// Intervals by drawing as many packings again and again. @param numbers_with of packings by number
+/// Computes intervals by bootstrap: draws as many packings as there are, with replacement, and fits again.
+/// @param numbers_with  fits the packings whose indices are given
 void state_by_drawing(const FittedNumbers& fitted, std::size_t packings, auto&& numbers_with) {
     std::mt19937_64 generator(bootstrap_seed);
     std::array<std::vector<double>, 6> drawn;
@@ -180,9 +182,10 @@ void state_by_drawing(const FittedNumbers& fitted, std::size_t packings, auto&& 
     }
 }
 
-/// Intervals of few packings, whose draws cannot leave their range: Student's t about the fit, the standard error from
-/// fits that leave out a packing each (jackknife: sqrt((n - 1)/n) of the root of their squares about their mean). Of
-/// logarithms, for all but the angle are positive; the angle's follows from the slope's.
+/// Computes intervals for few packings from Student's t about the fit, since bootstrap draws cannot leave the range of
+/// the packings. The standard error comes from fits that each leave out one packing (jackknife: sqrt((n - 1)/n) times
+/// the root of the sum of squares about their mean). All figures except the angle are positive, so intervals are
+/// computed for their logarithms. The interval of the angle follows from that of the slope.
 void state_by_leaving_out(const FittedNumbers& fitted, std::size_t packings, auto&& numbers_with) {
     std::array<std::vector<double>, 6> logarithms;
     for (std::size_t out = 0; out < packings; ++out) {
@@ -190,13 +193,13 @@ void state_by_leaving_out(const FittedNumbers& fitted, std::size_t packings, aut
         for (std::size_t k = 0; k < packings; ++k)
             if (k != out) named.push_back(k);
         const std::optional<Numbers> numbers = numbers_with(named);
-        if (!numbers) return;  // packings that lack confinements: what one adds is not known
+        if (!numbers) return;  // some packings lack confinements, so the effect of leaving out one packing is unknown
         for (std::size_t k = 0; k < numbers->size(); ++k) logarithms[k].push_back(std::log((*numbers)[k]));
     }
     const auto n = static_cast<double>(packings);
     for (std::size_t k = 0; k < fitted.size(); ++k) {
         if (k == angle_number) continue;
-        // Of n values mean_of() has t sqrt(squares/(n - 1)/n) about their mean.
+        // The interval of mean_of() for n values is t sqrt(squares/(n - 1)/n) on either side of the mean.
         const MeanFigure mean = mean_of(logarithms[k]);
         const double half = 0.5 * (mean.high - mean.low) * (n - 1.0);
         fitted[k]->low = fitted[k]->value * std::exp(-half);
@@ -228,7 +231,7 @@ double StrengthEnvelope::hoek_brown(double confinement) const {
 
 double StrengthEnvelope::hoek_brown_tension() const {
     const double m = hoek_brown_m.value;
-    // m - sqrt(m² + 4) of a large m without its cancellation.
+    // m - sqrt(m² + 4), without cancellation for large m.
     return -2.0 * hoek_brown_strength.value / (m + std::sqrt(m * m + 4.0));
 }
 
@@ -251,8 +254,8 @@ StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests) {
     envelope.packings = packings.size();
     if (envelope.strengths.size() < fewest_confinements || packings.size() < fewest_packings) {
         throw InputError(fmt::format(
-            "envelope: found {} of {}, expected at least {} confinements (0 among them, up to half of the unconfined "
-            "strength) of at least {} packings: strengths scatter from packing to packing",
+            "envelope: found {} of {}, expected at least {} confinements (including 0, up to half of the unconfined "
+            "strength) of at least {} packings, since strengths scatter between packings",
             counted(envelope.strengths.size(), "confinement"), counted(packings.size(), "packing"), fewest_confinements,
             fewest_packings));
     }
@@ -269,7 +272,7 @@ StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests) {
     const Numbers best = numbers_of(points);
     for (std::size_t k = 0; k < fitted.size(); ++k) fitted[k]->value = best[k];
 
-    // Of each packing the sum and the number of its strengths, by confinement.
+    // Sum and number of a packing's strengths at one confinement.
     struct Sums {
         double strength = 0.0, tests = 0.0;
     };
@@ -283,7 +286,8 @@ StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests) {
             sum.tests += 1.0;
         }
     }
-    // The six numbers of these packings, each as often as it is named; nothing where no line goes through them.
+    // Fits the six numbers to the given packings, each counted as often as it is listed; empty if no line can be
+    // fitted.
     const auto numbers_with = [&](const std::vector<std::size_t>& named) -> std::optional<Numbers> {
         std::vector<Sums> sums(points.size());
         for (const std::size_t packing : named) {

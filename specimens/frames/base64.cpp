@@ -27,7 +27,8 @@ constexpr std::array<std::uint8_t, 256> digit_values = make_values();
 }  // namespace
 
 std::string encode_base64(std::span<const unsigned char> bytes) {
-    // OpenSSL counts in int and ends its text with a zero: pieces of whole groups, and one letter more than stays.
+    // OpenSSL takes int lengths and appends a zero byte. Pieces therefore consist of whole groups of three bytes, and
+    // the buffer has room for one more character.
     constexpr std::size_t piece = 3 << 24;
     const std::size_t letters = (bytes.size() + 2) / 3 * 4;
     std::string text(letters + 1, '\0');

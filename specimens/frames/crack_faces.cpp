@@ -8,7 +8,8 @@
 namespace crackle {
 namespace {
 
-/// Part of a face when loading begins: along a unit vector, m from where its point is held.
+/// Part of a face at the start of loading: its ends as coordinates along a unit vector, m, relative to the point where
+/// the bond is attached.
 struct Stretch {
     Vec2 along;
     double begin, end;
@@ -24,13 +25,14 @@ double smaller_radius(const World& world, PointKind kind, const ContactPoint& po
 
 Vec2 middle_of(const Facing& facing) { return 0.5 * (facing.on_i + facing.on_j); }
 
-/// Of these the one farthest away.
+/// The point of `places` that is farthest from `from`.
 Vec2 farthest(const std::vector<Vec2>& places, Vec2 from) {
     return *std::max_element(places.begin(), places.end(),
                              [&](Vec2 a, Vec2 b) { return norm(a - from) < norm(b - from); });
 }
 
-/// The part of a bond in the face of its interface: bonds of two bodies lie together.
+/// Part of an interface's face that belongs to a bond. Bonds between the same two bodies are adjacent in the list of
+/// bonds.
 template <PointKind K>
 Stretch interface_share(const World& world, const TestSetup& setup, PointIndex bond, const Facing& held) {
     const auto belongs = [&](PointIndex k) { return same_pair(setup.bonds[k], setup.bonds[bond]); };
@@ -42,7 +44,7 @@ Stretch interface_share(const World& world, const TestSetup& setup, PointIndex b
     for (PointIndex k = first; k < last; ++k)
         places.push_back(middle_of(facing_at_start<K>(world, setup, setup.bonds.at<K>(k))));
     const Vec2 from = middle_of(held), one = farthest(places, from), other = farthest(places, one);
-    // A corner before a corner has a normal of its own, which is not that of the face.
+    // If two corners face each other, the contact normal differs from that of the face.
     const double length = norm(other - one), least = setup.bond_thick;
     const Vec2 along = length > least ? (1.0 / length) * (other - one) : perpendicular(held.normal);
     double begin = 0.0, end = 0.0;
@@ -69,7 +71,7 @@ double flat_face_lap_at_start(const World& world, const TestSetup& setup, const 
         .lap();
 }
 
-/// A bond's share of the face. @param held  where it is held when loading begins
+/// Part of the face that belongs to a bond. @param held  where the bond is attached at the start of loading
 template <PointKind K>
 Stretch share_of(const World& world, const TestSetup& setup, PointIndex bond, const Facing& held) {
     const ContactPoint point = setup.bonds.at<K>(bond);
@@ -97,11 +99,13 @@ CrackFace face_of(const PlacedFrame& placed, PointIndex bond) {
     const Vec2 apart = placed.carried(point.body_j, held.on_j) - placed.carried(point.body_i, held.on_i);
     const double length = norm(normal);
     const double now = length > 0.0 ? dot(apart, normal) / length : norm(apart);
-    const double touching = setup.polygons ? setup.bond_thick : setup.bond_overlaps[bond];  // as far as that apart
+    const double touching = setup.polygons
+                                ? setup.bond_thick
+                                : setup.bond_overlaps[bond];  // m, value of `now` when the surfaces just touch
     return {carried(part.begin), carried(part.end), now - touching};
 }
 
-/// Calls `visit<K>()` with the kind of a bond. Walls bond nothing.
+/// Calls `visit<K>()` with the kind K of a bond. Walls have no bonds.
 template <class Visit>
 void with_kind_of(const TestSetup& setup, PointIndex bond, Visit&& visit) {
     visit_kinds(setup.bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {

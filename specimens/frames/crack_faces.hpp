@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a broken bonded point is drawn: its share of the face along which the two bodies were held together.
+// The line that represents a broken bond in a frame: the part of the bodies' common face that belongs to the bond.
 //
-// When loading begins a face lies midway between the two surfaces. A circle's is square to the contact's normal, and as
-// long as the diameter of the smaller of the two. Between polygons the points of an interface share its face, which
-// runs from the first to the last of them: in the order in which they lie along it each has an equal part. One that is
-// shorter than bond.thick, the width that a point bonds across, is taken as so long, square to the normal. Both bodies
-// carry the face along; it is drawn at the mean of the two places.
+// At the start of loading a face lies midway between the two surfaces. The face of circles is perpendicular to the
+// contact normal and as long as the diameter of the smaller circle. Between polygons, the face runs from the first to
+// the last point of the interface and is divided equally among the points. A face shorter than bond.thick (the width
+// over which a point bonds) is extended to that length, perpendicular to the normal. The face moves with both bodies
+// and is plotted at the mean of the two positions.
 // Tested by tests/specimens/observers/contact_history_test.cpp.
 #pragma once
 
@@ -13,17 +13,18 @@
 
 namespace crackle {
 
+/// Current position of a broken bond's face.
 struct CrackFace {
     Vec2 begin, end;  // m
-    /// m, present gap along the normal, which turns with the bodies, between the places where the bond held them: 0 as
-    /// the bond's overlap is used up, negative where the bodies are pressed together again.
+    /// Current gap between the two points where the bond was attached, along the normal, which rotates with the bodies,
+    /// m. It is 0 if the surfaces just touch, and negative if the bodies are pressed together again.
     double opening;
 };
 
-/// @param bond  into TestSetup::bonds
+/// Face of a broken bond in a frame. @param bond  index into TestSetup::bonds
 CrackFace find_crack_face(const PlacedFrame& placed, PointIndex bond);
 
-/// m, of the same share of the face when loading begins.
+/// Length of a bond's face at the start of loading, m.
 double length_of_face(const World& world, const TestSetup& setup, PointIndex bond);
 
 }  // namespace crackle

@@ -25,7 +25,8 @@ std::vector<std::int32_t> find_fragments(const World& world, const TestSetup& se
         BodyIndex set = no_body;
     };
     std::vector<Fragment> fragments;
-    std::vector<std::int32_t> number(bodies, -1);  // of the set that a body leads, into fragments, in order of finding
+    // For the root body of each disjoint set, index of its fragment in order of discovery; -1 for other bodies.
+    std::vector<std::int32_t> number(bodies, -1);
     for (BodyIndex b = 0; b < bodies; ++b) {
         if (setup.is_platen(b)) continue;
         const BodyIndex set = sets.find_set(b);

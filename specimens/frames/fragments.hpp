@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fragments: particles that bonds still hold together, directly or through others. Two particles are held together
-// while one bonded point between them is intact. Platens belong to none and join none.
+// Finds fragments: groups of particles that are still connected by bonds, directly or through other particles. Two
+// particles are connected while at least one bonded point between them is intact. Platens belong to no fragment and do
+// not connect particles.
 // Tested by tests/specimens/frames/frame_forces_test.cpp.
 #pragma once
 
@@ -11,8 +12,8 @@
 
 namespace crackle {
 
-/// The number of each body's fragment: 0 the largest by area, and so on; of two as large, the one with the lowest id
-/// comes first. Of platens -1.
+/// Index of each body's fragment. Fragments are numbered from 0 by descending area; for equal areas, by lowest body id.
+/// Platens have -1.
 std::vector<std::int32_t> find_fragments(const World& world, const TestSetup& setup, const Frame& frame);
 
 }  // namespace crackle

@@ -10,12 +10,13 @@
 
 #include "solver/geometry/geometry.hpp"
 #include "solver/world/point_order.hpp"
+#include "solver/world/world.hpp"
 #include "specimens/observers/curve.hpp"
 
 namespace crackle {
 namespace {
 
-/// A frame, and its arrays wherever they lie.
+/// References to the members of a frame, which are in memory or on disk.
 template <class Bodies, class Forces, class States>
 struct Target {
     Target(Frame& to, Bodies& its_bodies, Forces& its_forces, States& its_states)
@@ -37,7 +38,8 @@ void generate(ScratchArray<T>& values, std::size_t count, const Value& value) {
     values.generate(count, value);
 }
 
-/// Points that touch without a bond: those that lost one to it, the others to the frame's own.
+/// Stores the points that touch without a bond. Values of broken bonds go to the arrays of bonds, the others to
+/// Frame::loose.
 void take_loose(const TestSetup& setup, const LooseContacts& loose, const auto& target) {
     Frame& frame = target.frame;
     frame.loose.contacts.clear();
@@ -74,7 +76,7 @@ void take(const World& world, const TestSetup& setup, const ContactHistory& hist
         const BodyState& body = world.bodies.state[b];
         return {body.x, body.y, body.angle, body.vx, body.vy, body.omega};
     });
-    // Bonds are never made again: what the walk along the list does not meet is broken.
+    // Bonds never form again, so a bond that is missing from the list of points is broken.
     const ContactList& bonds = setup.bonds;
     target.shear_force.assign(bonds.size(), 0.0);
     target.states.assign(bonds.size(), ContactState::broken);
@@ -84,12 +86,15 @@ void take(const World& world, const TestSetup& setup, const ContactHistory& hist
         const PointIndex last = setup.bond_kind_begin[static_cast<std::size_t>(K) + 1];
         PointIndex next = first;
         for (PointIndex k = begin; k < end; ++k) {
-            if (k == world.points.fours_end) next = first;  // here the order of a kind begins again
+            // From this index on, the list starts again with the same kind.
+            if (k == world.points.fours_end) next = first;
             const ContactPoint point = world.points.contact.at<K>(k);
             const auto flags = world.points.state[k].flags;
             if ((flags & point_bonded) == 0) continue;
             while (next < last && !same_point(K, bonds.at<K>(next), point)) ++next;
-            if (next == last) throw std::logic_error("a bonded point is not where the start of loading listed it");
+            if (next == last)
+                throw std::logic_error(
+                    "a bonded point is missing in the list made when loading began, or stands in another order there");
             target.shear_force[next] = world.points.shear_force[k];
             target.states[next] = (flags & point_slid) != 0 ? ContactState::bonded_slid : ContactState::bonded;
             if constexpr (K == PointKind::face_face)

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures of the specimen: what of a moment a picture needs, taken fast and held small; frame_painter.hpp draws it.
+// Frames: the data needed to plot the specimen at one moment, in compact form. frame_painter.hpp writes them to files.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "solver/base/fields.hpp"
 #include "solver/files/scratch_file.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/observers/contact_history.hpp"
@@ -15,108 +16,95 @@ namespace crackle {
 
 struct CurveRow;
 
-/// What has become of a contact, as frames number it.
+/// State of a contact; the values are written to frames.
 enum class ContactState : std::uint8_t {
     bonded = 0,
-    bonded_slid = 1,  ///< has been at its Coulomb limit since bonding
+    bonded_slid = 1,  ///< bonded; the Coulomb limit was reached at least once
     broken = 2,
-    broken_touching = 3,  ///< broken, and its surfaces overlap again
-    loose = 4,            ///< was never bonded
+    broken_touching = 3,  ///< broken; the surfaces overlap again
+    loose = 4,            ///< never bonded
 };
 
+/// Whether a contact in the given state is bonded.
 inline bool holds(ContactState state) { return state <= ContactState::bonded_slid; }
 
-/// A moment of a test: 48 bytes a body, 9 a bond, 40 a contact without one.
+/// State of a test at one moment: 48 bytes per body, 9 per bond, 40 per contact without a bond.
 struct Frame {
-    /// Of a bond whose force the places of its bodies do not say: of flat faces, whose overlap without force follows
-    /// their turning, and of one across a joint that broke and touches (LooseContact::joint_force).
+    /// Normal force of a bond that cannot be computed from the positions of its bodies. This applies to flat faces,
+    /// because their force-free overlap depends on their rotation. It also applies to broken bonds across a joint whose
+    /// surfaces touch (LooseContact::joint_force).
     struct JointForce {
         PointIndex bond;
         double normal;
 
-        template <class Self, class Visit>
-        static constexpr void fields(Self& s, Visit&& visit) {
-            visit("bond", s.bond);
-            visit("normal", s.normal);
-        }
+        CRACKLE_FIELDS(bond, normal);
     };
+    /// Position and velocity of a body.
     struct Body {
         double x, y, angle;    // m, rad
         double vx, vy, omega;  // m/s, rad/s
 
-        template <class Self, class Visit>
-        static constexpr void fields(Self& s, Visit&& visit) {
-            visit("x", s.x);
-            visit("y", s.y);
-            visit("angle", s.angle);
-            visit("vx", s.vx);
-            visit("vy", s.vy);
-            visit("omega", s.omega);
-        }
+        CRACKLE_FIELDS(x, y, angle, vx, vy, omega);
     };
-    std::int64_t row = -1;  ///< of the curve; -1: no frame
+    std::int64_t row = -1;  ///< row of the curve; -1 if there is no frame
     double axial_strain = 0.0, axial_stress = 0.0, time = 0.0;
-    std::vector<Body> bodies;              ///< as in the world
-    std::vector<double> shear_force;       ///< N, elastic, as TestSetup::bonds; 0 of broken ones that do not touch
-    std::vector<ContactState> states;      ///< likewise
-    LooseContacts loose;                   ///< of points that were never bonded
-    std::uint64_t cracks = 0;              ///< so many have come first in ContactHistory::cracks
-    std::vector<JointForce> joint_forces;  ///< by bond
+    std::vector<Body> bodies;  ///< in the order of World::bodies
+    /// Elastic shear force, N, in the order of TestSetup::bonds; 0 for broken bonds whose surfaces do not touch.
+    std::vector<double> shear_force;
+    std::vector<ContactState> states;  ///< states of the bonds, in the order of TestSetup::bonds
+    LooseContacts loose;               ///< contacts that were never bonded
+    /// Number of cracks at this moment: the first ones in ContactHistory::cracks.
+    std::uint64_t cracks = 0;
+    std::vector<JointForce> joint_forces;  ///< ordered by bond
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("row", s.row);
-        visit("axial_strain", s.axial_strain);
-        visit("axial_stress", s.axial_stress);
-        visit("time", s.time);
-        visit("bodies", s.bodies);
-        visit("shear_force", s.shear_force);
-        visit("states", s.states);
-        visit("loose", s.loose);
-        visit("cracks", s.cracks);
-        visit("joint_forces", s.joint_forces);
-    }
+    CRACKLE_FIELDS(row, axial_strain, axial_stress, time, bodies, shear_force, states, loose, cracks, joint_forces);
 };
 
-/// A moment whose largest arrays lie on the disc.
+/// A frame whose largest arrays are stored on disk.
 class FrameOnDisc {
   public:
+    /// An empty frame. @param folder  folder of the unnamed files with the arrays
     explicit FrameOnDisc(const std::filesystem::path& folder)
         : bodies_(folder), shear_force_(folder), states_(folder) {}
 
+    /// Stores a copy of a frame.
     void put(const Frame& frame);
+    /// Returns the whole frame, in memory.
     Frame whole();
 
   private:
     friend void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history,
                            const CurveRow& row, std::int64_t row_index, FrameOnDisc& frame);
 
-    Frame rest_;  // without the arrays below
+    Frame rest_;  // the frame without the arrays below
     ScratchArray<Frame::Body> bodies_;
     ScratchArray<double> shear_force_;
     ScratchArray<ContactState> states_;
 };
 
-/// The present moment. Needs compute_forces() and look_at_contacts() to have been called. Linear in bodies and listed
-/// points. While the stress rises every row is a new peak: what takes longer, the forces normal to contacts, is left to
-/// who draws.
-/// @param frame  receives the moment; its room is used again
+/// Takes a frame of the current state. Call compute_forces() and look_at_contacts() first. The cost is linear in the
+/// numbers of bodies and listed points. The expensive part, the normal forces of contacts, is left to the painter:
+/// every row is a new peak while the stress rises, and few of these frames are kept.
+/// @param frame  receives the data; its memory is reused
 void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
                 std::int64_t row_index, Frame& frame);
-/// The same, with no more of it in memory than a stretch.
+/// Takes a frame while holding only part of it in memory.
 void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
                 std::int64_t row_index, FrameOnDisc& frame);
 
-/// Frames over max_axial_strain where the case states none: 100 up to 2,000 bodies, beyond that 200,000 over their
-/// number, but at least 20, and never more than rows of the curve. A frame costs what some thirty steps cost, and
-/// 170 bytes a circle while it is drawn.
+/// Default number of frames up to max_axial_strain. It is 100 for up to 2,000 bodies, and 200,000 divided by the number
+/// of bodies above that. It is at least 20, but at most the number of curve rows. A frame costs about as much as thirty
+/// steps, and 170 bytes per circle while it is written.
 std::int64_t default_frames(std::int64_t bodies, std::int64_t curve_rows);
 
-std::string particles_file(std::int64_t row);  ///< "particles_00042.vtp"
+std::string particles_file(std::int64_t row);  ///< name of the file of particles: "particles_00042.vtp"
+/// Name of the file of contacts: "contacts_00042.vtp".
 std::string contacts_file(std::int64_t row);
+/// Name of the file of cracks: "cracks_00042.vtp".
 std::string cracks_file(std::int64_t row);
-std::string joints_file(std::int64_t row);  ///< of jointed specimens
-/// Whether a file of that name in frames/ is one of these.
+/// Name of the file of joint faces, "joints_00042.vtp"; jointed specimens only.
+std::string joints_file(std::int64_t row);
+/// Whether a file name in frames/ is that of a frame.
 bool is_picture(const std::string& name);
 
 }  // namespace crackle

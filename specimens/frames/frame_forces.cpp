@@ -8,7 +8,7 @@
 namespace crackle {
 namespace {
 
-/// Adds up what one contact contributes: normal and shear force, N, as PointView's.
+/// Adds the contribution of one contact to the stresses of its bodies. @param normal, shear  forces as in PointView, N
 void add_contact(std::vector<ParticleStress>& sums, const ContactPoint& point, const ContactGeometry& g, double normal,
                  double shear) {
     const Vec2 on_i = shear * Vec2{-g.ny, g.nx} - normal * Vec2{g.nx, g.ny};

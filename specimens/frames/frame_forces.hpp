@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces of a moment: normal to its contacts, and the mean stress that they mean for each particle.
-//   σ = -1/A Σ ½(r⊗f + f⊗r)    N/m, compression positive; over the particle's contacts
-// f [N] the force on the particle, r [m] from its centroid to where it acts, A [m²] its area (a clump's: of its circles
-// together). Springs only, less the back-tension of bonds: normal k_n(δ - δ0) and shear, no dashpots, so that the
-// unloaded specimen has no stress. Symmetrised: what is left over turns the particle. Sums of A σ over many particles
-// and the area they stand on give the specimen's stress.
+// Normal forces of the contacts in a frame, and the mean stress of each particle, computed from its contact forces:
+//     σ = -1/A Σ ½(r⊗f + f⊗r)    N/m, compression positive; summed over the particle's contacts
+// Here f [N] is the force on the particle, r [m] points from its centroid to the point of action, and A [m²] is its
+// area (for a clump, the total of its circles). Forces are those of the springs without the back-tension of bonds:
+// k_n(δ - δ0) along the normal, and the shear force. Dashpots are left out, so the unloaded specimen has zero stress.
+// The tensor is symmetrised; its antisymmetric part is a torque. The sum of A σ over many particles, divided by the
+// area that they occupy, is the stress of the specimen.
 #pragma once
 
 #include <vector>
@@ -13,21 +14,23 @@
 
 namespace crackle {
 
-/// Of one particle, N/m.
+/// Mean stress of one particle, N/m.
 struct ParticleStress {
     double xx = 0.0, yy = 0.0, xy = 0.0;
 };
 
+/// Forces and stresses in a frame.
 struct FrameForces {
-    /// N, elastic, compression positive: of TestSetup::bonds (0 of broken ones that do not touch), then of
-    /// Frame::loose.
+    /// Elastic normal forces, N, compression positive: first those of TestSetup::bonds (0 for broken bonds whose
+    /// surfaces do not touch), then those of Frame::loose.
     std::vector<double> normal;
-    std::vector<ParticleStress> stress;  ///< by body; of platens 0
+    std::vector<ParticleStress> stress;  ///< by body; 0 for platens
 };
 
+/// Computes the forces of the contacts and the stresses of the bodies in a frame.
 FrameForces find_forces(const PlacedFrame& placed);
 
-/// m²
+/// Area of a body, m².
 double area_of(const World& world, BodyIndex body);
 
 }  // namespace crackle

@@ -12,6 +12,7 @@
 
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/geometry/geometry.hpp"
+#include "solver/world/world.hpp"
 #include "specimens/frames/crack_faces.hpp"
 #include "specimens/frames/fragments.hpp"
 
@@ -19,69 +20,78 @@ namespace crackle {
 namespace {
 
 constexpr Quantity fields_of_a_moment[]{
-    {"axial_strain", "-", "positive in the sense of the test"},
-    {"axial_stress", "N/m", "mean of both platens, positive in the sense of the test"},
-    {"time", "s since loading began", "of the moment"},
+    {"axial_strain", "-", "axial strain of the frame, positive in the direction of loading"},
+    {"axial_stress", "N/m", "mean stress on the two platens, positive in the direction of loading"},
+    {"time", "s since loading began", "time of the frame"},
 };
 constexpr Quantity arrays_of_particles[]{
-    {"id", "", "number in the particle file or packing; platens come after the largest"},
-    {"radius", "m", "0 for polygons and platens"},
-    {"material", "", "number in the specimen's file, from 1: of the minerals in the case's order, then `[material]`"},
-    {"angle", "rad", "turned since loading began, counter-clockwise"},
-    {"displacement", "m", "since loading began; three components"},
-    {"velocity", "m/s", "half a step before the moment; three components"},
-    {"rotation_rate", "rad/s", "counter-clockwise, half a step before the moment"},
-    {"stress_xx", "N/m", "mean stress of the particle, compression positive; platens 0",
-     "force times arm over its contacts, symmetrised, over its area; springs with the bonds' back-tension, without "
-     "dashpots, so that it is 0 before loading"},
-    {"stress_yy", "N/m", "likewise"},
-    {"stress_xy", "N/m", "likewise"},
+    {"id", "", "id of the body in the particle file or packing; platens have ids above the largest of these"},
+    {"radius", "m", "radius of a circle; 0 for polygons and platens"},
+    {"material", "",
+     "one-based index of the material in the specimen's file: first the minerals in case order, then `[material]`"},
+    {"angle", "rad", "rotation since loading began, positive counter-clockwise"},
+    {"displacement", "m", "displacement since loading began; three components"},
+    {"velocity", "m/s", "velocity half a time step before the frame; three components"},
+    {"rotation_rate", "rad/s", "angular velocity half a time step before the frame, positive counter-clockwise"},
+    {"stress_xx", "N/m", "xx component of the mean stress in the particle, positive in compression; 0 for platens",
+     "symmetric part of the sum of force times arm over the contacts of the particle, divided by its area. Forces are "
+     "those of springs relative to the bonded state, without dashpots, so the stress is 0 before loading"},
+    {"stress_yy", "N/m", "yy component of the mean stress in the particle, as for stress_xx"},
+    {"stress_xy", "N/m", "xy component of the mean stress in the particle, as for stress_xx"},
     {"fragment", "",
-     "particles that intact bonds join, directly or through others, share a number: 0 the largest by area, then "
-     "falling, equal ones by their lowest id; platens are -1 and join nothing"},
+     "zero-based index of the fragment: particles connected by intact bonds, directly or through other particles, "
+     "belong to one fragment",
+     "fragments are sorted by descending area, those of equal area by their lowest id. Platens have -1 and connect no "
+     "particles"},
 };
 constexpr Quantity arrays_of_contacts[]{
-    {"body_i", "", "id of one body; of polygons that whose corner touches the other's outline"},
-    {"body_j", "", "id of the other"},
-    {"normal_force", "N", "elastic, positive pushes apart"},
-    {"shear_force", "N", "elastic, on body_i along the normal from i to j turned by +90°"},
+    {"body_i", "", "id of one body; between polygons, the body whose corner touches the other's outline"},
+    {"body_j", "", "id of the other body"},
+    {"normal_force", "N", "elastic normal force, positive if it pushes the bodies apart"},
+    {"shear_force", "N",
+     "elastic shear force on body_i, positive along the normal from body_i to body_j turned by +90°"},
     {"state", "",
-     "0 bond, 1 bond that has been at its Coulomb limit, 2 broken bond, 3 broken bond whose surfaces touch again (its "
-     "forces are those of the touch), 4 contact without a bond"},
+     "0: bond; 1: bond that has reached its Coulomb limit; 2: broken bond; 3: broken bond whose surfaces touch again "
+     "(its forces are those of the contact); 4: contact without a bond"},
     {"age", "s",
-     "of an intact bond since loading began; of a broken one since its break, to the step; of a contact since the row "
-     "of the curve that saw it first, of 2000 or more over `loading.max_axial_strain`, written or not"},
+     "time since loading began for an intact bond, and time since the break for a broken bond. For a contact without a "
+     "bond, time since the first curve row in which it touched",
+     "rows that are not written count as well: there are at least 2000 up to `loading.max_axial_strain`"},
 };
 constexpr Quantity arrays_of_cracks[]{
-    {"body_i", "", "as in events.csv"},
-    {"body_j", "", "as in events.csv"},
-    {"time", "s since loading began", "of the break"},
-    {"mode", "", "0 tension, 1 shear, as in events.csv"},
-    {"energy", "J", "taken by the break"},
-    {"orientation", "rad", "of the contact normal at the break, in (-π/2, π/2]"},
-    {"strength", "N", "tensile strength that the point had"},
+    {"body_i", "", "id of one body, as in events.csv"},
+    {"body_j", "", "id of the other body, as in events.csv"},
+    {"time", "s since loading began", "time of the break"},
+    {"mode", "", "failure mode as in events.csv: 0 for tension, 1 for shear"},
+    {"energy", "J", "energy dissipated by the break, as in events.csv"},
+    {"orientation", "rad",
+     "direction of the contact normal at the break, counter-clockwise from the x axis, in (-π/2, π/2]"},
+    {"strength", "N", "strength of the bond, as in events.csv"},
     {"opening", "m",
-     "present gap between the surfaces along the normal: 0 as the bond's overlap is used up, negative where they are "
-     "pressed together again"},
-    {"trace", "", "as in events.csv; of jointed specimens"},
+     "current gap between the surfaces along the normal: 0 when the bond's overlap has just vanished, negative if the "
+     "surfaces are pressed together again"},
+    {"trace", "", "index of the joint trace as in events.csv, only for jointed specimens"},
 };
 constexpr Quantity arrays_of_joints[]{
     {"body_i", "", "id of one body"},
-    {"body_j", "", "id of the other"},
-    {"trace", "", "number in `traces` of summary.json, from 0"},
-    {"state", "", "0 holds, 2 has lost all its bonds, 4 was never bonded, as of contacts"},
-    {"opening", "m", "since loading began, along the face's normal, what its springs give included"},
-    {"slip", "m", "likewise along the face, positive where the far side goes to the left"},
+    {"body_j", "", "id of the other body"},
+    {"trace", "", "zero-based index of the joint trace in `traces` of summary.json"},
+    {"state", "", "0: bonded; 2: all bonds broken; 4: never bonded"},
+    {"opening", "m",
+     "opening along the face's normal since loading began, including the deformation of the face's springs"},
+    {"slip", "m",
+     "slip along the face since loading began, including the deformation of the face's springs; positive if an "
+     "observer looking across the face sees the far side move to the left"},
 };
 
-/// Corners of its face, of a part that holds or drives the specimen.
+/// Number of corners of the face if the body is a part that holds or drives the specimen; otherwise empty.
 std::optional<std::size_t> face_of_part(const TestSetup& setup, BodyIndex b) {
     for (const SetupPart& part : setup.parts)
         if (part.body == b) return part.face;
     return std::nullopt;
 }
 
-/// Platens first, as VTK counts lines before polygons, then by id.
+/// Order of the bodies in files: platens first, because VTK numbers lines before polygons; then other bodies by id.
 std::vector<BodyIndex> drawing_order(const World& world, const TestSetup& setup) {
     std::vector<BodyIndex> order(world.bodies.size());
     std::iota(order.begin(), order.end(), BodyIndex{0});
@@ -90,9 +100,10 @@ std::vector<BodyIndex> drawing_order(const World& world, const TestSetup& setup)
     return order;
 }
 
-/// The element Points of so many points. @param add  calls its argument with the place of each
+/// Writes the element Points with `count` points.
+/// @param add  is called with a function, which it must call for each position
 template <class Add>
-void write_points(std::ostream& out, PointPrecision precision, std::size_t count, const Add& add) {
+void write_points(std::ostream& out, FramePrecision precision, std::size_t count, const Add& add) {
     begin_element(out, "Points");
     const auto write = [&]<class T>(T) {
         PackedArray<T> points(out, "points", 3, 3 * count);
@@ -103,7 +114,7 @@ void write_points(std::ostream& out, PointPrecision precision, std::size_t count
         });
         points.finish();
     };
-    precision == PointPrecision::single_ ? write(float{}) : write(double{});
+    precision == FramePrecision::single_ ? write(float{}) : write(double{});
     end_element(out, "Points");
 }
 
@@ -113,7 +124,7 @@ void add_vector(PackedArray<double>& vectors, Vec2 value) {
     vectors.add(0.0);
 }
 
-/// A whole array. @param add  calls its argument with each value
+/// Writes a whole array. @param add  is called with a function, which it must call for each value
 template <class T, class Add>
 void write_array(std::ostream& out, const char* name, std::size_t values, const Add& add) {
     PackedArray<T> array(out, name, 1, values);
@@ -121,7 +132,7 @@ void write_array(std::ostream& out, const char* name, std::size_t values, const 
     array.finish();
 }
 
-/// The same of indices, Int32 where they are small enough.
+/// Writes an array of indices, as Int32 if `largest` fits.
 template <class Add>
 void write_indices(std::ostream& out, const char* name, std::size_t values, std::size_t largest, const Add& add) {
     constexpr std::size_t most_in_int32 = std::numeric_limits<std::int32_t>::max();
@@ -129,7 +140,7 @@ void write_indices(std::ostream& out, const char* name, std::size_t values, std:
                              : write_array<std::int64_t>(out, name, values, add);
 }
 
-/// Lines from each point of even number to the next.
+/// Writes a line for each pair of points: from each even-numbered point to the next one.
 void write_pairs_as_lines(std::ostream& out, std::size_t lines) {
     begin_element(out, "Lines");
     write_indices(out, "connectivity", 2 * lines, 2 * lines, [&](const auto& add) {
@@ -154,7 +165,8 @@ const char* of_contacts(std::string_view name) { return declared(arrays_of_conta
 const char* of_cracks(std::string_view name) { return declared(arrays_of_cracks, name).name; }
 const char* of_joints(std::string_view name) { return declared(arrays_of_joints, name).name; }
 
-constexpr std::int64_t most_kept = 2000;  // particles whose constant arrays are kept packed
+constexpr std::int64_t most_kept =
+    2000;  // largest number of particles whose constant arrays are kept in compressed form
 
 }  // namespace
 
@@ -171,8 +183,8 @@ int circle_corners(std::int64_t particles) {
 
 std::vector<Vec2> unit_circle_outline(int corners) {
     const double sector = 2.0 * std::numbers::pi / corners;
-    const double radius =
-        std::sqrt(sector / correctly_rounded::sin(sector));  // of n triangles, each ½ radius² sin(sector)
+    // Ratio that makes the area of n triangles, each ½ radius² sin(sector), equal to that of the circle.
+    const double radius = std::sqrt(sector / correctly_rounded::sin(sector));
     std::vector<Vec2> outline;
     outline.reserve(static_cast<std::size_t>(corners));
     for (int k = 0; k < corners; ++k)
@@ -180,7 +192,7 @@ std::vector<Vec2> unit_circle_outline(int corners) {
     return outline;
 }
 
-FramePainter::FramePainter(const World& world, const TestSetup& setup, PointPrecision precision)
+FramePainter::FramePainter(const World& world, const TestSetup& setup, FramePrecision precision)
     : world_(world),
       setup_(setup),
       precision_(precision),
@@ -199,8 +211,8 @@ FramePainter::FramePainter(const World& world, const TestSetup& setup, PointPrec
     bond_cells_ = std::move(bonds).str();
 }
 
-/// Each drawn cell to visit(body, its first element, number of corners, radius or 0): of a circle one of its elements,
-/// of a platen its face, which is all that touches.
+/// Calls visit(body, its first element, number of corners, radius or 0) for each cell in the file. Each circle of a
+/// clump is a cell. Of a platen, only the face is a cell, because only the face touches the specimen.
 template <class Visit>
 void FramePainter::visit_cells(const Visit& visit) const {
     for (const BodyIndex b : order_) {
@@ -214,7 +226,7 @@ void FramePainter::visit_cells(const Visit& visit) const {
     }
 }
 
-/// From the cells on to the last array that never changes.
+/// Writes the cells, and those arrays of particles that never change.
 void FramePainter::write_particle_cells(std::ostream& out) const {
     const VtpCounts& counts = particle_counts_;
     const std::size_t cells = counts.lines + counts.polygons;
@@ -222,7 +234,7 @@ void FramePainter::write_particle_cells(std::ostream& out) const {
     visit_cells([&](BodyIndex b, std::uint32_t, std::size_t corners, double) {
         if (setup_.is_platen(b)) line_points += corners;
     });
-    // Corners are numbered as they come, and lines come first.
+    // Corners are numbered consecutively; those of lines come first.
     const auto write_cells = [&](const char* name, bool lines) {
         const std::size_t first = lines ? 0 : line_points, end = lines ? line_points : counts.points;
         begin_element(out, name);
@@ -248,7 +260,7 @@ void FramePainter::write_particle_cells(std::ostream& out) const {
     });
     write_array<std::int32_t>(out, of_particles("material"), cells, [&](const auto& add) {
         visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) {
-            add(world_.bodies.info(b).material + 1);  // as decks number them
+            add(world_.bodies.info(b).material + 1);  // numbered from 1, as in decks
         });
     });
 }
@@ -305,14 +317,15 @@ void FramePainter::write_particles(std::ostream& out, const PlacedFrame& placed,
     write_vtp_end(out);
 }
 
-/// Each contact to visit(its bodies): bonds, then loose ones.
+/// Calls visit(contact point) for each contact: first for the bonds, then for the loose contacts.
 template <class Visit>
 void FramePainter::visit_contacts(const LooseContacts& loose, const Visit& visit) const {
     for (const BodyPair& bond : setup_.bonds.pairs) visit(bond);
     for (const LooseContact& contact : loose.contacts) visit(BodyPair{contact.point.body_i, contact.point.body_j});
 }
 
-/// As write_particle_cells(); without loose contacts it never changes.
+/// Writes the cells of contacts, as write_particle_cells() does for particles. Without loose contacts, they never
+/// change.
 void FramePainter::write_contact_cells(std::ostream& out, const LooseContacts& loose) const {
     std::vector<std::uint32_t> centre(setup_.polygons ? 0 : world_.bodies.size());
     std::size_t centres = 0;
@@ -355,7 +368,8 @@ void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, 
     const Frame& frame = placed.frame();
     const auto& loose = frame.loose.contacts;
     const std::size_t contacts = setup_.bonds.size() + loose.size();
-    // Between circles the centres, each once, then a point a contact; between polygons two points a contact.
+    // With circles, the points are all centres, followed by one point per contact. With polygons, they are two points
+    // per contact.
     const VtpCounts counts{setup_.polygons ? 2 * contacts : centres_ + contacts, contacts, 0};
     write_head(out, frame, counts);
     write_points(out, precision_, counts.points, [&](const auto& add) {
@@ -401,7 +415,7 @@ void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, 
         for (std::size_t k = 0; k < loose.size(); ++k) add(static_cast<std::uint8_t>(ContactState::loose));
     });
     write_array<double>(out, of_contacts("age"), contacts, [&](const auto& add) {
-        std::vector<std::pair<PointIndex, double>> breaks;  // bond, time
+        std::vector<std::pair<PointIndex, double>> breaks;  // bonds and times of their breaks
         for (const Crack& crack : cracks) breaks.emplace_back(crack.bond, crack.time);
         std::sort(breaks.begin(), breaks.end());
         auto broken = breaks.begin();
@@ -455,7 +469,7 @@ void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, st
 
 void FramePainter::write_joints(std::ostream& out, const PlacedFrame& placed) const {
     const Frame& frame = placed.frame();
-    std::vector<std::int32_t> holding(setup_.trace_faces.size(), 0);  // bonds of each face
+    std::vector<std::int32_t> holding(setup_.trace_faces.size(), 0);  // number of intact bonds on each face
     for (std::size_t bond = 0; bond < setup_.bond_faces.size(); ++bond)
         if (setup_.bond_faces[bond] >= 0 && holds(frame.states[bond]))
             ++holding[static_cast<std::size_t>(setup_.bond_faces[bond])];

@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames as files for ParaView and the report: particles_, contacts_ and cracks_NNNNN.vtp, of jointed specimens
-// joints_, too, NNNNN the row of the curve (from 0) in which they were taken, and frames.pvd over all of them (parts 0
-// to 3).
+// Writes frames as files for ParaView and the report: particles_, contacts_ and cracks_NNNNN.vtp, and joints_ for
+// jointed specimens. NNNNN is the zero-based curve row at which the frame was taken; frames.pvd lists all files (parts
+// 0 to 3).
 //
-// Particles: platens as lines, polygons by their corners, circles as regular polygons of the circle's own area: 24
-// corners up to 2,000 particles, 12 beyond, where they are looked at from farther away (outlines share 0.98 of what
-// they cover together; 0.996 with 24). True circles are drawn about the mean of the corners with `radius`. All circles
-// of a clump have the values of the clump.
-// Contacts: all bonds that loading began with, always in the same order and where they were held, then what else
-// touches at the moment; as lines centre-point-centre between circles and point-point between polygons.
-// Cracks: a line for each bonded point that has broken so far, in the order of events.csv, placed by crack_faces.hpp.
-// Joints: a line for each face on a trace, as long as that was when loading began; trace_faces.hpp.
-// Cell data and their units: particle_arrays() and its like below; forces and stresses are of springs only,
-// frame_forces.hpp; fragments, fragments.hpp; ages, contact_history.hpp.
+// Particles: platens are lines, polygons keep their corners, and circles are regular polygons of equal area. Circles
+// have 24 corners for up to 2,000 particles, and 12 for more, which are viewed from farther away. With 12 corners, the
+// area of the intersection of polygon and circle is 0.98 of that of their union; with 24, it is 0.996. True circles can
+// be drawn with `radius` about the mean of the corners. All circles of a clump have the clump's values.
+// Contacts: first all bonds at the start of loading, always in the same order and at the points where they were
+// attached; then all other current contacts. A contact is a line: centre-point-centre between circles, point-point
+// between polygons.
+// Cracks: a line for each bonded point that has broken, in the order of events.csv, positioned by crack_faces.hpp.
+// Joints: a line for each face on a trace, with its length at the start of loading (trace_faces.hpp).
+// Cell data and their units are listed by particle_arrays(), contact_arrays(), crack_arrays() and joint_arrays().
+// Forces and stresses are those of the springs only (frame_forces.hpp). fragments.hpp describes fragments, and
+// contact_history.hpp the ages of contacts.
 //
-// Points are Float32 (a hundred-millionth of the specimen) or Float64, what was computed Float64, ids and indices Int32
-// (indices Int64 beyond 2³¹), state and mode UInt8. What never changes is packed once and put into every file again, up
-// to 2,000 particles; beyond it would be a quarter of all memory, and packing it is little beside the steps between two
-// frames. Tested by tests/specimens/frames/frame_test.cpp.
+// Points are Float32 (resolution about 1e-8 of the specimen) or Float64, computed values Float64, ids and indices Int32
+// (indices Int64 beyond 2³¹), state and mode UInt8. For up to 2,000 particles, arrays that never change are compressed
+// once and written to every file. For more particles, keeping them would take a quarter of all memory, and compressing
+// them each time costs little compared with the steps between two frames.
+// Tested by tests/specimens/frames/frame_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -35,32 +38,38 @@
 
 namespace crackle {
 
-/// What each file of a frame holds of the moment, and of each cell, in the order of the file.
+/// Quantities that each file states for the whole frame, in file order.
 std::span<const Quantity> frame_fields();
+/// Arrays with a value for each particle, in file order.
 std::span<const Quantity> particle_arrays();
+/// Arrays with a value for each contact, in file order.
 std::span<const Quantity> contact_arrays();
+/// Arrays with a value for each crack, in file order.
 std::span<const Quantity> crack_arrays();
+/// Arrays with a value for each face on a joint, in file order.
 std::span<const Quantity> joint_arrays();
 
-/// Corners of a circle drawn among so many particles.
+/// Number of corners of a circle's polygon in files with `particles` particles.
 int circle_corners(std::int64_t particles);
-/// Corners of the regular polygon with the area of the unit circle, the first to the right.
+/// Corners of the regular polygon whose area equals that of the unit circle. The first corner lies on the +x axis.
 std::vector<Vec2> unit_circle_outline(int corners);
 
-enum class PointPrecision : std::uint8_t { single_, double_ };
-
-/// Draws the frames of one test.
+/// Writes the frames of one test.
 class FramePainter {
   public:
-    /// Both must outlive the painter.
-    FramePainter(const World& world, const TestSetup& setup, PointPrecision precision);
+    /// The world and the setup must outlive the painter.
+    FramePainter(const World& world, const TestSetup& setup, FramePrecision precision);
+    /// Whether this painter was made for the given world and setup.
     bool paints(const World& world, const TestSetup& setup) const { return &world == &world_ && &setup == &setup_; }
 
+    /// Writes particles_NNNNN.vtp.
     void write_particles(std::ostream& out, const PlacedFrame& placed, const FrameForces& forces) const;
-    /// @param cracks  those that had come at the moment of the frame, here and below
+    /// Writes contacts_NNNNN.vtp. @param cracks  cracks that exist at the time of the frame
     void write_contacts(std::ostream& out, const PlacedFrame& placed, const FrameForces& forces,
                         std::span<const Crack> cracks) const;
+    /// Writes cracks_NNNNN.vtp. @param cracks  cracks that exist at the time of the frame
     void write_cracks(std::ostream& out, const PlacedFrame& placed, std::span<const Crack> cracks) const;
+    /// Writes joints_NNNNN.vtp.
     void write_joints(std::ostream& out, const PlacedFrame& placed) const;
 
   private:
@@ -73,13 +82,13 @@ class FramePainter {
 
     const World& world_;
     const TestSetup& setup_;
-    PointPrecision precision_;
-    std::vector<BodyIndex> order_;  // in which bodies are drawn
-    std::vector<Vec2> outline_;     // of a circle
+    FramePrecision precision_;
+    std::vector<BodyIndex> order_;  // order of the bodies in files
+    std::vector<Vec2> outline_;     // polygon that represents the unit circle
     VtpCounts particle_counts_;
-    std::size_t centres_ = 0;  // of circles, from which contacts are drawn
-    std::string particle_cells_,
-        bond_cells_;  // what write_..._cells() write (without loose contacts), where it is kept
+    std::size_t centres_ = 0;  // number of circle centres, at which contacts end
+    // Cached output of write_particle_cells() and write_contact_cells() (without loose contacts), or empty.
+    std::string particle_cells_, bond_cells_;
 };
 
 }  // namespace crackle

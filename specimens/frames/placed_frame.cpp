@@ -19,7 +19,7 @@ BodyState PlacedFrame::body(BodyIndex b) const {
     const Frame::Body& place = frame_.bodies[b];
     BodyState body{place.x, place.y, 0.0, 0.0, 0.0, {0.0, 0.0}, place.angle};
     if (world_.bodies.info(b).single_circle) {
-        body.shape[0] = world_.bodies.state[b].shape[0];  // its radius, which never changes
+        body.shape[0] = world_.bodies.state[b].shape[0];  // the radius, which never changes
         return body;
     }
     body.shape[0] = turns_[b].x;

@@ -1,28 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bodies of a frame where they lay then, and surfaces of bodies that face each other: what is drawn from.
+// Positions of the bodies in a frame, and of their facing surfaces at contacts: the geometry needed to plot the frame.
 // Tested by tests/specimens/frames/frame_test.cpp.
 #pragma once
 
 #include <vector>
 
 #include "solver/geometry/geometry.hpp"
+#include "solver/world/world.hpp"
 #include "specimens/frames/frame.hpp"
 
 namespace crackle {
 
-/// A frame with the turn of each body, found once for all that is drawn of it. All three must outlive it.
+/// A frame with the rotation of each body as cosine and sine, computed once for all files of the frame.
 class PlacedFrame {
   public:
+    /// Computes the rotations. World, setup and frame must outlive this object.
     PlacedFrame(const World& world, const TestSetup& setup, const Frame& frame);
 
+    /// World of the test.
     const World& world() const { return world_; }
+    /// Setup of the test.
     const TestSetup& setup() const { return setup_; }
+    /// The frame itself.
     const Frame& frame() const { return frame_; }
-    /// Cosine and sine of what a body has turned since loading began.
+    /// Cosine and sine of a body's rotation since loading began.
     Vec2 turn(BodyIndex b) const { return turns_[b]; }
-    /// As BodyState's, without velocities.
+    /// Position of a body as a BodyState, without velocities.
     BodyState body(BodyIndex b) const;
-    /// Where a place, m, that moved along with a body since loading began is now.
+    /// Current position of a point that has moved with a body since loading began, m.
     Vec2 carried(BodyIndex b, Vec2 place) const;
 
   private:
@@ -32,19 +37,21 @@ class PlacedFrame {
     std::vector<Vec2> turns_;
 };
 
-/// By a turn's cosine and sine.
+/// Rotates a vector. @param turn  cosine and sine of the angle
 inline Vec2 rotated(Vec2 turn, Vec2 arm) { return {turn.x * arm.x - turn.y * arm.y, turn.y * arm.x + turn.x * arm.y}; }
 
-/// Where two bodies face each other at a contact point, m: points of their surfaces, which between polygons are the
-/// width of the gap apart, and the unit normal from i to j.
+/// Two surfaces that face each other at a contact point: a point on each, m, and the unit normal from i to j. Between
+/// polygons, the two points are a gap width apart.
 struct Facing {
     Vec2 on_i, on_j, normal;
-    double gap;  // m, of the outlines
+    double gap;  // m, distance between the two points along the normal
 };
 
-/// @param i  body_i of the point, where g was found
+/// The facing surfaces at a contact point.
+/// @param i  state of the point's body_i
+/// @param g  geometry computed for this state
 inline Facing facing_at(const TestSetup& setup, PointKind kind, const BodyState& i, const ContactGeometry& g) {
-    // A pair of segments sums up several overlaps: there the gap is that of the mesh.
+    // The overlap of a pair of segments is a sum of several overlaps, so the gap of the mesh is used instead.
     const bool outline = kind == PointKind::element_outline && setup.polygons;
     const double gap = outline                              ? setup.bond_thick - g.overlap
                        : kind == PointKind::segment_segment ? setup.mesh_gap
@@ -53,7 +60,7 @@ inline Facing facing_at(const TestSetup& setup, PointKind kind, const BodyState&
     return {middle - half_gap, middle + half_gap, normal, gap};
 }
 
-/// Where a bond is held to its two bodies when loading begins.
+/// The surfaces to which a bond is attached at the start of loading.
 template <PointKind K>
 Facing facing_at_start(const World& world, const TestSetup& setup, const ContactPoint& point) {
     const auto body = [&](BodyIndex b) {

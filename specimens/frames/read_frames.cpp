@@ -15,6 +15,7 @@
 #include <string>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/frames/base64.hpp"
 
@@ -31,8 +32,8 @@ std::uint64_t word_at(const Bytes& bytes, std::size_t index) {
     return word;
 }
 
-/// Undoes vtkZLibDataCompressor: base64 of {blocks, block size, size of a shorter last block, compressed sizes...},
-/// then base64 of the blocks.
+/// Decodes the format of vtkZLibDataCompressor. It is the base64 text of {number of blocks, block size, size of a
+/// shorter last block, compressed sizes...}, followed by the base64 text of the blocks.
 class ArrayReader {
   public:
     ArrayReader(const std::filesystem::path& in_file, const pugi::xml_node& array)
@@ -62,7 +63,7 @@ class ArrayReader {
             const bool shorter = block + 1 == blocks && word_at(header, 2) != 0;
             const std::uint64_t size = word_at(header, shorter ? 2 : 1);
             const std::uint64_t packed_size = word_at(header, 3 + block);
-            // zlib packs at most about 1000 : 1, so a larger claim is damage, not data.
+            // zlib compresses by a factor of at most about 1000, so a larger size indicates damage.
             if (packed_size > packed.size() - at || size > 1100 * packed_size) {
                 refuse_frame(file,
                              fmt::format("array '{}': found sizes that its {} bytes cannot hold", name, packed.size()));
@@ -198,11 +199,11 @@ std::map<std::string, double> read_field_values(const std::filesystem::path& fil
     errno = 0;
     std::ifstream in(file, std::ios::binary);
     if (!in) {
-        throw InputError(
-            fmt::format("{}: cannot be read ({}), expected a frame of a test", file.string(), std::strerror(errno)));
+        fail_reading(errno, fmt::format("{}: cannot be read ({}), expected a frame of a test", file.string(),
+                                        std::strerror(errno)));
     }
     std::string text, line;
-    constexpr std::size_t most = 1 << 16;  // a few numbers
+    constexpr std::size_t most = 1 << 16;  // bytes; enough for a few numbers
     while (text.size() < most && line != "</FieldData>" && std::getline(in, line)) text += line + '\n';
     refuse_failed(in, file.string());
     const std::size_t begin = text.find("<FieldData>");

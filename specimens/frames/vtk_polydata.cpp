@@ -35,27 +35,27 @@ std::span<const unsigned char> bytes_of(const std::vector<T>& values) {
     return {reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(T)};
 }
 
-/// Room that ISA-L takes to pack so many bytes at once: tables, and a token a byte at most. Clearing its usual 280 kB
-/// takes longer than packing the few kB of a small specimen's array.
+/// Memory that ISA-L needs to compress `bytes` bytes at once: its tables, and at most one token per byte. Clearing the
+/// default size of 280 kB would take longer than compressing the few kB of a small specimen's array.
 std::size_t packing_room(std::size_t bytes) {
     constexpr std::size_t tables = ISAL_DEF_LVL3_REQ, token = ISAL_DEF_LVL3_TOKEN_SIZE, spare = 64;
     return std::clamp<std::size_t>(tables + token * (bytes + spare), ISAL_DEF_LVL3_MIN, ISAL_DEF_LVL3_DEFAULT);
 }
 
-/// Appends one zlib stream by ISA-L: measured numbers are noise but for their exponents, and other packers spend ten
-/// times the time on looking for repeats in it. Not by its levels 1 and 2, which are half again as fast: in one of 500
-/// processes they find other repeats in the same bytes, depending on where memory lies (2.30.0).
+/// Appends one zlib stream compressed by ISA-L. Except for their exponents, the values are like noise, and other
+/// compressors take ten times as long because they search for repeats. Levels 1 and 2 are 1.5 times as fast but are not
+/// used: in one of 500 processes, their output for the same bytes depends on memory addresses (version 2.30.0).
 void append_packed(std::span<const unsigned char> bytes, std::vector<unsigned char>& packed) {
-    constexpr std::size_t slack = 512;  // heads of the stream and of blocks that do not shrink
+    constexpr std::size_t slack = 512;  // bytes for the headers of the stream, and for blocks that cannot be compressed
     std::vector<std::uint8_t> memory(packing_room(bytes.size()));
-    isal_zstream stream{};  // all of it: what the library leaves unset steers its search for repeats
+    isal_zstream stream{};  // zero everything, because members that the library leaves unset would affect the output
     isal_deflate_stateless_init(&stream);
     stream.level = 3;
     stream.level_buf = memory.data();
     stream.level_buf_size = static_cast<std::uint32_t>(memory.size());
     stream.gzip_flag = IGZIP_ZLIB;
     stream.end_of_stream = 1;
-    // The library reads only, but its pointer is not const.
+    // The library only reads from this pointer, although it is not const.
     stream.next_in = const_cast<std::uint8_t*>(bytes.data());
     stream.avail_in = static_cast<std::uint32_t>(bytes.size());
     const std::size_t begin = packed.size();
@@ -124,7 +124,8 @@ void PackedArray<T>::pack_block() {
     header_[3 + blocks_] = packed_.size() - before;
     ++blocks_;
     block_.clear();
-    if (!held_) write_packed(packed_.size() / 3 * 3);  // base64 runs on through all blocks
+    // Only whole base64 groups, because the encoding is continuous across blocks.
+    if (!held_) write_packed(packed_.size() / 3 * 3);
 }
 
 template <class T>

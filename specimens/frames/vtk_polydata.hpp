@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ParaView's XML PolyData (.vtp) and its collection file (.pvd), written piece after piece: an array is packed while
-// its values come, and a large one written, so that it never lies in memory. Arrays stand in the text as base64 of
-// zlib-compressed little-endian bytes (vtkZLibDataCompressor). Format: VTK File Formats, "XML File Formats".
+// Writes ParaView's XML PolyData (.vtp) and its collection file (.pvd) incrementally. An array is compressed while its
+// values are added. A large array is also written at the same time, so it is never in memory as a whole. Arrays are
+// stored as base64 of zlib-compressed little-endian bytes (vtkZLibDataCompressor). The format is described in VTK File
+// Formats, "XML File Formats".
 //
 //     write_vtp_head(out, fields, counts)
 //     begin_element(out, "Points"), a PackedArray, end_element(out, "Points"); Lines and Polys with connectivity and
@@ -20,60 +21,68 @@
 
 namespace crackle {
 
+/// Numbers of points and cells in a file.
 struct VtpCounts {
     std::size_t points = 0, lines = 0, polygons = 0;
 };
 
-/// @param fields  one number each, for the whole file
+/// Writes the beginning of a file. @param fields  names and values of numbers for the whole file
 void write_vtp_head(std::ostream& out, const std::vector<std::pair<std::string, double>>& fields,
                     const VtpCounts& counts);
+/// Writes the end of a file.
 void write_vtp_end(std::ostream& out);
+/// Writes the start tag of an XML element without attributes.
 void begin_element(std::ostream& out, std::string_view name);
+/// Writes the end tag of an XML element.
 void end_element(std::ostream& out, std::string_view name);
 
-/// One DataArray, written while its values come. T: double, float, std::int64_t, std::int32_t or std::uint8_t, under
-/// VTK's names for them.
+/// A DataArray element, written while values are added. T is double, float, std::int64_t, std::int32_t or std::uint8_t;
+/// the file uses VTK's names for these types.
 template <class T>
 class PackedArray {
   public:
-    /// @param out         seekable: the sizes of packed blocks stand before them
-    /// @param components  values a point or cell
-    /// @param values      how many will come in all
-    /// @param attributes  further ones, with a blank before each
+    /// @param out         seekable stream; the sizes of compressed blocks, which precede the blocks, are written last
+    /// @param components  values per point or cell
+    /// @param values      total number of values
+    /// @param attributes  further attributes, each preceded by a space
     PackedArray(std::ostream& out, std::string_view name, std::size_t components, std::size_t values,
                 std::string_view attributes = {});
+    /// Adds the next value of the array.
     void add(T value) {
         block_.push_back(value);
         if (block_.size() == block_values) pack_block();
     }
-    /// All values have come. @throws std::logic_error if they have not
+    /// Ends the array. @throws std::logic_error if values are missing
     void finish();
 
   private:
-    static constexpr std::size_t block_values = 3 << 12;  // whole records of one or three; stays in a core's cache
-    static constexpr std::size_t most_held = 1 << 20;     // bytes, of values; larger arrays are written block by block
+    // Divisible by 1 and by 3 components; a block fits into the cache.
+    static constexpr std::size_t block_values = 3 << 12;
+    static constexpr std::size_t most_held = 1 << 20;  // bytes of values; larger arrays are written block by block
     void pack_block();
     void write_header();
     void write_packed(std::size_t bytes);
 
     std::ostream& out_;
     std::size_t values_;
-    bool held_;  // nothing is written before the whole is packed: no way back to the header
+    bool held_;  // whether the array is written only when complete, without seeking back to the header
     std::vector<T> block_;
-    std::vector<unsigned char> packed_;  // not written yet
-    std::vector<std::uint64_t> header_;  // number of blocks, bytes of one, bytes of a shorter last one (0: it is
-                                         // whole), packed bytes of each
+    std::vector<unsigned char> packed_;  // compressed bytes not yet written
+    // Number of blocks, bytes per block, bytes of a shorter last block (0 if there is none), compressed bytes of each
+    // block.
+    std::vector<std::uint64_t> header_;
     std::size_t blocks_ = 0, added_ = 0;
     std::streampos header_at_;
 };
 
+/// A file of a collection, with the time that it shows.
 struct CollectionEntry {
     double time = 0.0;
     int part = 0;
-    std::string file;  ///< relative to the collection
+    std::string file;  ///< path relative to the collection file
 };
 
-/// The text of a .pvd file.
+/// Text of a .pvd file.
 std::string pvd_text(const std::vector<CollectionEntry>& entries);
 
 }  // namespace crackle

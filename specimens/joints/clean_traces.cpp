@@ -17,18 +17,21 @@
 namespace crackle {
 namespace {
 
-constexpr double simplified_share = 0.25, near_share = 0.5;  // of snap
-// Two traces beside each other for so many times the near distance are brought together; they part within so many.
+constexpr double simplified_share = 0.25, near_share = 0.5;  // relative to snap
+// Two traces that run within the distance near_ of each other over at least long_stretch times that distance are
+// merged. They separate over parting_stretch times that distance.
 constexpr double long_stretch = 10.0, parting_stretch = 5.0;
-constexpr double same_place_share = 1e-12;  // of the largest coordinate: rounding
-constexpr int most_passes = 100;            // some three are needed; each pass keeps every trace within snap
+// Relative to the largest coordinate: a trace counts as unmoved if it passes its nodes by less. This is half of what
+// the mesher takes for the same place, so that it still finds the nodes of other traces on an unmoved one.
+constexpr double same_place_share = 5e-14;
+constexpr int most_passes = 100;  // about three passes are needed; every trace stays within snap in each pass
 
 struct Line {
     Vec2 a, b;
 
     Vec2 at(double share) const { return a + share * (b - a); }
     double length() const { return norm(b - a); }
-    /// Of the nearest place, 0 to 1.
+    /// Parameter, 0 to 1, of the point on the line that is nearest to p.
     double share_at(Vec2 p) const {
         const Vec2 d = b - a;
         const double squared = dot(d, d);
@@ -44,7 +47,7 @@ double distance_to(const std::vector<Vec2>& points, Vec2 p) {
     return least;
 }
 
-/// Without points that lie within the tolerance of straight lines between those kept.
+/// Simplifies a trace: points within the tolerance of straight lines between the remaining points are removed.
 std::vector<Vec2> simplified(const std::vector<Vec2>& points, double tolerance) {
     std::vector<char> kept(points.size(), 0);
     kept.front() = kept.back() = 1;
@@ -105,15 +108,15 @@ class TraceCleaner {
     const Cleaning& report() const { return report_; }
 
   private:
-    /// A straight part of a trace, or a wall, and the nodes through which it goes now.
+    /// A straight segment of a trace, or a wall, with the nodes through which it currently runs.
     struct Part {
-        std::size_t trace;  // of walls none
+        std::size_t trace;  // unused for walls
         Line given;
         std::vector<int> nodes;
     };
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
     struct Edge {
-        std::size_t part, index;  // from the part's node of that index to the next
+        std::size_t part, index;  // index of the part, and of the node at which the edge begins
         int from, to;
         Line line;
 
@@ -129,7 +132,7 @@ class TraceCleaner {
         }
     }
 
-    /// Where the mesher would take an end to, it counts among the nodes.
+    /// Moves the ends of traces to where the mesher would extend them.
     void join_ends(double reach) {
         std::vector<std::vector<Point>> lines;
         for (const std::vector<Vec2>& points : lines_) {
@@ -142,7 +145,7 @@ class TraceCleaner {
             (end.first ? points.front() : points.back()) = {end.place.x, end.place.y};
         }
     }
-    /// The mesher would take an end to where the other trace was.
+    /// Marks traces as changed if the mesher would extend their ends to a trace that has changed.
     void keep_joined_ends() {
         for (bool more = true; more;) {
             more = false;
@@ -159,7 +162,7 @@ class TraceCleaner {
         return (p.x == box_.x1 ? 1U : 0U) | (p.x == box_.x2 ? 2U : 0U) | (p.y == box_.y1 ? 4U : 0U) |
                (p.y == box_.y2 ? 8U : 0U);
     }
-    /// Onto the walls that are near.
+    /// Moves a point onto nearby walls.
     Vec2 at_near_walls(Vec2 p) const {
         for (const double wall : {box_.x1, box_.x2})
             if (std::abs(p.x - wall) <= near_) p.x = wall;
@@ -174,7 +177,7 @@ class TraceCleaner {
         nodes_.push_back(p);
         return static_cast<int>(nodes_.size()) - 1;
     }
-    /// The nearest node within the near distance that passes a test; -1: none.
+    /// The nearest node within the distance near_ that passes a test; -1 if there is no such node.
     template <class Test>
     int node_near(Vec2 p, Test test) const {
         int best = -1;
@@ -193,11 +196,13 @@ class TraceCleaner {
         }
         return best;
     }
-    /// A node where none is near; -1: one is. So their number in the box is bounded.
+    /// Adds a node unless another node is near, so that the number of nodes in the box is bounded.
+    /// @return -1 if another node is near
     int new_node(Vec2 p) {
         return node_near(p, [](int) { return true; }) < 0 ? add_node(p) : -1;
     }
-    /// A node for a point of a trace: an earlier one, or a new one there or at a wall. What lies on a wall stays there.
+    /// The node for a point of a trace: an existing one nearby, or a new one at the point or on a nearby wall. Points
+    /// on a wall stay on the wall.
     int node_for(Vec2 p) {
         const unsigned walls = walls_at(p);
         const int near = node_near(p, [&](int node) { return (walls_at(place(node)) & walls) == walls; });
@@ -211,7 +216,7 @@ class TraceCleaner {
         return beside >= 0 ? beside : add_node(there);
     }
 
-    /// Corners first, then what lies on walls, then the rest.
+    /// Places nodes for corners first, then for points on walls, then for all others.
     void place_nodes() {
         const std::array<Vec2, 4> corners{Vec2{box_.x1, box_.y1}, Vec2{box_.x2, box_.y1}, Vec2{box_.x2, box_.y2},
                                           Vec2{box_.x1, box_.y2}};
@@ -252,7 +257,7 @@ class TraceCleaner {
         return all;
     }
 
-    /// Whether a part may be led through a node.
+    /// Whether an edge may be routed through a node.
     bool may_take(const Edge& edge, int node) const {
         const Part& part = parts_[edge.part];
         if (std::find(part.nodes.begin(), part.nodes.end(), node) != part.nodes.end()) return false;
@@ -264,7 +269,7 @@ class TraceCleaner {
         if (!edge.ends_at(node)) taken_[{edge.part, edge.index}].push_back(node);
     }
 
-    /// One pass over all edges that come near each other. @return whether anything was done
+    /// Makes one pass over all pairs of edges that are near each other. @return whether anything was changed
     bool bring_together() {
         const std::vector<Edge> all = edges();
         std::vector<Segment> segments;
@@ -274,7 +279,7 @@ class TraceCleaner {
         std::sort(pairs.begin(), pairs.end());
         taken_.clear();
         for (const auto& [i, j] : pairs) attract(all[i], all[j]);
-        if (taken_.empty()) {  // edges are where they will be
+        if (taken_.empty()) {  // no edge is to be routed through ends of others
             for (const auto& [i, j] : pairs) {
                 if (const auto crossing = crossing_of(all[i], all[j]))
                     cross_at(all[i], all[j], *crossing);
@@ -287,7 +292,7 @@ class TraceCleaner {
         for (auto where = taken_.rbegin(); where != taken_.rend(); ++where) insert(where->first, where->second);
         return any;
     }
-    using Where = std::pair<std::size_t, std::size_t>;  // a part, and the index of its edge
+    using Where = std::pair<std::size_t, std::size_t>;  // index of a part, and of an edge within it
     void sort_along(const Where& where, std::vector<int>& nodes) const {
         const std::vector<int>& of = parts_[where.first].nodes;
         const Line line{place(of[where.second]), place(of[where.second + 1])};
@@ -305,7 +310,7 @@ class TraceCleaner {
         }
     }
 
-    /// Each goes through ends of the other that are near.
+    /// Routes each edge through those ends of the other that are near.
     void attract(const Edge& s, const Edge& t) {
         for (const auto& [edge, other] : {std::pair{&s, &t}, {&t, &s}})
             for (const int node : {other->from, other->to})
@@ -313,7 +318,7 @@ class TraceCleaner {
                     take(*edge, node);
     }
 
-    /// Where two edges cross, at no end of theirs.
+    /// Point where two edges cross, unless they meet at a common end.
     static std::optional<Vec2> crossing_of(const Edge& s, const Edge& t) {
         if (s.ends_at(t.from) || s.ends_at(t.to)) return std::nullopt;
         const Vec2 d = s.line.b - s.line.a, e = t.line.b - t.line.a, between = t.line.a - s.line.a;
@@ -321,17 +326,19 @@ class TraceCleaner {
         if (sine == 0.0) return std::nullopt;
         const double of_s = cross(between, e) / sine, of_t = cross(between, d) / sine;
         if (!(of_s > 0.0 && of_s < 1.0 && of_t > 0.0 && of_t < 1.0)) return std::nullopt;
-        return s.line.length() >= t.line.length() ? s.line.at(of_s) : t.line.at(of_t);  // the more exact one
+        // The longer edge gives the more accurate point.
+        return s.line.length() >= t.line.length() ? s.line.at(of_s) : t.line.at(of_t);
     }
     void cross_at(const Edge& s, const Edge& t, Vec2 crossing) {
         int node = node_near(crossing, [&](int n) { return has_or_may_take(s, n) && has_or_may_take(t, n); });
         if (node < 0) node = new_node(crossing);
-        if (node < 0) return;  // the mesher cuts them there
+        if (node < 0) return;  // the mesher will cut both edges at the crossing
         take(s, node);
         take(t, node);
     }
 
-    /// Where t, the later one, stays near s for long it runs on s, and leaves it over a short way of its own.
+    /// If the later edge t stays near s over a long stretch, it is made to follow s. It leaves s over a short stretch
+    /// of its own.
     void run_together(const Edge& s, const Edge& t) {
         if (s.ends_at(t.from) && s.ends_at(t.to)) return;
         const double length = t.line.length();
@@ -374,7 +381,7 @@ class TraceCleaner {
         return wall.a.x == wall.b.x ? Vec2{wall.a.x, p.y} : Vec2{p.x, wall.a.y};
     }
 
-    /// All nodes of a trace, one after another apart.
+    /// All nodes of a trace; consecutive nodes are distinct.
     std::vector<int> nodes_of(std::size_t trace) {
         std::vector<int> all;
         for (; next_part_ < parts_.size(); ++next_part_) {
@@ -386,7 +393,7 @@ class TraceCleaner {
         }
         return all;
     }
-    /// What of a trace lies on no wall and on no earlier trace, in its pieces.
+    /// Appends the pieces of a trace that lie neither on a wall nor on an earlier trace.
     void append(std::vector<JointTrace>& all, std::size_t trace, std::set<std::pair<int, int>>& taken) {
         const std::vector<int> nodes = nodes_of(trace);
         std::vector<std::vector<Vec2>> pieces;
@@ -422,7 +429,8 @@ class TraceCleaner {
             all.back().centred = given.centred && piece == longest;
         }
     }
-    /// How far the trace lies from where it was, but for its ends' way to others, and what they cut off by it.
+    /// Measures how far the trace has moved from its original position. Extensions of its ends, and the parts that they
+    /// cut off, do not count.
     void measure(std::size_t trace, const std::vector<int>& nodes) {
         std::vector<Vec2> was = given_[trace].points, is;
         was.front() = lines_[trace].front();
@@ -437,14 +445,14 @@ class TraceCleaner {
     const std::vector<JointTrace>& given_;
     Domain box_;
     double simplified_, near_, farthest_, same_place_;
-    std::vector<std::vector<Vec2>> lines_;  // by trace: simplified, its ends where the mesher would take them
+    std::vector<std::vector<Vec2>> lines_;  // simplified traces, with ends extended as the mesher would
     std::vector<TraceGraph::MovedEnd> joined_;
-    std::vector<Part> parts_;  // walls, then the traces' in order
+    std::vector<Part> parts_;  // walls, then the parts of all traces in order
     std::size_t next_part_ = 0;
     std::vector<Vec2> nodes_;
     Squares squares_;
-    std::vector<char> changed_;                // by trace
-    std::map<Where, std::vector<int>> taken_;  // nodes through which edges are to be led
+    std::vector<char> changed_;                // by trace: whether it has changed
+    std::map<Where, std::vector<int>> taken_;  // nodes through which edges are to be routed
     Cleaning report_;
 };
 
@@ -455,15 +463,14 @@ std::string cleaning_text(const Cleaning& cleaning) {
     const std::string snap = fmt::format(
         "joints: snap = {:.4g} m{}", cleaning.snap,
         cleaning.derived ? fmt::format(" by default, {} of the mean spacing of the grains", snap_share) : "");
-    if (!cleaning.changed()) return snap + ": no nodes are that close, no point could be left out";
+    if (!cleaning.changed()) return snap + ": no nodes are that close, and no point can be removed";
     std::string text = fmt::format(
         "{}: {} point{} left out, {} node{} brought together, none moved further than {:.3g} m; {:.6g} m of "
         "traces ({:.6g} m before)",
         snap, cleaning.points_left_out, cleaning.points_left_out == 1 ? "" : "s", cleaning.brought_together,
         cleaning.brought_together == 1 ? "" : "s", cleaning.largest_displacement, cleaning.length,
         cleaning.length_before);
-    if (cleaning.coincident > 0.0)
-        text += fmt::format(", {:.3g} m that lay on others or on walls left out", cleaning.coincident);
+    if (cleaning.coincident > 0.0) text += fmt::format(", {:.3g} m on others or on walls removed", cleaning.coincident);
     return text;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Liang & Barsky, ACM Trans. Graph. 3, 1984.
+// Clipping by Liang & Barsky, ACM Trans. Graph. 3, 1984.
 #include "specimens/joints/clipping.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Traces cut by a box: what lies inside, its ends exactly on the box's faces.
+// Clips traces to a box: keeps the parts inside, with ends exactly on the faces of the box.
 // Tested by tests/specimens/joints/joint_network_test.cpp.
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace crackle {
 
-/// What of a straight line from a to b lies in the box; nothing where that has no length.
+/// The part inside the box of a straight line from a to b; empty if it has zero length.
 std::optional<std::pair<Vec2, Vec2>> clipped(Vec2 a, Vec2 b, const Domain& box);
 
-/// The pieces of a line of straight parts that lie in the box, in its order. Repeated points are left out.
+/// The pieces of a polyline inside the box, in order. Repeated points are removed.
 std::vector<std::vector<Vec2>> clipped(const std::vector<Vec2>& points, const Domain& box);
 
 }  // namespace crackle

@@ -22,19 +22,19 @@ constexpr double radians = std::numbers::pi / 180.0;
 
 Vec2 unit(double angle) { return {cr::cos(angle), cr::sin(angle)}; }
 
-/// The distances between lines, gaps between traces, and the like.
+/// Distribution of lengths such as distances between lines or gaps between traces, from mean and optional deviation.
 LengthLaw spread_law(double mean, const std::optional<double>& deviation) {
     return deviation ? LengthLaw::uniform(mean, *deviation) : LengthLaw::fixed(mean);
 }
 
 LengthLaw spacing_law(const TestCase::JointSet& set) {
-    const std::string law = set.spacing_law.value_or("fixed");
-    if (law == "exponential") return LengthLaw::exponential(*set.spacing);
-    if (law == "lognormal") return LengthLaw::lognormal(*set.spacing, *set.spacing_deviation);
-    return spread_law(*set.spacing, law == "uniform" ? set.spacing_deviation : std::nullopt);
+    if (set.spacing_law == JointSpacing::exponential) return LengthLaw::exponential(*set.spacing);
+    if (set.spacing_law == JointSpacing::lognormal) return LengthLaw::lognormal(*set.spacing, *set.spacing_deviation);
+    return spread_law(*set.spacing, set.spacing_law == JointSpacing::uniform ? set.spacing_deviation : std::nullopt);
 }
 
-/// Lengths by strata: of number k those that between 2^-(k+1) and 2^-k of all exceed.
+/// A length distribution divided into strata. Stratum k contains the lengths exceeded by a fraction between 2^-(k+1)
+/// and 2^-k of all lengths.
 class LengthStrata {
   public:
     LengthStrata(const LengthLaw& law, double width, double height) : law_(law) {
@@ -50,7 +50,8 @@ class LengthStrata {
     struct Drawn {
         double length, longest;
     };
-    /// Strata as often as the box, wider by half their longest length on every side, has room for their midpoints.
+    /// Draws a length. The probability of a stratum is proportional to its fraction times the area of the box, widened
+    /// by half the stratum's longest length on every side.
     Drawn draw(std::mt19937_64& generator) const {
         const double at = sum_ * uniform_number(generator);
         const auto k = static_cast<std::size_t>(
@@ -60,11 +61,11 @@ class LengthStrata {
         return {std::min(law_.exceeded_by(share), longest_[k]), longest_[k]};
     }
 
-    /// Draws for one midpoint in an area of 1 m2.
+    /// Number of draws for each midpoint per m2.
     double draws_of_a_midpoint() const { return sum_; }
 
   private:
-    static constexpr std::size_t count = 50;  // of what is longer there is one in 1e15
+    static constexpr std::size_t count = 50;  // lengths beyond the last stratum have a fraction of 1e-15
     const LengthLaw& law_;
     std::array<double, count> longest_{}, weight_below_{};
     double sum_ = 0.0;
@@ -92,17 +93,17 @@ class SetDrawing {
     }
 
     std::vector<JointTrace> draw() {
-        constexpr double parallel = 1e-6;  // sine
+        constexpr double parallel = 1e-6;  // sine below which directions count as parallel
         if (set_.p10 && directions_.single() &&
             std::abs(cross(unit(directions_.mean()), unit(scan_line_))) < parallel) {
             throw InputError(
-                fmt::format("{}: found {} deg, the direction of the set, expected another: such a line "
-                            "crosses none of it",
+                fmt::format("{}: found {} deg, the direction of the set, expected another direction, since a line "
+                            "along the set crosses none of its traces",
                             at("scan_line"), *set_.scan_line));
         }
         if (set_.spacing)
             lines_at_spacing();
-        else if (set_.length == "persistent" || set_.length == "gaps")
+        else if (set_.length == JointLength::persistent || set_.length == JointLength::gaps)
             lines_anywhere();
         else
             midpoints();
@@ -116,7 +117,7 @@ class SetDrawing {
         return set_.number ? "number" : set_.p10 ? "p10" : set_.p20 ? "p20" : set_.p21 ? "p21" : "spacing";
     }
 
-    /// What of the amount is still missing, in its own measure times the area; the trace counted by measure_of().
+    /// The requested amount multiplied by the area, in the units in which measure_of() counts a trace.
     double asked() const {
         const double area = width_ * height_;
         if (set_.number) return static_cast<double>(*set_.number);
@@ -139,7 +140,7 @@ class SetDrawing {
 
     bool full() const { return !set_.spacing && reached_ >= asked_; }
 
-    /// Takes a trace that lies in the box; the last one is shortened where its length counts.
+    /// Adds a trace in the box. The last trace is shortened if the amount depends on lengths.
     void take(JointTrace trace) {
         if (traces_.size() >= most_traces_of_a_set)
             throw InputError(
@@ -153,7 +154,7 @@ class SetDrawing {
             const Vec2 start = trace.points.front();
             end = start + share * (end - start);
             reached_ = asked_;
-            if (!(norm(end - start) > least_share * diagonal_)) return;  // nothing is missing
+            if (!(norm(end - start) > least_share * diagonal_)) return;  // too short to count
         } else {
             reached_ += more;
         }
@@ -168,18 +169,19 @@ class SetDrawing {
         take({{part->first, part->second}, source_, whole_length, centred});
     }
 
-    /// @throws InputError for traces that rounding makes points, of which none would ever count
+    /// @throws InputError if traces are so short that rounding reduces them to points, which never count
     void refuse_points(const char* key, double found, double typical) const {
         if (!(typical >= least_share * diagonal_))
             throw InputError(fmt::format(
-                "{}: found {} m, expected lengths of at least {:.3g} m, a share of {} of the box's diagonal, "
+                "{}: found {} m, expected lengths of at least {:.3g} m, a fraction of {} of the box's diagonal, "
                 "for half of the traces; make them longer",
                 at(key), found, least_share * diagonal_, least_share));
     }
 
-    /// @throws InputError for midpoints strewn so far that hardly one of their traces meets the box
+    /// @throws InputError if midpoints are so widely distributed that hardly any of their traces meets the box
     void refuse_endless(const char* key, double found, const LengthLaw& law, const LengthStrata& strata) const {
-        // Midpoints in the whole plane, per area; seen along any scan line a trace is at most its length.
+        // Midpoints per area of the whole plane. The length of a trace across any scan line is at most the length of
+        // the trace.
         const double area = width_ * height_, mean = law.mean();
         const double density = set_.number ? asked_ / (area + mean * (width_ + height_))
                                : set_.p20  ? asked_ / area
@@ -187,9 +189,9 @@ class SetDrawing {
         const double draws = density * strata.draws_of_a_midpoint();
         if (!(draws <= most_drawn))
             throw InputError(fmt::format(
-                "{}: found {} m, expected lengths nearer to those of the box, {:.4g} m by {:.4g} m: {:.2g} "
-                "midpoints would have to be drawn for those that meet it, at most {:.0e} are; make the traces "
-                "shorter, or ask for fewer",
+                "{}: found {} m, expected lengths closer to the size of the box, {:.4g} m by {:.4g} m; {:.2g} "
+                "midpoints would have to be drawn, more than {:.0e}, because few traces meet the box; make the traces "
+                "shorter or reduce their number",
                 at(key), found, width_, height_, draws, most_drawn));
     }
 
@@ -197,7 +199,7 @@ class SetDrawing {
         asked_ = asked();
         const LengthLaw law = length_law(set_);
         const LengthStrata strata(law, width_, height_);
-        const bool power_law = set_.length == "power_law";
+        const bool power_law = set_.length == JointLength::power_law;
         refuse_points(power_law ? "length_min" : "length_mean", power_law ? *set_.length_min : *set_.length_mean,
                       law.exceeded_by(0.5));
         refuse_endless(power_law ? "length_max" : "length_mean", power_law ? *set_.length_max : *set_.length_mean, law,
@@ -213,12 +215,12 @@ class SetDrawing {
         }
     }
 
-    /// One line through the plane: a joint all along it, or joints and gaps in turn.
+    /// Adds one line through the plane: either a joint over its whole length, or joints alternating with gaps.
     void line(Vec2 through, double angle) {
         const Vec2 along = unit(angle);
-        // Beyond the box either way, wherever on the line the point is.
+        // The reach extends beyond the box at both ends, whatever point of the line is given.
         const double middle = dot(centre_ - through, along), reach = diagonal_;
-        if (set_.length == "persistent") {
+        if (set_.length == JointLength::persistent) {
             take_part(through + (middle - reach) * along, through + (middle + reach) * along,
                       std::numeric_limits<double>::infinity());
             return;
@@ -229,15 +231,15 @@ class SetDrawing {
         refuse_points("length_mean", joint.mean(), joint.mean());
         if (gap.mean() > most_gap_share * diagonal_)
             throw InputError(
-                fmt::format("{}: found {} m, expected at most {:.4g} m, {} diagonals of the box: hardly a line would "
-                            "have a joint in it; make the gaps shorter",
+                fmt::format("{}: found {} m, expected at most {:.4g} m, {} diagonals of the box; with longer gaps, "
+                            "hardly any line would have a joint in the box",
                             at("gap_mean"), gap.mean(), most_gap_share * diagonal_, most_gap_share));
         if (2.0 * reach / cycle > static_cast<double>(most_traces_of_a_set))
             throw InputError(
-                fmt::format("{}: found {} m and gaps of {} m, expected at most {} of them along the box; "
+                fmt::format("{}: found {} m and gaps of {} m, expected at most {} joints along the box; "
                             "make them longer",
                             at("length_mean"), joint.mean(), gap.mean(), most_traces_of_a_set));
-        // Some of both before the box: where it begins, they are as anywhere.
+        // Joints and gaps begin well before the box, so that their distribution inside is stationary.
         double from = middle - reach - (settling_cycles + uniform_number(generator_)) * cycle;
         while (from < middle + reach && !full()) {
             const double length = joint.draw(generator_);
@@ -246,7 +248,7 @@ class SetDrawing {
         }
     }
 
-    /// Of the box, seen along a direction.
+    /// Half the width of the box perpendicular to a direction.
     double half_width_across(Vec2 along) const {
         return 0.5 * (std::abs(along.y) * width_ + std::abs(along.x) * height_);
     }
@@ -264,7 +266,7 @@ class SetDrawing {
     void lines_at_spacing() {
         const LengthLaw law = spacing_law(set_);
         const Vec2 along = unit(directions_.mean()), normal = perpendicular(along);
-        // Of lines that deviate from the mean by d those that meet the box lie up to 1/cos d further off.
+        // Lines that deviate from the mean direction by d and meet the box lie up to 1/cos d times farther away.
         const double half_width = directions_.single() ? half_width_across(along) : 0.5 * diagonal_;
         const double reach = half_width * directions_.stretch();
         const auto refuse_beyond = [&](double length, double most, const char* lines) {
@@ -273,7 +275,7 @@ class SetDrawing {
                                              at("spacing"), *set_.spacing, most, lines));
         };
         refuse_beyond(2.0 * half_width, most_traces_of_a_set, "in the box");
-        refuse_beyond(2.0 * reach, most_drawn, "beside the box, which may meet it by their scatter");
+        refuse_beyond(2.0 * reach, most_drawn, "beside the box, which may meet it because of their scatter");
         const auto place = [&](double offset) {
             const double angle = directions_.draw(generator_);
             const Vec2 through = centre_ + offset * normal;
@@ -291,10 +293,11 @@ class SetDrawing {
         const double first = dot(Vec2{(*set_.through)[0], (*set_.through)[1]} - centre_, normal);
         if ((std::abs(first) + half_width) / *set_.spacing > static_cast<double>(most_traces_of_a_set))
             throw InputError(
-                fmt::format("{}: found a point more than {} spacings away from the box, expected it "
-                            "nearer; choose one inside",
+                fmt::format("{}: found a point more than {} spacings away from the box, expected one "
+                            "closer to the box; choose one inside",
                             at("through"), most_traces_of_a_set));
-        // From that line up, then down; those beyond the box's far side are walked through alike.
+        // Places lines upwards from the first one, then downwards, including lines that may meet the box only because
+        // they scatter.
         const double furthest = std::abs(first) + reach;
         double offset = 0.0;
         for (; offset <= furthest; offset += law.draw(generator_))
@@ -305,8 +308,8 @@ class SetDrawing {
 
     static constexpr double settling_cycles = 20.0;
     static constexpr double most_gap_share = 1e3;
-    static constexpr double most_drawn = 1e7;    // seconds of drawing
-    static constexpr double least_share = 1e-9;  // of the box's diagonal: a trace shorter than that is rounding
+    static constexpr double most_drawn = 1e7;    // number of draws, which take some seconds
+    static constexpr double least_share = 1e-9;  // relative to the box's diagonal; shorter traces are rounding errors
 
     const TestCase& test_;
     std::size_t number_;
@@ -326,10 +329,10 @@ class SetDrawing {
 
 OrientationLaw orientation_law(const TestCase& test, std::size_t set) {
     const TestCase::JointSet& s = test.joint_set[set];
-    if (s.orientation == "fisher") {
+    if (s.orientation == JointOrientation::fisher) {
         const double trend = *test.joints.section_trend * radians;
         const Section section =
-            test.joints.section == "vertical" ? Section::vertical(trend) : Section::horizontal(trend);
+            test.joints.section == JointSection::vertical ? Section::vertical(trend) : Section::horizontal(trend);
         try {
             return OrientationLaw::fisher(*s.dip * radians, *s.dip_direction * radians, *s.fisher_k, section);
         } catch (const InputError& error) {
@@ -337,16 +340,17 @@ OrientationLaw orientation_law(const TestCase& test, std::size_t set) {
         }
     }
     const double angle = *s.angle * radians;
-    if (s.orientation == "uniform") return OrientationLaw::uniform(angle, *s.angle_deviation * radians);
-    if (s.orientation == "von_mises") return OrientationLaw::von_mises(angle, *s.kappa);
+    if (s.orientation == JointOrientation::uniform) return OrientationLaw::uniform(angle, *s.angle_deviation * radians);
+    if (s.orientation == JointOrientation::von_mises) return OrientationLaw::von_mises(angle, *s.kappa);
     return OrientationLaw::fixed(angle);
 }
 
 LengthLaw length_law(const TestCase::JointSet& set) {
-    if (set.length == "uniform") return LengthLaw::uniform(*set.length_mean, *set.length_deviation);
-    if (set.length == "lognormal") return LengthLaw::lognormal(*set.length_mean, *set.length_deviation);
-    if (set.length == "exponential") return LengthLaw::exponential(*set.length_mean);
-    if (set.length == "power_law") return LengthLaw::power_law(*set.length_min, *set.length_max, *set.length_exponent);
+    if (set.length == JointLength::uniform) return LengthLaw::uniform(*set.length_mean, *set.length_deviation);
+    if (set.length == JointLength::lognormal) return LengthLaw::lognormal(*set.length_mean, *set.length_deviation);
+    if (set.length == JointLength::exponential) return LengthLaw::exponential(*set.length_mean);
+    if (set.length == JointLength::power_law)
+        return LengthLaw::power_law(*set.length_min, *set.length_max, *set.length_exponent);
     return LengthLaw::fixed(*set.length_mean);
 }
 

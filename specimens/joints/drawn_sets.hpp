@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One [[joint_set]] drawn in a box: see make_joints().
+// Draws the traces of one [[joint_set]] in a box; make_joints() describes how.
 // Tested by tests/specimens/joints/joint_network_test.cpp.
 #pragma once
 
@@ -13,19 +13,21 @@
 
 namespace crackle {
 
-/// More traces than this in one set are refused.
+/// Largest number of traces of one set; sets that need more are rejected.
 inline constexpr std::size_t most_traces_of_a_set = 100'000;
 
-/// @throws InputError naming the key, for planes without a trace
+/// Distribution of the directions of a set.
+/// @throws InputError naming the key, if the planes do not intersect the section
 OrientationLaw orientation_law(const TestCase& test, std::size_t set);
-/// Of lengths that are drawn: not of length = "persistent" and "gaps".
+/// Distribution of the trace lengths of a set, except for length = "persistent" and "gaps".
 LengthLaw length_law(const TestCase::JointSet& set);
 
-/// @param source given to the traces @throws InputError as make_joints()
+/// Draws a set. @param source  index to be stored in the traces @throws InputError as make_joints() does
 std::vector<JointTrace> draw_set(const TestCase& test, std::size_t set, const OrientationLaw& directions,
                                  const Domain& box, std::size_t source);
 
-/// Length of a trace seen along a scan line: of that length of line one in so many crosses it. @param scan_line rad
+/// Length of a trace projected perpendicular to a scan line. The sum of these lengths, divided by the area, is the
+/// number of crossings per length of scan line.
 double length_across(const JointTrace& trace, double scan_line);
 
 }  // namespace crackle

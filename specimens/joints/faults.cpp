@@ -12,11 +12,12 @@
 namespace crackle {
 namespace {
 
-// Cosines of the turn from one row to the next: of a bend of 60 degrees, and of one of 150, which runs back.
+// Cosines of the turn from one row to the next: for a bend of 60 degrees, and for a bend of 150 degrees, beyond which a
+// row runs back.
 constexpr double least_straight = 0.5, runs_back = -0.866;
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-/// End 2r of row r is its first point, 2r + 1 its last.
+/// Joins rows at their ends. End 2r is the first point of row r, and end 2r + 1 its last point.
 class RowJoiner {
   public:
     RowJoiner(const std::vector<std::vector<Vec2>>& rows, double reach)
@@ -42,7 +43,7 @@ class RowJoiner {
   private:
     Vec2 place(std::size_t end) const { return end % 2 == 0 ? rows_[end / 2].front() : rows_[end / 2].back(); }
 
-    /// In the order of the rows; an end belongs to the first node that it is near to.
+    /// The ends at each node, in row order. An end belongs to the first node that is near.
     std::vector<std::vector<std::size_t>> ends_by_node() const {
         double length = 0.0;
         for (const std::vector<Vec2>& row : rows_) length += length_of(row) / static_cast<double>(rows_.size());
@@ -74,7 +75,7 @@ class RowJoiner {
         return nodes;
     }
 
-    /// Away from an end, along its row: to the first point beyond the reach, or the other end.
+    /// Direction from an end of a row along that row, to the first point beyond the reach or to the other end.
     Vec2 direction(std::size_t end) const {
         const std::vector<Vec2>& row = rows_[end / 2];
         Vec2 way;
@@ -87,7 +88,7 @@ class RowJoiner {
     }
     void pair_up(const std::vector<std::size_t>& ends) {
         struct Turn {
-            double straight;  // 1: no bend
+            double straight;  // cosine of the bend; 1 if there is no bend
             std::size_t first, second;
         };
         std::vector<Turn> turns;
@@ -108,7 +109,7 @@ class RowJoiner {
         }
     }
 
-    /// Appends the rows that go on from an end.
+    /// Appends the rows that follow an end to a fault.
     void follow(Fault& fault, std::size_t end) {
         for (std::size_t next = partner_[end]; next != none && used_[next / 2] == 0; next = partner_[next ^ 1U]) {
             const std::size_t row = next / 2;
@@ -123,7 +124,7 @@ class RowJoiner {
 
     const std::vector<std::vector<Vec2>>& rows_;
     double reach_;
-    std::vector<std::size_t> partner_;  // by end
+    std::vector<std::size_t> partner_;  // by end: the end to which it is joined
     std::vector<char> used_;            // by row
 };
 

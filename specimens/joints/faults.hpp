@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of a survey that are segments of one fault (lists and branch tables have it so), joined end to end.
+// Joins rows of a survey end to end if they are segments of one fault; list files and branch tables store faults as
+// several rows.
 // Tested by tests/specimens/joints/faults_test.cpp.
 #pragma once
 
@@ -13,13 +14,14 @@ namespace crackle {
 /// Rows joined end to end.
 struct Fault {
     std::vector<Vec2> points;
-    std::size_t row = 0;   ///< the first of its rows, which gives it its direction
-    std::size_t rows = 1;  ///< so many
+    std::size_t row = 0;   ///< index of the first of its rows, which determines the direction
+    std::size_t rows = 1;  ///< number of rows joined
 };
 
-/// Two rows alone at a node are one fault, unless the second runs back beside the first; where more meet, those that go
-/// on most straightly are, at a bend of at most 60 degrees. In the order of their first rows.
-/// @param reach  m: ends that near to each other are at one node; 0: ends alike to the last digit
+/// Joins rows to faults, ordered by their first rows. If exactly two rows meet at a node, they form one fault unless
+/// the second runs back alongside the first. If more rows meet, the straightest pair forms one fault if it bends by at
+/// most 60 degrees.
+/// @param reach  m; ends within this distance are at one node; 0: ends must coincide exactly
 std::vector<Fault> joined_rows(const std::vector<std::vector<Vec2>>& rows, double reach);
 
 }  // namespace crackle

@@ -11,7 +11,7 @@
 namespace crackle {
 namespace {
 
-/// m2, squared distance of a point from a straight part.
+/// Squared distance of a point from a straight segment, m2.
 double squared_distance(Vec2 p, Vec2 a, Vec2 b) {
     const Vec2 along = b - a;
     const double share = dot(p - a, along) / dot(along, along);
@@ -19,8 +19,8 @@ double squared_distance(Vec2 p, Vec2 a, Vec2 b) {
     return dot(p - nearest, p - nearest);
 }
 
-/// Of an edge on a trace, seen along its points: a cell, which lies to the left of its edges, lies to the left of the
-/// trace where they run the same way. Of a bent trace the part counts that is nearest to the edge's middle.
+/// Side of a trace on which the cell of an edge lies. A cell lies to the left of its edges, and therefore to the left
+/// of a trace in the same direction. On a bent trace, the segment nearest to the edge's midpoint decides.
 TraceSide side_of(const JointTrace& trace, std::int32_t number, Vec2 from, Vec2 to) {
     const Vec2 middle = 0.5 * (from + to);
     double nearest = std::numeric_limits<double>::infinity();
@@ -54,10 +54,10 @@ Joint joint_of(const TestCase::JointKeys& keys) {
 
 namespace {
 
-/// Where walls cut traces these end exactly.
+/// Whether a point is on a wall. Traces that a wall cuts end exactly on the wall.
 bool on_rim(const Domain& box, Vec2 p) { return p.x == box.x1 || p.x == box.x2 || p.y == box.y1 || p.y == box.y2; }
 
-/// What each trace's faces do.
+/// Assigns the mechanics of each trace to its faces.
 void set_mechanics(Scene& scene, const JointNetwork& network, const TestCase& test) {
     std::vector<std::int32_t> of_source;
     for (const JointTable& table : joint_tables(test)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The joints of a case on the faces of a mesh, or among circles: which edge lies on which side of which trace, or where
-// traces run, and what each trace's faces do in place of the rock's.
+// Assigns the joints of a case to the faces of a mesh or to circles. It records which edges lie on which side of which
+// trace or, for circles, where traces run. Faces on a trace have the joint's properties instead of the rock's.
 // Tested by tests/specimens/joints/joint_faces_test.cpp.
 #pragma once
 
@@ -11,16 +11,18 @@
 
 namespace crackle {
 
-/// What a case's keys come to.
+/// Joint with the properties in the keys of a case.
 Joint joint_of(const TestCase::JointKeys& keys);
 
-/// @param scene  whose bodies are the cells of `mesh`, made with the traces of `network`, in their order
+/// Assigns joints to the faces of cells.
+/// @param scene  scene whose bodies are the cells of `mesh`, in the same order
+/// @param mesh  mesh made with the traces of `network`
 void set_joints(Scene& scene, const Mesh& mesh, const JointNetwork& network, const TestCase& test);
 
-/// @param scene  whose bodies are circles, in the box of the network
+/// Assigns joints to circles. @param scene  scene whose bodies are circles inside the network's box
 void set_joints_of_circles(Scene& scene, const JointNetwork& network, const TestCase& test);
 
-/// Names of the sources whose traces are as the rock, "a, b"; empty where none is.
+/// Names of the sources whose traces have the properties of the rock: "a, b"; empty if there are none.
 std::string sources_as_rock(const JointNetwork& network, const TestCase& test);
 
 }  // namespace crackle

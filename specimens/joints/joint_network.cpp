@@ -18,10 +18,11 @@
 namespace crackle {
 namespace {
 
-constexpr double most_of_a_side = 0.1, least_of_a_side = 1e-9;  // of the box: what snap may be
-constexpr double join_share = 0.5;                              // of snap: ends of rows that near are at one node
+// Limits of snap, relative to the shorter side of the box.
+constexpr double most_of_a_side = 0.1, least_of_a_side = 1e-9;
+constexpr double join_share = 0.5;  // relative to snap; ends of rows within this distance are at one node
 
-/// Halfway along.
+/// Point at half the length of a polyline.
 Vec2 midpoint_of(const std::vector<Vec2>& points) {
     double left = 0.5 * length_of(points);
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
@@ -36,8 +37,8 @@ bool holds(const Domain& box, Vec2 p) { return p.x >= box.x1 && p.x <= box.x2 &&
 
 struct Measured {
     TracePoints traces;
-    TraceRows rows;    // of a file
-    std::string file;  // its name
+    TraceRows rows;    // rows of the file at which the traces begin
+    std::string file;  // name of the file
 };
 
 Measured measured(const TestCase& test, std::size_t number) {
@@ -69,7 +70,7 @@ std::string name_of(const TestCase::Trace& trace, std::size_t number) {
     return fmt::format("trace {}", number + 1);
 }
 
-/// @param join  whether rows that are segments of one fault are joined
+/// Adds the traces of a [[trace]] table. @param join  whether to join rows that are segments of one fault
 void take_measured(JointNetwork& network, const TestCase& test, std::size_t number, bool join, double snap) {
     const std::size_t source = network.sources.size();
     const Measured read = measured(test, number);
@@ -103,7 +104,7 @@ void take_measured(JointNetwork& network, const TestCase& test, std::size_t numb
         if (pieces.empty()) ++outside;
         const double whole = length_of(points);
         const bool centred = holds(network.box, midpoint_of(points));
-        // Counted once, with the piece that is left out last.
+        // A trace cut into pieces has one midpoint, which counts for the longest piece.
         const auto longest = std::max_element(pieces.begin(), pieces.end(),
                                               [](const auto& a, const auto& b) { return length_of(a) < length_of(b); });
         for (auto piece = pieces.begin(); piece != pieces.end(); ++piece)
@@ -122,7 +123,7 @@ void take_measured(JointNetwork& network, const TestCase& test, std::size_t numb
             fmt::format("{}: {} of {} traces lie outside of the box", name, outside, traces.size()));
 }
 
-/// @param why in words: what `shortest` is
+/// Removes traces shorter than `shortest`. @param why  explanation of `shortest` for the notice
 void leave_out_short(JointNetwork& network, double shortest, const char* why) {
     std::size_t count = 0;
     double length = 0.0;
@@ -137,7 +138,7 @@ void leave_out_short(JointNetwork& network, double shortest, const char* why) {
                                               count, shortest, why, length));
 }
 
-/// @param spacing  of the grains, m; 0 where traces are drawn alone
+/// The snap distance, m. @param spacing  mean spacing of the grains, m; 0 if no cells follow the traces
 double snap_of(const TestCase& test, const Domain& box, double spacing) {
     if (!test.joints.snap) return snap_share * spacing;
     const double snap = *test.joints.snap, side = std::min(box.x2 - box.x1, box.y2 - box.y1);
@@ -149,18 +150,18 @@ double snap_of(const TestCase& test, const Domain& box, double spacing) {
     return snap;
 }
 
-/// Brings nodes together that nearly coincide.
+/// Cleans the traces by merging nodes that nearly coincide.
 void clean(const TestCase& test, JointNetwork& network, double snap, double spacing) {
     const bool any = !network.traces.empty();
     try {
         network.cleaning = clean_traces(network.traces, network.box, snap, trace_reach_share * spacing);
-    } catch (const MeshError& error) {  // of more crossings than memory is meant for: they stay as they are
-        network.notices.push_back(fmt::format("nodes that nearly coincide are not brought together: {}", error.what()));
+    } catch (const MeshError& error) {  // too many crossings for the memory; traces stay as they are
+        network.notices.push_back(fmt::format("nodes that nearly coincide are not merged: {}", error.what()));
     }
     if (any && network.traces.empty() && test.joints.snap)
         throw InputError(
-            fmt::format("{}: found no trace left once nodes nearer than {:.4g} m were brought together, expected one "
-                        "or more; lower it",
+            fmt::format("{}: found no trace left after nodes closer than {:.4g} m were merged, expected at least "
+                        "one; lower this value",
                         test.at("joints.snap"), 0.5 * snap));
 }
 
@@ -185,7 +186,7 @@ JointNetwork make_joints(const TestCase& test, const Domain& box, std::size_t ce
     if (test.joints.shortest)
         leave_out_short(network, *test.joints.shortest, "joints.shortest");
     else if (centres > 0)
-        leave_out_short(network, spacing, "the mean spacing of the cells; joints.shortest says otherwise");
+        leave_out_short(network, spacing, "the mean spacing of the cells; joints.shortest sets another limit");
     clean(test, network, snap, spacing);
     network.cleaning.derived = !test.joints.snap;
     return network;

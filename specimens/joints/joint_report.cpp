@@ -19,10 +19,11 @@ constexpr double degrees = 180.0 / std::numbers::pi;
 
 double angle_of(Vec2 direction) { return correctly_rounded::atan2(direction.y, direction.x); }
 
-/// Sums over traces, source by source.
+/// Sums over the traces of one source.
 class Sums {
   public:
-    // Edges between multiples of 10 degrees, which are what people give: rounding puts parallel traces in one bin.
+    // Edges of bins lie between multiples of 10 degrees. Users often state such multiples, and rounding must not spread
+    // parallel traces over two bins.
     Sums() { by_length_.begins = -0.5 * rose_bin_width; }
 
     void add(const JointTrace& trace) {
@@ -38,7 +39,7 @@ class Sums {
         whole_lengths_ += trace.whole_length;
     }
 
-    /// @param scan_line rad; not a number: square to the mean direction
+    /// Statistics of the traces. @param scan_line  direction, rad; if NaN, perpendicular to the mean direction
     SourceReport report(const std::string& name, double scan_line, double area) const {
         SourceReport r;
         r.name = name;
@@ -75,10 +76,10 @@ void add_what_was_asked(SourceReport& r, const TestCase::JointSet& set, double d
     r.direction_asked = line_direction(direction * degrees);
     if (set.kappa) r.kappa_asked = *set.kappa;
     double persistence = 1.0;
-    if (set.length == "gaps") {
+    if (set.length == JointLength::gaps) {
         r.mean_length_asked = *set.length_mean;
         persistence = *set.length_mean / (*set.length_mean + *set.gap_mean);
-    } else if (set.length != "persistent") {
+    } else if (set.length != JointLength::persistent) {
         r.mean_length_asked = length_law(set).mean();
     }
     if (set.number) r.amount = {"number", static_cast<double>(*set.number), static_cast<double>(r.traces)};

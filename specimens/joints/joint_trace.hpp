@@ -6,39 +6,38 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/fields.hpp"
 #include "solver/base/vec2.hpp"
 
 namespace crackle {
 
-/// Of straight parts one after another.
+/// Length of a polyline.
 inline double length_of(const std::vector<Vec2>& points) {
     double length = 0.0;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) length += norm(points[k + 1] - points[k]);
     return length;
 }
 
-/// One trace, or what the box leaves of it.
+/// One trace, or its part inside the box.
 struct JointTrace {
-    std::vector<Vec2> points;  ///< m, two or more, one after another apart
-    std::size_t source = 0;    ///< into JointNetwork::sources
-    /// m, before the box cut it; infinite of persistent ones.
+    std::vector<Vec2> points;  ///< m, at least two; consecutive points are distinct
+    std::size_t source = 0;    ///< index into JointNetwork::sources
+    /// Length before clipping to the box, m; infinite for persistent traces.
     double whole_length = 0.0;
-    bool centred = false;  ///< its midpoint lies in the box, before the box cut it
-    int row = 0;           ///< line of its file where it begins, of joined rows that of the first; 0: of no file
+    bool centred = false;  ///< whether the midpoint before clipping lies in the box
+    /// Line of the file where the trace begins (for joined rows, the first row); 0 if it is not from a file.
+    int row = 0;
 
+    /// Length along the points, m.
     double length() const { return length_of(points); }
 };
 
-/// What remains of a trace once it is faces of a specimen.
+/// A trace along which a specimen has faces.
 struct SpecimenTrace {
-    std::string source;   ///< name of the set, or of the [[trace]]
-    double length = 0.0;  ///< m, in the box
+    std::string source;   ///< name of the [[joint_set]] or the [[trace]]
+    double length = 0.0;  ///< m, inside the box
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("source", s.source);
-        visit("length", s.length);
-    }
+    CRACKLE_FIELDS(source, length);
 };
 
 }  // namespace crackle

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of lengths: of traces, of the gaps between them, of the distances between joints.
-//     fixed        l = m
-//     uniform      m - d to m + d
-//     exponential  exp(-l/m)
-//     lognormal    mean m and standard deviation d of l itself: σ² = ln(1 + d²/m²), μ = ln m - σ²/2
-//     power law    density ~ l^-a from l0 to l1
-// each as the length that a share s of all exceeds: that of the power law is, with b = 1 - a and L = ln(l1/l0),
-//     l = l0 [1 + (1 - s)(e^(bL) - 1)]^(1/b),   mean l0 (e^((b+1)L) - 1)/(b + 1) · b/(e^(bL) - 1)
-// and at b = 0 or -1 the limits of these (Bonnet et al., Rev. Geophys. 39, 2001).
+// Distributions of lengths, for traces, for the gaps between them, and for joint spacings:
+//       fixed        l = m
+//       uniform      m - d to m + d
+//       exponential  exp(-l/m)
+//       lognormal    mean m and standard deviation d of l itself: σ² = ln(1 + d²/m²), μ = ln m - σ²/2
+//       power law    density ~ l^-a from l0 to l1
+// A length is drawn as the value exceeded by a fraction s of all lengths. For the power law, with b = 1 - a and L =
+// ln(l1/l0), it is
+//       l = l0 [1 + (1 - s)(e^(bL) - 1)]^(1/b),   mean l0 (e^((b+1)L) - 1)/(b + 1) · b/(e^(bL) - 1)
+// and its limit for b = 0 or -1 (Bonnet et al., Rev. Geophys. 39, 2001).
 // Tested by tests/specimens/joints/length_law_test.cpp.
 #pragma once
 
@@ -16,21 +17,29 @@
 
 namespace crackle {
 
+/// Distribution of lengths, m.
 class LengthLaw {
   public:
+    /// A single length. @param mean  m
     static LengthLaw fixed(double mean) { return {Kind::fixed, mean, 0.0, 0.0}; }
+    /// Uniform distribution. @param mean  m @param deviation  half of the range, m
     static LengthLaw uniform(double mean, double deviation) { return {Kind::uniform, mean, deviation, 0.0}; }
+    /// Exponential distribution. @param mean  m
     static LengthLaw exponential(double mean) { return {Kind::exponential, mean, 0.0, 0.0}; }
+    /// Lognormal distribution. @param mean  m @param deviation  standard deviation, m
     static LengthLaw lognormal(double mean, double deviation) { return {Kind::lognormal, mean, deviation, 0.0}; }
+    /// Density ~ l^-exponent from the shortest to the longest length. @param shortest  m @param longest  m
     static LengthLaw power_law(double shortest, double longest, double exponent) {
         return {Kind::power_law, shortest, longest, exponent};
     }
 
+    /// Mean length, m.
     double mean() const;
-    /// Share of all lengths below this one.
+    /// Fraction of all lengths that are shorter than `length`.
     double share_below(double length) const;
-    /// The length that a share of all exceeds. @param share between 0 and 1, both excluded
+    /// Length exceeded by a given fraction of all lengths, m. @param share  between 0 and 1, both excluded
     double exceeded_by(double share) const;
+    /// Draws a length, m.
     double draw(std::mt19937_64& generator) const;
 
   private:
@@ -44,7 +53,7 @@ class LengthLaw {
     double first_, second_, third_;
 };
 
-/// Between 0 and 1, both excluded.
+/// A uniform random number between 0 and 1, both excluded.
 double share_number(std::mt19937_64& generator);
 
 }  // namespace crackle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A network of joints as the mesher takes it, and what a mesh with its traces comes to.
+// Converts a joint network to the mesher's input, and describes the resulting mesh.
 // Tested by tests/specimens/joints/mesh_traces_test.cpp.
 #pragma once
 
@@ -12,15 +12,15 @@
 
 namespace crackle {
 
-/// In the order of the network's traces.
+/// Polylines for the mesher, in the order of the network's traces.
 std::vector<std::vector<Point>> mesh_traces(const JointNetwork& network);
 
-/// The traces that an error of the mesher names, by where they come from and where they run: " (trace 3 is ...)".
+/// Describes the traces named in an error of the mesher, with their source and position: " (trace 3 belongs to ...)".
 std::string traces_named(const JointNetwork& network, std::span<const int> traces);
 
-/// Lines for people: edges on traces, what had to move, and the shape of the cells beside that of a mesh without
-/// traces, which some centres do not have.
-/// @param centres, domain, request  that the mesh was made of
+/// Describes the mesh in lines of text: edges on traces, what was moved, and the shape of the cells. If possible, the
+/// shape is compared with that of a mesh without traces.
+/// @param centres, domain, request  input from which the mesh was made
 std::vector<std::string> jointed_mesh_text(const Mesh& with, const std::vector<CellCentre>& centres,
                                            const Domain& domain, MeshRequest request);
 

@@ -24,15 +24,16 @@ Vec3 sum(double s, Vec3 a, double t, Vec3 b, double u = 0.0, Vec3 c = {}) {
     return {s * a.x + t * b.x + u * c.x, s * a.y + t * b.y + u * c.y, s * a.z + t * b.z + u * c.z};
 }
 
-/// Of the line in which a plane meets the section, rad.
+/// Angle of the line in which a plane intersects the section, rad.
 double trace_angle(Vec3 normal, const Section& section) {
     const Vec3 line = cross(normal, cross(section.along_x, section.along_y));
     return cr::atan2(dot(line, section.along_y), dot(line, section.along_x));
 }
 
-/// I1(κ)/I0(κ), by its continued fraction 1/(2/κ + 1/(4/κ + ...)): of arithmetic alone.
+/// I1(κ)/I0(κ) from the continued fraction 1/(2/κ + 1/(4/κ + ...)), which needs only basic arithmetic.
 double mean_resultant(double kappa) {
-    const int terms = 40 + static_cast<int>(8.0 * std::sqrt(kappa));  // each below κ takes 1 - 2k/κ of the error
+    // Each term k below κ reduces the error by a factor of 1 - 2k/κ.
+    const int terms = 40 + static_cast<int>(8.0 * std::sqrt(kappa));
     double tail = 0.0;
     for (int k = terms; k >= 1; --k) tail = 1.0 / (2.0 * k / kappa + tail);
     return tail;
@@ -67,11 +68,11 @@ OrientationLaw OrientationLaw::fisher(double dip, double dip_direction, double k
     law.kind_ = Kind::fisher;
     law.spread_ = k;
     law.section_ = section;
-    // Upward normal: it leans to where the plane dips.
+    // Upward normal, inclined towards the dip direction.
     law.normal_ = {cr::sin(dip) * cr::sin(dip_direction), cr::sin(dip) * cr::cos(dip_direction), cr::cos(dip)};
     law.aside_ = {cr::cos(dip_direction), -cr::sin(dip_direction), 0.0};  // along the strike
     law.across_ = cross(law.normal_, law.aside_);
-    constexpr double parallel = 1e-6;  // sine below which a plane and the section are one
+    constexpr double parallel = 1e-6;  // sine of an angle below which a plane and the section count as parallel
     if (norm(cross(law.normal_, cross(section.along_x, section.along_y))) < parallel)
         throw InputError("found a mean plane that lies in the section, expected one that cuts it; it has no trace");
     law.mean_ = trace_angle(law.normal_, section);
@@ -96,7 +97,7 @@ double OrientationLaw::draw_fisher(std::mt19937_64& generator) const {
     const Vec3 normal_of_section = cross(section_.along_x, section_.along_y);
     while (true) {
         const double u = uniform_number(generator);
-        // 1 - cos d, which loses nothing where d is small.
+        // 1 - cos d, without cancellation for small d.
         const double lack = std::min(-cr::log1p(u * cr::expm1(-2.0 * spread_)) / spread_, 2.0);
         const double sine = std::sqrt(lack * (2.0 - lack)), round = 2.0 * pi * uniform_number(generator);
         const Vec3 n = sum(1.0 - lack, normal_, sine * cr::cos(round), aside_, sine * cr::sin(round), across_);
@@ -118,11 +119,11 @@ double OrientationLaw::draw(std::mt19937_64& generator) const {
     return mean_;
 }
 
-/// At most such a share of lines deviates from the mean by an angle d whose cosine is less.
-///     von Mises  2 asin(c) e^(-2κ(1 - c²)) over ∫ e^(-κ(1 - cos ψ)) dψ from 0 to π, ψ = 2d, which is at least
-///                e^(-1/2) min(π, 1/√κ)
-///     Fisher     normals outside of the cone δ about the mean one, sin δ = sin γ sin d, γ between that and the
-///                section's normal: e^(-K(1 - cos δ)), over the mean weight, which is at least sin γ K/(3 + K)
+/// Upper bound on the fraction of lines that deviate from the mean by an angle d whose cosine is less than c:
+///       von Mises  2 asin(c) e^(-2κ(1 - c²)) over ∫ e^(-κ(1 - cos ψ)) dψ from 0 to π, ψ = 2d, which is at least
+///                  e^(-1/2) min(π, 1/√κ)
+///       Fisher     normals outside the cone δ about the mean one, sin δ = sin γ sin d, γ between that and the
+///                  section's normal: e^(-K(1 - cos δ)), over the mean weight, which is at least sin γ K/(3 + K)
 double OrientationLaw::share_beyond(double cosine) const {
     if (kind_ == Kind::von_mises) {
         const double least = std::min(pi, 1.0 / std::sqrt(spread_)) * cr::exp(-0.5);
@@ -138,8 +139,9 @@ double OrientationLaw::stretch() const {
     constexpr double beyond_it = 1e-3, largest = 1024.0;
     if (kind_ == Kind::fixed) return 1.0;
     if (kind_ == Kind::uniform) return spread_ < 0.5 * pi ? std::min(1.0 / cr::cos(spread_), largest) : largest;
-    // The density falls all the way from the mean to 90 degrees from it: an inner part of the rest holds less of it
-    // than its angle. At 1024, asin(1/1024)/90 degrees is less than one in a thousand.
+    // The density decreases from the mean direction to 90 degrees from it. Therefore, an interval of angles that ends
+    // at 90 degrees has a smaller fraction of the remaining lines than of the remaining angles. At 1024,
+    // asin(1/1024)/90 degrees is less than 0.001.
     double stretch = 1.0;
     for (double share = 1.0; share > beyond_it && stretch < largest; stretch *= 2.0) {
         const double narrower = cr::asin(0.5 / stretch) / cr::asin(1.0 / stretch);
@@ -151,7 +153,7 @@ double OrientationLaw::stretch() const {
 double fitted_kappa(double resultant, std::size_t count) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     if (count < 2 || std::isnan(resultant)) return none;
-    constexpr double largest = 1e6;  // directions within a twentieth of a degree: parallel
+    constexpr double largest = 1e6;  // at this concentration, directions within 0.05 degrees count as parallel
     if (!(resultant < mean_resultant(largest))) return std::numeric_limits<double>::infinity();
     if (count < fewest_directions) return none;
     double low = 0.0, high = largest;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of direction, of traces in the model's plane: rad from +x, counter-clockwise, of lines that point both ways.
-//     fixed      θ = μ
-//     uniform    within a deviation of μ either way
-//     von Mises  density ~ exp(κ cos 2(θ - μ)), drawn by Best & Fisher, Appl. Stat. 28, 1979
-//     Fisher     planes whose normals lie at d from the mean one, density ~ exp(K cos d) sin d:
-//                cos d = 1 + ln(1 - u(1 - e^(-2K)))/K, all round it alike; a trace is the line in which a plane meets
-//                the section, and a plane meets it as often as |n × n_section| says (Terzaghi 1965)
+// Distributions of the directions of traces in the model's plane, as angles of undirected lines from +x, rad,
+// counter-clockwise:
+//       fixed      θ = μ
+//       uniform    from μ - deviation to μ + deviation
+//       von Mises  density ~ exp(κ cos 2(θ - μ)), drawn by Best & Fisher, Appl. Stat. 28, 1979
+//       Fisher     planes whose normals are at the angle d from the mean normal, density ~ exp(K cos d) sin d:
+//                  cos d = 1 + ln(1 - u(1 - e^(-2K)))/K, uniform around it. A trace is the intersection of a plane with
+//                  the section; a plane meets the section with a frequency ~ |n × n_section| (Terzaghi 1965)
 // Tested by tests/specimens/joints/orientation_law_test.cpp.
 #pragma once
 
@@ -14,45 +15,50 @@
 
 namespace crackle {
 
-/// East, north, up.
+/// Vector in space: east, north, up.
 struct Vec3 {
     double x = 0.0, y = 0.0, z = 0.0;
 };
 
-/// The plane of the model in space: unit vectors along its axes.
+/// The plane of the model in space, given by unit vectors along its axes.
 struct Section {
     Vec3 along_x, along_y;
 
-    /// +x towards the trend, rad from north, clockwise; +y up.
+    /// Vertical section with +y up. @param trend  direction of +x, rad from north, clockwise
     static Section vertical(double trend);
-    /// Seen from above.
+    /// Horizontal section, seen from above. @param trend  direction of +x, rad from north, clockwise
     static Section horizontal(double trend);
 };
 
+/// Distribution of the directions of traces.
 class OrientationLaw {
   public:
+    /// A single direction. @param mean  rad
     static OrientationLaw fixed(double mean);
+    /// Uniform distribution. @param mean  rad @param deviation  half of the range, rad
     static OrientationLaw uniform(double mean, double deviation);
+    /// Axial von Mises distribution. @param mean  rad @param kappa  concentration, >= 0
     static OrientationLaw von_mises(double mean, double kappa);
-    /// @param dip, dip_direction  rad, of the mean plane; the direction from north, clockwise
-    /// @throws InputError where the mean plane lies in the section: it has no trace
+    /// Traces of planes whose normals have a Fisher distribution.
+    /// @param dip, dip_direction  orientation of the mean plane, rad; dip_direction from north, clockwise
+    /// @throws InputError if the mean plane lies in the section and therefore has no trace
     static OrientationLaw fisher(double dip, double dip_direction, double k, const Section& section);
 
-    /// Of the mean trace, or the trace of the mean plane, rad.
+    /// Mean direction, or direction of the trace of the mean plane, rad.
     double mean() const { return mean_; }
-    /// Whether all are the same.
+    /// Whether all directions are the same.
     bool single() const { return kind_ == Kind::fixed; }
-    /// rad
+    /// Draws a direction, rad.
     double draw(std::mt19937_64& generator) const;
-    /// 1/cos of an angle from the mean that at most one line in a thousand exceeds: so many times further off than
-    /// lines of the mean direction do lines beside each other still meet a disc. 1 to 1024, for parallel lines 1.
+    /// Factor by which lines must be drawn from farther away, so that all lines that cross a disc are included. It is
+    /// 1/cos of the deviation from the mean that at most one line in a thousand exceeds, at most 1024.
     double stretch() const;
 
   private:
     enum class Kind : std::uint8_t { fixed, uniform, von_mises, fisher };
     Kind kind_ = Kind::fixed;
     double mean_ = 0.0;
-    double spread_ = 0.0;  // deviation, κ or K
+    double spread_ = 0.0;  // deviation (rad), κ or K, depending on the kind
     Vec3 normal_, aside_, across_;
     Section section_;
 
@@ -61,11 +67,11 @@ class OrientationLaw {
     double draw_fisher(std::mt19937_64& generator) const;
 };
 
-/// Fewer directions than this say nothing of their scatter.
+/// Smallest number of directions to which κ is fitted.
 inline constexpr std::size_t fewest_directions = 5;
-/// κ by maximum likelihood of directions whose mean vector at twice the angle has this length: I1(κ)/I0(κ) = R, for up
-/// to 15 of them less the bias of so few (Best & Fisher, Comm. Stat. B 10, 1981); infinite of parallel ones, of too few
-/// not a number.
+/// Maximum-likelihood estimate of κ: I1(κ)/I0(κ) = R, where R is the length of the mean vector of the doubled angles.
+/// For up to 15 directions the bias is removed (Best & Fisher, Comm. Stat. B 10, 1981). Infinite for parallel
+/// directions, NaN for too few.
 double fitted_kappa(double resultant, std::size_t count);
 
 }  // namespace crackle

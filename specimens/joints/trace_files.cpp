@@ -28,13 +28,14 @@ double coordinate(std::string_view word, std::string_view what, const TextLines&
     return *value;
 }
 
-/// Traces and their rows.
+/// Traces, and the rows of the file where they begin.
 struct Found {
     TracePoints traces;
     TraceRows rows;
 
-    /// Repeated points are left out, a trace of one place altogether: intersection tools leave such rows behind.
-    /// @param line of its beginning
+    /// Adds a trace without repeated points. A trace of a single point is skipped; GIS intersection tools leave such
+    /// rows behind.
+    /// @param line  line where the trace begins
     void add(std::vector<Vec2> points, int line) {
         points.erase(std::unique(points.begin(), points.end()), points.end());
         if (points.size() < 2) {
@@ -46,7 +47,7 @@ struct Found {
     }
 };
 
-/// A line of a list: the numbers of one trace.
+/// A line of a list file: the numbers of one trace.
 struct ListedTrace {
     int line = 0;
     std::vector<double> numbers;
@@ -59,7 +60,7 @@ std::vector<Vec2> points_of(const ListedTrace& trace) {
     return points;
 }
 
-/// Length of the line through a list's numbers, `each` of them a point.
+/// Length of the polyline through the numbers of a list, with `each` numbers per point.
 double path_length(const std::vector<double>& numbers, std::size_t each) {
     double length = 0.0;
     for (std::size_t k = each; k + each <= numbers.size(); k += each) {
@@ -73,8 +74,8 @@ double path_length(const std::vector<double>& numbers, std::size_t each) {
     return length;
 }
 
-/// How many coordinates a point has by the names in the remarks above the first trace, as "# x1 y1 z1 x2 y2 z2"; 0
-/// where they name none.
+/// Number of coordinates per point, from names such as "# x1 y1 z1 x2 y2 z2" in comments above the first trace; 0 if no
+/// comment has names.
 std::size_t named_coordinates(std::string_view text) {
     TextLines lines("", text);
     bool x = false, y = false, z = false;
@@ -96,9 +97,9 @@ std::size_t named_coordinates(std::string_view text) {
     return z ? 3 : 2;
 }
 
-/// Whether a list without names, by threes, has heights behind each x y. Numbers taken by twos that are by threes leap
-/// between coordinates: such a line is more than twice as long as the traces, or has one height throughout and is
-/// longer by a third. Points that are by twos and look like that are rarer than surveys with heights.
+/// Whether a list without names, whose counts are divisible by three, has a height after each x and y. If triples are
+/// read as pairs, the points jump between coordinates. The polyline of the pairs is then more than twice as long, or a
+/// third longer if all heights are equal. Surveys of pairs with this property are rarer than surveys with heights.
 bool looks_like_heights(const std::vector<ListedTrace>& traces) {
     constexpr double leaping = 0.5, leaping_at_one_height = 0.75;
     double by_twos = 0.0, by_threes = 0.0;
@@ -133,10 +134,10 @@ Found parse_list(const std::string& name, std::string_view text) {
             count >= 6 && count % 3 == 0 ? "; if these are x y z, remove every third number" : ""));
     }
     if (!listed.empty() && (stated || (named == 0 && by_threes && looks_like_heights(listed)))) {
-        throw InputError(
-            fmt::format("{}:{}: found x y z of each point, expected x y; remove every third number, or, if these are x "
-                        "y, say so by a first line '# x1 y1 x2 y2'",
-                        name, listed.front().line));
+        throw InputError(fmt::format(
+            "{}:{}: found x y z of each point, expected x y; remove every third number. If the numbers are x "
+            "y, state this in a first line '# x1 y1 x2 y2'",
+            name, listed.front().line));
     }
     Found found;
     for (const ListedTrace& trace : listed) found.add(points_of(trace), trace.line);
@@ -170,7 +171,7 @@ class CsvTraces {
     struct PointColumns {
         std::size_t x = 0, y = 0;
     };
-    /// x1,y1,x2,y2 and as many more as there are.
+    /// Columns of the points: x1,y1,x2,y2 and as many further pairs as there are.
     std::vector<PointColumns> columns_along() const {
         std::vector<PointColumns> columns;
         while (true) {
@@ -180,7 +181,7 @@ class CsvTraces {
             columns.push_back({*x, *y});
         }
     }
-    /// A trace with fewer points leaves the last places empty.
+    /// Points in a row. Traces with fewer points leave the last cells empty.
     std::vector<Vec2> points_along(std::vector<PointColumns> columns) const {
         const auto& values = reader_.values();
         while (columns.size() > 2 && values[columns.back().x].empty() && values[columns.back().y].empty())
@@ -202,9 +203,11 @@ class CsvTraces {
             finish();
             trace_ = trace;
             begun_ = reader_.line();
-            // Points of a trace that comes again would belong to the middle of it.
+            // A trace that appears again after another trace was probably split by mistake: its points would have to
+            // continue the first part.
             if (!seen_.insert(trace_).second)
-                reader_.refuse(fmt::format("trace {:.40} again after another", trace), "its points one after another");
+                reader_.refuse(fmt::format("points of trace {:.40} after those of another trace", trace),
+                               "consecutive points of each trace");
         }
         points_.push_back(place);
     }
@@ -221,7 +224,7 @@ class CsvTraces {
     Found found_;
 };
 
-/// Group codes and their values, by twos of lines (AutoCAD DXF Reference, "Drawing interchange file formats").
+/// Reads group codes and their values on alternate lines (AutoCAD DXF Reference, "Drawing interchange file formats").
 class DxfTraces {
   public:
     DxfTraces(TextLines lines, const std::string& layer) : lines_(std::move(lines)), layer_(layer) {}
@@ -257,12 +260,12 @@ class DxfTraces {
         if (error != std::errc{} || end != code.data() + code.size())
             lines_.refuse(fmt::format("'{:.40}'", code), "a group code, a whole number");
         const auto value = lines_.next();
-        if (!value) lines_.refuse("the end of the file behind a group code", "its value");
+        if (!value) lines_.refuse("the end of the file after a group code", "its value");
         value_ = stripped(*value);
         return true;
     }
 
-    /// One entity, whose name has been read, with all its groups: behind it the name of the next one has been read.
+    /// Reads the remaining groups of an entity, whose name has already been read, and the name of the next entity.
     /// @return false at the end of the file
     bool entity() {
         const std::string kind(value_);
@@ -339,14 +342,14 @@ std::string ending(const std::string& name) {
     return text;
 }
 
-/// By its first lines: a drawing whatever its file is called.
+/// Whether the first lines are those of a DXF drawing, whatever the name of the file.
 bool begins_as_drawing(std::string_view text) {
     TextLines lines("", text);
     const auto code = lines.next(), value = lines.next();
     return code && value && stripped(*code) == "0" && stripped(*value) == "SECTION";
 }
 
-/// Whether the first line with values has names for them.
+/// Whether the first line with values consists of names.
 bool begins_with_names(const std::string& name, std::string_view text) {
     TableReader reader(name, text, TableReader::Form::table);
     if (!reader.next()) return false;
@@ -369,15 +372,15 @@ Found parse_by_kind(const std::string& name, std::string_view text, const std::s
 TracePoints parse_traces(const std::string& name, std::string_view text, const std::string& layer, TraceRows* rows) {
     refuse_foreign(
         name, text,
-        "CSV (trace,x,y or x1,y1,x2,y2), DXF, or x1 y1 x2 y2 ... of a trace a line; export it as one of them");
+        "CSV (trace,x,y or x1,y1,x2,y2), DXF, or x1 y1 x2 y2 ... with a trace per line; export it as one of them");
     Found found = parse_by_kind(name, text, layer);
     if (found.traces.empty() && !found.rows.without_length.empty())
         throw InputError(
-            fmt::format("{}:{}: found a trace of one place and none with a length, expected a trace of two "
-                        "places or more; correct its points",
+            fmt::format("{}:{}: found only traces whose points coincide, expected a trace with two "
+                        "or more different points; correct its points",
                         name, found.rows.without_length.front()));
     if (found.traces.empty())
-        throw InputError(fmt::format("{}: found no trace{}, expected one at least", name,
+        throw InputError(fmt::format("{}: found no trace{}, expected at least one", name,
                                      layer.empty() ? "" : fmt::format(" on layer {:.40}", layer)));
     if (rows != nullptr) *rows = std::move(found.rows);
     return std::move(found.traces);
@@ -387,7 +390,7 @@ TracePoints read_traces(const std::filesystem::path& path, const std::string& la
     if (!is_file(path))
         throw InputError(
             fmt::format("found no file {:.200}, expected a file of traces; check the path", path.string()));
-    return parse_traces(path.string(), read_text(path), layer, rows);
+    return parse_traces(path.string(), read_text(path, most_bytes_of_table), layer, rows);
 }
 
 std::string traces_text(const TracePoints& traces) {

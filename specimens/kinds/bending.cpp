@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Three-point bending: the whole packing is a beam of depth W on two supports at a span S, pressed at midspan.
 //
-// Stress is that of the outer fibre by the theory of slender beams (ISRM, ASTM C880): σ = 3PS/(2W²), strain ε = 6Wδ/S²,
-// δ the deflection: section = 2W²/(3S), length = S²/(6W), and σ/ε is Young's modulus of a slender beam; of a short one
-// less, for it shears, too. With a notch of length a from the lower face, S = 4W: K_I = P S/W^1.5 f(a/W) = σ 2/3
-// sqrt(W) f. Pads are bonded and turn with the beam; the supports slide along x, so that the beam may grow in length.
+// The stress is that in the outer fibre according to slender-beam theory (ISRM, ASTM C880): σ = 3PS/(2W²), where P is
+// the force. The strain is ε = 6Wδ/S², where δ is the deflection. Hence section = 2W²/(3S) and length = S²/(6W). For a
+// slender beam, σ/ε is Young's modulus; for a short beam, the ratio is smaller because of shear. With a notch of length
+// a from the lower face and S = 4W, K_I = P S/W^1.5 f(a/W) = σ 2/3 sqrt(W) f. Pads are bonded and rotate with the beam;
+// the supports slide along x, so that the beam can lengthen.
 // Tested by tests/specimens/kinds/test_kind_test.cpp.
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "specimens/kinds/test_kind.hpp"
@@ -17,9 +17,9 @@
 namespace crackle {
 namespace {
 
-constexpr double default_span = 4.0;         // over the depth
-constexpr double notched_span_share = 0.01;  // by which S may differ from 4W where the formula is of 4W
-constexpr double shortest_notch = 0.05, longest_notch = 0.95;  // over the depth
+constexpr double default_span = 4.0;                           // S divided by the depth W
+constexpr double notched_span_share = 0.01;                    // largest relative difference between S and 4W
+constexpr double shortest_notch = 0.05, longest_notch = 0.95;  // length divided by the depth W
 
 double span_of(const KindRequest& request) {
     const Domain& box = request.packing;
@@ -42,10 +42,11 @@ Shape bending_shape(const KindRequest& request) {
         request.refuse(
             "shape.notch", fmt::format("{} m", notch),
             fmt::format("between {} and {} of the beam's depth of {:.6g} m", shortest_notch, longest_notch, depth),
-            "make the notch shorter, or the beam deeper");
+            "use a shorter notch, or a deeper beam");
     }
     const double middle = 0.5 * (request.packing.x1 + request.packing.x2), low = request.packing.y1;
-    const double beyond = request.particle;  // the mouth lies outside, so that no grain bridges it
+    // The mouth of the notch lies outside the beam, so that no grain bridges it.
+    const double beyond = request.particle;
     shape.notch = Notch{{middle, low - beyond}, {middle, low + notch}};
     const double near = 1.5 * request.particle;
     shape.left = Region{middle - near, middle, low, low + request.particle};
@@ -55,22 +56,23 @@ Shape bending_shape(const KindRequest& request) {
 
 Apparatus bending_apparatus(const KindRequest& request, const Shape& shape) {
     const Domain& box = request.packing;
-    const double depth = shape.height, span = span_of(request), pad = pad_width(request);
+    const double depth = shape.height, span = span_of(request), pad = pad_width(request, depth);
     if (span + pad > shape.width) {
         request.refuse(
             "loading.span",
             fmt::format("{:.6g} m{}", span, request.test.loading.span ? "" : ", four times the beam's depth"),
-            fmt::format("supports within the beam: span and a pad of {:.4g} m at most {:.6g} m", pad, shape.width),
-            "make packing.width larger, or the span smaller");
+            fmt::format("supports within the beam: span plus the width of a pad, {:.4g} m, at most {:.6g} m", pad,
+                        shape.width),
+            "increase packing.width, or reduce the span");
     }
     if (span < 2.0 * pad) {
         request.refuse("loading.span", fmt::format("{:.6g} m", span), fmt::format("at least two pads of {:.4g} m", pad),
-                       "make the span larger");
+                       "increase the span");
     }
     if (shape.notch && std::abs(span / (default_span * depth) - 1.0) > notched_span_share) {
         request.refuse("loading.span", fmt::format("{:.6g} m", span),
-                       fmt::format("four times the depth, {:.6g} m, with a notch", default_span * depth),
-                       "the stress intensity of a notched beam is known for that span alone; leave it out");
+                       fmt::format("four times the depth, {:.6g} m, for a notched beam", default_span * depth),
+                       "the stress intensity of a notched beam is known only for this span; remove the key");
     }
     const double middle = 0.5 * (box.x1 + box.x2);
     Apparatus apparatus;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Brazilian test: a disc of diameter D, pressed along y over an arc of half angle α on either side.
+// The Brazilian test: a disc of diameter D is loaded along y by two opposite arcs of half angle α.
 //
-// Stress at the centre, tension (Hondros, Aust. J. Appl. Sci. 10, 1959; ISRM 1978):
-//     σ_t = k 2P/(πD),   k = (sin 2α - α)/sin α: 0.991, 0.965, 0.920 at α = 5, 10, 15 degrees
-// and k = 1 of flat and curved jaws;
-// so section = πD/(2k); length = D, the strain is the shortening of the diameter over it.
-// The outline is a polygon whose sides are about a particle long, with corners where the arcs end.
+// Tensile stress at the centre (Hondros, Aust. J. Appl. Sci. 10, 1959; ISRM 1978):
+//       σ_t = k 2P/(πD),   k = (sin 2α - α)/sin α: 0.991, 0.965, 0.920 at α = 5, 10, 15 degrees
+// With flat and curved jaws, k = 1. Hence section = πD/(2k) and length = D; the strain is the shortening of the
+// diameter divided by D. The outline is a polygon with sides about one particle long and with corners where the arcs
+// end.
 // Tested by tests/specimens/kinds/test_kind_test.cpp.
 
 #include <fmt/format.h>
@@ -22,11 +22,11 @@ namespace crackle {
 namespace {
 
 constexpr double quarter = 0.5 * std::numbers::pi;
-// Of a curved jaw its radius over the disc's (ISRM 1978), and the half width of its face over that.
+// Radius of a curved jaw divided by that of the disc (ISRM 1978); half-width of the jaw's face divided by its radius.
 constexpr double jaw_radius = 1.5, jaw_half_width = 0.5;
 constexpr int jaw_sides = 40;
-constexpr double jaw_depth = 0.2;             // of a jaw behind the end of its face, over the disc's radius
-constexpr double flat_jaw_half_width = 0.75;  // over the disc's radius
+constexpr double jaw_depth = 0.2;  // thickness of a jaw behind the ends of its face, relative to the disc's radius
+constexpr double flat_jaw_half_width = 0.75;  // relative to the disc's radius
 
 Vec2 on_circle(Vec2 centre, double radius, double angle) {
     return {centre.x + radius * correctly_rounded::cos(angle), centre.y + radius * correctly_rounded::sin(angle)};
@@ -34,12 +34,12 @@ Vec2 on_circle(Vec2 centre, double radius, double angle) {
 
 Vec2 centre_of(const Domain& box) { return {0.5 * (box.x1 + box.x2), 0.5 * (box.y1 + box.y2)}; }
 
-/// Sides of an arc, of about a particle each.
+/// Number of sides of a polygonal arc; each is about one particle long.
 int sides_of_arc(double angle, double radius, double particle, int fewest) {
     return std::max(fewest, static_cast<int>(std::lround(angle * radius / particle)));
 }
 
-/// Places along an arc, both ends among them.
+/// Points along an arc, including both ends.
 std::vector<Vec2> arc(Vec2 centre, double radius, double from, double to, int sides) {
     std::vector<Vec2> places;
     for (int k = 0; k <= sides; ++k)
@@ -47,7 +47,7 @@ std::vector<Vec2> arc(Vec2 centre, double radius, double from, double to, int si
     return places;
 }
 
-/// The upper jaw; its face from left to right.
+/// The upper jaw; the points of its face are given from left to right.
 LoadingPart upper_jaw(std::vector<Vec2> face, double top) {
     LoadingPart jaw;
     jaw.face = static_cast<std::uint32_t>(face.size());
@@ -58,34 +58,36 @@ LoadingPart upper_jaw(std::vector<Vec2> face, double top) {
     return jaw;
 }
 
-/// The same turned by half a turn about a centre.
+/// A part rotated by 180° about a centre.
 LoadingPart turned(const LoadingPart& part, Vec2 centre) {
     LoadingPart other = part;
     for (Vec2& corner : other.corners) corner = {2.0 * centre.x - corner.x, 2.0 * centre.y - corner.y};
     return other;
 }
 
-/// The face of the upper jaw that is bonded to the disc: side by side with the outline's.
+/// The face of the upper jaw if it is bonded to the disc; its sides are parallel to those of the outline.
 std::vector<Vec2> bonded_face(const KindRequest& request, Vec2 centre, double radius, double alpha) {
     return arc(centre, radius + request.cut_offset, quarter + alpha, quarter - alpha,
                sides_of_arc(2.0 * alpha, radius, request.particle, 2));
 }
 
-/// The face of an upper jaw that just touches the specimen from above. @param upside_down of the lower one, whose
-/// specimen is turned by half a turn about the centre for it
+/// The face of an upper jaw that just touches the specimen from above.
+/// @param upside_down  whether the face is meant for the lower jaw; the specimen is then treated as rotated by 180°
+/// about the centre
 std::vector<Vec2> touching_face(const KindRequest& request, Vec2 centre, double radius, double alpha,
                                 bool upside_down) {
-    const std::string jaws = request.test.loading.jaws.value_or("arc");
-    const bool flat = jaws == "flat";
-    double farthest = 0.0;  // m, that the specimen reaches from the centre
+    const JawShape jaws = request.test.loading.jaws.value_or(JawShape::arc);
+    const bool flat = jaws == JawShape::flat, curved = jaws == JawShape::curved;
+    double farthest = 0.0;  // m; largest distance of a surface point from the centre
     for (const SurfacePoint& point : request.surface)
         farthest = std::max(farthest, norm(point.place - centre) + point.reach);
-    // Sides of an arc lie within it, by the cosine of half their angle.
-    const double half = jaws == "curved" ? correctly_rounded::asin(jaw_half_width / jaw_radius) : alpha;
+    // Chords lie inside the arc: the distance of their midpoints from the centre is the radius times the cosine of half
+    // the angle of a side.
+    const double half = curved ? correctly_rounded::asin(jaw_half_width / jaw_radius) : alpha;
     const double inner = correctly_rounded::cos(half / jaw_sides);
-    const double curve = jaws == "curved" ? jaw_radius * radius : farthest / inner;
+    const double curve = curved ? jaw_radius * radius : farthest / inner;
     const double half_width = flat ? flat_jaw_half_width * radius : curve * correctly_rounded::sin(half);
-    double height = -std::numeric_limits<double>::infinity();  // m, of the flat face, or of the arc's centre
+    double height = -std::numeric_limits<double>::infinity();  // m; y of the flat face, or of the arc's centre
     for (const SurfacePoint& point : request.surface) {
         const double side = upside_down ? -1.0 : 1.0;
         const double x = side * (point.place.x - centre.x), y = side * (point.place.y - centre.y);
@@ -103,29 +105,29 @@ double brazilian_factor(double alpha) {
     return (correctly_rounded::sin(2.0 * alpha) - alpha) / correctly_rounded::sin(alpha);
 }
 
-double disc_diameter(const KindRequest& request) {
+double disc_diameter(const KindRequest& request, double room) {
     const double width = request.packing.x2 - request.packing.x1, height = request.packing.y2 - request.packing.y1;
-    const bool half = request.test.loading.kind == "scb";
-    const double room = half ? std::min(width, 2.0 * height) : std::min(width, height);
     const double diameter = request.test.shape.diameter.value_or(room);
     if (diameter > room * (1.0 + 1e-12)) {
         request.refuse(
             "shape.diameter", fmt::format("{} m", diameter),
             fmt::format("at most {:.6g} m: the packing is {:.6g} m wide and {:.6g} m high", room, width, height),
-            "make the packing larger, or the disc smaller");
+            "use a larger packing, or a smaller disc");
     }
     return diameter;
 }
 
 Shape brazilian_shape(const KindRequest& request) {
-    const double diameter = disc_diameter(request), radius = 0.5 * diameter, alpha = half_angle(request);
+    const Domain& box = request.packing;
+    const double diameter = disc_diameter(request, std::min(box.x2 - box.x1, box.y2 - box.y1));
+    const double radius = 0.5 * diameter, alpha = half_angle(request);
     const Vec2 centre = centre_of(request.packing);
     const int of_jaw = sides_of_arc(2.0 * alpha, radius, request.particle, 2);
     const int of_side = sides_of_arc(2.0 * (quarter - alpha), radius, request.particle, 4);
     Shape shape;
     const auto add = [&](double from, double to, int sides) {
         std::vector<Vec2> places = arc(centre, radius, from, to, sides);
-        places.pop_back();  // the next arc begins there
+        places.pop_back();  // the next arc starts at this point
         shape.outline.insert(shape.outline.end(), places.begin(), places.end());
     };
     add(-quarter + alpha, quarter - alpha, of_side);
@@ -133,7 +135,7 @@ Shape brazilian_shape(const KindRequest& request) {
     add(quarter + alpha, 3.0 * quarter - alpha, of_side);
     add(3.0 * quarter - alpha, 3.0 * quarter + alpha, of_jaw);
     shape.width = shape.height = diameter;
-    const double near = 2.0 * request.particle;  // of the horizontal diameter's ends
+    const double near = 2.0 * request.particle;  // size of the gauge regions at the ends of the horizontal diameter
     shape.left = Region{centre.x - radius - near, centre.x - radius + near, centre.y - near, centre.y + near};
     shape.right = Region{centre.x + radius - near, centre.x + radius + near, centre.y - near, centre.y + near};
     return shape;
@@ -142,7 +144,7 @@ Shape brazilian_shape(const KindRequest& request) {
 Apparatus brazilian_apparatus(const KindRequest& request, const Shape& shape) {
     const double diameter = shape.width, radius = 0.5 * diameter, alpha = half_angle(request);
     const Vec2 centre = centre_of(request.packing);
-    const bool bonded = request.test.loading.platens != "frictional";
+    const bool bonded = request.test.loading.platens != PlatenKind::frictional;
     const double top = centre.y + (1.0 + jaw_depth) * radius;
     const auto jaw = [&](bool lower) {
         LoadingPart part = upper_jaw(
@@ -153,7 +155,7 @@ Apparatus brazilian_apparatus(const KindRequest& request, const Shape& shape) {
     };
     Apparatus apparatus;
     apparatus.parts = {jaw(true), jaw(false)};
-    const bool over_an_arc = bonded || request.test.loading.jaws.value_or("arc") == "arc";
+    const bool over_an_arc = bonded || request.test.loading.jaws.value_or(JawShape::arc) == JawShape::arc;
     apparatus.section = 0.5 * std::numbers::pi * diameter / (over_an_arc ? brazilian_factor(alpha) : 1.0);
     apparatus.length = diameter;
     return apparatus;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Direct shear: the whole packing in two rigid half boxes with a gap between them. The lower one stays; the upper one
-// is drawn along x, does not turn, and floats in y under a normal stress, constant or growing as it rises (constant
-// normal load and constant normal stiffness of the field).
+// Direct shear: the whole packing lies in two rigid half boxes with a gap between them. The lower box is fixed. The
+// upper one moves along x without rotation and is free in y under a normal stress. This stress is constant, or it
+// increases as the box rises (tests with constant normal load or constant normal stiffness).
 //
-// Where a box's sides meet its floor they are relieved: a particle that touched both faces of the hollow would have a
-// contact with the nearer one alone, which changes while it is pressed into the corner, and its energy with it.
+// The inner corners of a box have relief pockets. Without them, a particle that touches both faces at a corner would be
+// in contact only with the nearer face. As the particle is pressed into the corner, this contact and its energy would
+// change abruptly.
 //
-// Shear stress τ = force along x over the initial length L, strain = displacement u over L: section = length = L.
+// The shear stress is the force along x divided by the initial length L, and the strain is the displacement along x
+// divided by L. Hence section = length = L.
 // Tested by tests/specimens/kinds/test_kind_test.cpp.
 
 #include <fmt/format.h>
@@ -18,12 +20,12 @@
 namespace crackle {
 namespace {
 
-constexpr double default_box_gap = 2.0;  // mean particles
-constexpr double wall_share = 0.05;      // thickness of the boxes over the specimen's height
-constexpr double widest_box_gap = 0.5;   // over the height
-constexpr double relieved = 1.5;         // mean particles
+constexpr double default_box_gap = 2.0;  // in mean particle sizes
+constexpr double wall_share = 0.05;      // thickness of the box walls relative to the specimen's height
+constexpr double widest_box_gap = 0.5;   // relative to the specimen's height
+constexpr double relieved = 1.5;         // size of the relief pockets in mean particle sizes
 
-/// The lower half box, its inner faces first.
+/// The lower half box. The corners of its inner faces come first.
 LoadingPart half_box(const Domain& box, double offset, double rim, double wall, double relief) {
     const double x1 = box.x1 - offset, x2 = box.x2 + offset, y = box.y1 - offset;
     const double pocket = 0.5 * wall, low = y + std::min(relief, 0.5 * (rim - y));
@@ -43,7 +45,7 @@ Apparatus direct_shear_apparatus(const KindRequest& request, const Shape& shape)
     if (gap > widest_box_gap * shape.height) {
         request.refuse("loading.box_gap", fmt::format("{:.4g} m", gap),
                        fmt::format("at most half of the height of {:.6g} m", shape.height),
-                       "the boxes must hold the specimen; make it higher, or the gap narrower");
+                       "the boxes must hold the specimen; use a higher specimen, or a narrower gap");
     }
     const Vec2 middle{0.5 * (box.x1 + box.x2), 0.5 * (box.y1 + box.y2)};
     LoadingPart lower =

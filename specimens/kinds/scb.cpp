@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Semi-circular bend: half a disc of radius R, flat side down, with a notch of length a up from the middle of that
-// side, on two supports at a span s, pressed at the top.
+// Semi-circular bend: half a disc of radius R lies with its flat side down on two supports at span s and is loaded at
+// the top by a force P. A notch of length a extends upwards from the middle of the flat side.
 //
-// Stress is P/(2R), so section = 2R; length = R. K_I = Y' P sqrt(πa)/(2R) = Y' sqrt(πa) σ (Kuruppu, Obara, Ayatollahi,
-// Chong & Funatsu, Rock Mech. Rock Eng. 47, 2014, ISRM's suggested method).
-// Pads as in bending.cpp; the top is flattened over the width of its pad.
+// The stress is P/(2R), so section = 2R; length = R. K_I = Y' P sqrt(πa)/(2R) = Y' sqrt(πa) σ (Kuruppu, Obara,
+// Ayatollahi, Chong & Funatsu, Rock Mech. Rock Eng. 47, 2014, ISRM's suggested method). Pads are as in bending.cpp; the
+// top is flattened over the width of its pad.
 // Tested by tests/specimens/kinds/test_kind_test.cpp.
 
 #include <fmt/format.h>
@@ -20,9 +20,9 @@ namespace crackle {
 namespace {
 
 constexpr double half_disc_notch = 0.5, half_disc_shortest_notch = 0.4,
-                 half_disc_longest_notch = 0.6;  // over the radius
+                 half_disc_longest_notch = 0.6;  // relative to the radius
 constexpr double half_disc_span = 0.8, half_disc_shortest_span = 0.5,
-                 half_disc_longest_span = 0.8;  // over the diameter
+                 half_disc_longest_span = 0.8;  // relative to the diameter
 
 double notch_of(const KindRequest& request, double radius) {
     const double notch = request.test.shape.notch.value_or(half_disc_notch * radius);
@@ -31,7 +31,7 @@ double notch_of(const KindRequest& request, double radius) {
         request.refuse("shape.notch", fmt::format("{} m", notch),
                        fmt::format("{} to {} of the radius of {:.6g} m", half_disc_shortest_notch,
                                    half_disc_longest_notch, radius),
-                       "the stress intensity is known there");
+                       "the stress intensity is known only in this range");
     }
     return notch;
 }
@@ -48,12 +48,14 @@ double semicircle_factor(double ratio, double half_span) {
 }
 
 Shape scb_shape(const KindRequest& request) {
-    const double radius = 0.5 * disc_diameter(request), half_pad = 0.5 * pad_width(request);
+    const Domain& box = request.packing;
+    const double radius = 0.5 * disc_diameter(request, std::min(box.x2 - box.x1, 2.0 * (box.y2 - box.y1)));
+    const double half_pad = 0.5 * pad_width(request, radius);
     const Vec2 foot = foot_of(request);
     if (!(half_pad < 0.5 * radius)) {
         request.refuse("loading.pad_width", fmt::format("{:.4g} m", 2.0 * half_pad),
                        fmt::format("less than the radius of {:.6g} m", radius),
-                       "make the pads narrower, or the particles smaller");
+                       "use narrower pads, or smaller particles");
     }
     const double end = std::sqrt(radius * radius - half_pad * half_pad);
     const double to = correctly_rounded::atan2(end, half_pad);
@@ -76,14 +78,14 @@ Shape scb_shape(const KindRequest& request) {
 }
 
 Apparatus scb_apparatus(const KindRequest& request, const Shape& shape) {
-    const double radius = shape.height, pad = pad_width(request);
+    const double radius = shape.height, pad = pad_width(request, radius);
     const double span = request.test.loading.span.value_or(half_disc_span * shape.width);
     if (span < half_disc_shortest_span * shape.width * (1.0 - 1e-12) ||
         span > half_disc_longest_span * shape.width * (1.0 + 1e-12)) {
         request.refuse("loading.span", fmt::format("{} m", span),
                        fmt::format("{} to {} of the diameter of {:.6g} m", half_disc_shortest_span,
                                    half_disc_longest_span, shape.width),
-                       "the stress intensity is known there");
+                       "the stress intensity is known only in this range");
     }
     const Vec2 foot = foot_of(request);
     Apparatus apparatus;

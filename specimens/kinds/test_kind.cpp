@@ -4,17 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "solver/base/errors.hpp"
 
 namespace crackle {
 namespace {
 
-constexpr double default_half_angle = 10.0;  // degrees: ISRM's jaws
-// Of a beam's depth or a half disc's radius, and of a particle: narrower pads press single grains in.
+constexpr double default_half_angle = 10.0;  // degrees, as in ISRM's jaws
+// Width of a pad relative to the depth of a beam or the radius of a half disc, and smallest width in particle sizes.
+// Narrower pads would push single grains into the specimen.
 constexpr double pad_share = 0.1, fewest_particles_of_a_pad = 2.0;
 
 double side_of(Vec2 a, Vec2 b, Vec2 p) { return cross(b - a, p - a); }
@@ -42,44 +43,32 @@ void KindRequest::refuse(const std::string& key, const std::string& found, const
     throw InputError(fmt::format("{}: found {}, expected {}; {}", test.at(key), found, expected, remedy));
 }
 
-const std::vector<TestKind>& test_kinds() {
-    static const std::vector<TestKind> all{
-        {"compression", true, true, whole_packing, nullptr},
-        {"tension", false, true, whole_packing, nullptr},
-        {"biaxial", true, true, whole_packing, nullptr},
-        {"brazilian", true, false, brazilian_shape, brazilian_apparatus},
-        {"bending", true, false, bending_shape, bending_apparatus},
-        {"scb", true, false, scb_shape, scb_apparatus},
-        {"direct_shear", false, false, whole_packing, direct_shear_apparatus},
-    };
-    return all;
-}
-
-const TestKind& test_kind(const std::string& name) {
-    for (const TestKind& kind : test_kinds())
-        if (name == kind.name) return kind;
-    throw std::out_of_range("test_kind: " + name);
-}
-
-std::vector<std::string> test_kind_names() {
-    std::vector<std::string> names;
-    for (const TestKind& kind : test_kinds()) names.emplace_back(kind.name);
-    return names;
+const TestKind& test_kind(LoadingKind kind) {
+    using enum LoadingKind;
+    using enum ValidFailure;
+    static constexpr std::array<TestKind, table_of_names<LoadingKind>.size()> all{{
+        {compression, true, true, false, between_platens, "platen", "platen", whole_packing, nullptr},
+        {tension, false, true, false, between_platens, "platen", "platen", whole_packing, nullptr},
+        {biaxial, true, true, false, between_platens, "platen", "platen", whole_packing, nullptr},
+        {brazilian, true, false, false, splits_disc, "upper jaw", "lower jaw", brazilian_shape, brazilian_apparatus},
+        {bending, true, false, false, from_midspan, "pad that presses", "support", bending_shape, bending_apparatus},
+        {scb, true, false, false, from_midspan, "pad that presses", "support", scb_shape, scb_apparatus},
+        {direct_shear, false, false, true, along_gap, "upper box", "lower box", whole_packing, direct_shear_apparatus},
+    }};
+    return *std::ranges::find(all, kind, &TestKind::kind);
 }
 
 double half_angle(const KindRequest& request) {
     return request.test.loading.half_angle.value_or(default_half_angle) * std::numbers::pi / 180.0;
 }
 
-double pad_width(const KindRequest& request) {
-    const Domain& box = request.packing;
-    const double size = request.test.loading.kind == "scb" ? 0.5 * disc_diameter(request) : box.y2 - box.y1;
+double pad_width(const KindRequest& request, double size) {
     return request.test.loading.pad_width.value_or(
         std::max(pad_share * size, fewest_particles_of_a_pad * request.particle));
 }
 
 LoadingPart flat_pad(double x, double y, double width, bool up) {
-    // As deep as half its width: no corner is ever pressed in so far.
+    // The part is half as deep as it is wide; no corner of the specimen is ever pressed in that far.
     const double half = 0.5 * width, back = up ? y - half : y + half;
     LoadingPart pad;
     if (up)

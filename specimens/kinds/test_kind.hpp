@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The kinds of test: what is cut from the packing, which parts hold and drive it, what its force and displacement mean.
+// The kinds of test. A kind defines the tested part of the packing, the parts that hold and drive it, and how force and
+// displacement become stress and strain.
 //
-//   compression, tension, biaxial  the whole packing between two platens (specimens/setup/platen.hpp)
-//   brazilian                      a disc between two jaws                                              brazilian.cpp
-//   bending                        a beam on two supports, pressed at midspan, with or without a notch  bending.cpp
-//   scb                            half a disc with a notch on two supports (semi-circular bend)        scb.cpp
-//   direct_shear                   a block in two half boxes, the upper one pressed and drawn along direct_shear.cpp
+//   compression, tension, biaxial   the whole packing between two platens (specimens/setup/platen.hpp)
+//   brazilian                       a disc between two jaws                                              brazilian.cpp
+//   bending                         a beam on two supports, pressed at midspan, with or without a notch  bending.cpp
+//   scb                             half a disc with a notch on two supports (semi-circular bend)        scb.cpp
+//   direct_shear                    a block in two half boxes; the upper is pressed and moved along    direct_shear.cpp
 //
-// Of every kind: stress = force of the specimen on the driving part, along its way, over `section`; axial strain = way
-// of the driving part over `length`. Both are nominal: the formulas that each file gives turn them into the strengths
-// that the field knows. A kind is one file and a row of test_kinds().
+// For every kind, stress is the force exerted by the specimen on the driving part in its direction of travel, divided
+// by `section`. Axial strain is the displacement of the driving part divided by `length`. Both are nominal values; the
+// formulas in the file of each kind convert them to the usual strengths. Each kind consists of one file and one row in
+// test_kind().
 // Tested by tests/specimens/kinds/test_kind_test.cpp.
 #pragma once
 
@@ -23,115 +25,141 @@
 
 namespace crackle {
 
-/// A straight cut: polygons that it parts are not bonded across it, circles that it runs through are taken away.
+/// A straight cut: polygons on opposite sides are not bonded to each other, and circles that it crosses are removed.
 struct Notch {
     Vec2 mouth, tip;  // m
 
-    /// Whether the way from a to b crosses it.
+    /// Whether the notch crosses the segment from a to b.
     bool parts(Vec2 a, Vec2 b) const;
-    double distance(Vec2 place) const;  ///< m, of a place from it
+    double distance(Vec2 place) const;  ///< distance from a point to the notch, m
 };
 
-/// Where bodies are whose distance is the lateral gauge length.
+/// A rectangle that contains the bodies defining one end of the lateral gauge length.
 struct Region {
     double x1 = 0.0, x2 = 0.0, y1 = 0.0, y2 = 0.0;  // m
 
+    /// Whether a point lies in the rectangle.
     bool holds(Vec2 p) const { return p.x >= x1 && p.x <= x2 && p.y >= y1 && p.y <= y2; }
 };
 
-/// What of a packing is tested.
+/// The tested part of a packing.
 struct Shape {
-    std::vector<Vec2> outline;  ///< convex, counter-clockwise; empty: the whole packing
+    std::vector<Vec2> outline;  ///< convex, counter-clockwise; empty if the whole packing is tested
     std::optional<Notch> notch;
-    std::optional<Region> left, right;  ///< where the sides are whose distance is measured; absent: side faces, or none
-    double width = 0.0, height = 0.0;   // m
+    std::optional<Region> left,
+        right;  ///< regions whose bodies define the ends of the lateral gauge; if absent, the side
+    ///< faces define them, or there is no gauge
+    double width = 0.0, height = 0.0;  // m
 
+    /// Whether the whole packing is tested.
     bool whole() const { return outline.empty() && !notch; }
-    /// Whether a place lies inside; of the whole packing every place does.
+    /// Whether a point lies inside the shape; always true for the whole packing.
     bool holds(Vec2 place) const;
 };
 
-/// A rigid body that holds the specimen or drives it. A degree of freedom without a drive follows the specimen.
+/// A rigid body that holds or drives the specimen. A degree of freedom that is not driven follows the specimen.
 struct LoadingPart {
-    std::vector<Vec2> corners;  ///< counter-clockwise, those of its face first
-    std::uint32_t face = 2;     ///< corners of the face, which is all that is drawn
+    std::vector<Vec2> corners;  ///< counter-clockwise; the corners of the face come first
+    std::uint32_t face = 2;     ///< number of corners on the face; only the face is plotted
     DofControl x, y, rotation;
 };
 
-/// What holds and drives a specimen, and what is read from it.
+/// The parts that hold and drive a specimen, and the dimensions used to evaluate their forces.
 struct Apparatus {
-    std::vector<LoadingPart> parts;      ///< the last one drives
-    int axis = 1;                        ///< of its way: 0 x, 1 y
+    std::vector<LoadingPart> parts;      ///< the last part is the driving part
+    int axis = 1;                        ///< axis along which the driving part moves: 0 is x, 1 is y
     double section = 0.0, length = 0.0;  // m
-    double normal_force = 0.0;           ///< N, on the driving part across its way, towards the specimen
-    double normal_spring = 0.0;          ///< N/m, by which it grows as that part goes the other way
-    double stress_intensity = 0.0;       ///< sqrt(m): K_I over the nominal stress; 0 without a notch
-    double span = 0.0;                   ///< m, between supports; 0 without
+    /// N, on the driving part, perpendicular to its direction of travel and towards the specimen.
+    double normal_force = 0.0;
+    double normal_spring =
+        0.0;  ///< N/m; increase of the normal force per displacement of the driving part away from the specimen
+    double stress_intensity = 0.0;  ///< sqrt(m); K_I divided by the nominal stress; 0 without a notch
+    double span = 0.0;              ///< m, between supports; 0 without supports
 };
 
-/// A corner, or a circle, of the specimen: what comes nearer than its reach touches it.
+/// A corner or circle of the specimen. A face touches it if closer than `reach`.
 struct SurfacePoint {
     Vec2 place;          // m
     double reach = 0.0;  // m
 };
 
-/// What a kind goes by.
+/// Input from which a kind derives the specimen's shape and the apparatus.
 struct KindRequest {
     const TestCase& test;
-    Domain packing;                          ///< the box of the packing
-    double particle = 0.0;                   ///< m, mean size: of a cell the root of its area, of a circle its diameter
-    double offset = 0.0;                     ///< m, from a face of the packing to that of a part which is bonded to it
-    double cut_offset = 0.0;                 ///< m, likewise from an outline that was cut
-    std::vector<SurfacePoint> surface = {};  ///< of the specimen, which parts that are not bonded just touch
+    Domain packing;           ///< the box of the packing
+    double particle = 0.0;    ///< m, mean particle size: square root of a cell's area, or diameter of a circle
+    double offset = 0.0;      ///< m, distance from a face of the packing to the face of a bonded part
+    double cut_offset = 0.0;  ///< m, distance from a cut outline to the face of a bonded part
+    std::vector<SurfacePoint> surface =
+        {};  ///< surface points of the specimen; parts that are not bonded are placed so that they just touch it
 
+    /// Refuses a key of the case. @throws InputError «file:line: key: found X, expected Y; remedy», always
     [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected,
                              const std::string& remedy) const;
 };
 
+/// Failure mode expected in a valid test (specimens/measures/verdicts.hpp).
+enum class ValidFailure : std::uint8_t { between_platens, splits_disc, from_midspan, along_gap };
+
+/// A kind of test.
 struct TestKind {
-    const char* name;
-    bool compression;  ///< the driving part moves against its axis
-    bool uniaxial;     ///< stress and strain are those of the rock: moduli, thresholds and the like are defined
-    /// What is cut from the packing, before bodies are known.
+    LoadingKind kind;
+    bool compression;  ///< whether the driving part moves in the negative direction of its axis
+    /// Whether stress and strain are those of the rock, so that quantities such as moduli and crack thresholds are
+    /// defined.
+    bool uniaxial;
+    /// Whether the test is a direct shear test with a normal force, so that dilation and residual stress are defined.
+    bool shear_box;
+    ValidFailure valid_failure;
+    const char *driver, *support;  ///< names of the driving part and the supports in messages
+    /// Returns the shape to be cut out of the packing. Called before the bodies are known.
     Shape (*shape)(const KindRequest&);
-    /// None of the uniaxial kinds, which have platens.
+    /// Returns the parts that hold and drive the specimen; nullptr for the uniaxial kinds, which have platens.
     Apparatus (*apparatus)(const KindRequest&, const Shape&);
 };
 
-const std::vector<TestKind>& test_kinds();
-/// @throws std::out_of_range of a name that is none
-const TestKind& test_kind(const std::string& name);
-/// Their names, in the order in which they are told.
-std::vector<std::string> test_kind_names();
+/// The kind of test that a case names.
+const TestKind& test_kind(LoadingKind kind);
 
-/// m; the largest that the packing has room for where the case gives none
-double disc_diameter(const KindRequest& request);
-/// rad, half of the arc over which a jaw presses
+/// Diameter of the disc, m. @param room  default diameter, m: the largest disc that fits into the packing
+double disc_diameter(const KindRequest& request, double room);
+/// Half of the arc over which a jaw presses, rad.
 double half_angle(const KindRequest& request);
-/// m, of the pads that hold and press a beam or half a disc
-double pad_width(const KindRequest& request);
+/// Width of the pads that support and load the specimen, m. @param size  depth of a beam or radius of a half disc, m
+double pad_width(const KindRequest& request, double size);
 
-/// A pad with a flat face of this width, centred at x. @param y of its face @param up whether the specimen lies above
+/// A pad with a flat face of the given width, centred at x.
+/// @param y  position of the face
+/// @param up  whether the specimen lies above the pad
 LoadingPart flat_pad(double x, double y, double width, bool up);
 
-// The kinds' own files.
+// The functions of each kind are defined in a file of its own.
+/// The shape that keeps the whole packing, for kinds of test between platens.
 Shape whole_packing(const KindRequest& request);
+/// A disc.
 Shape brazilian_shape(const KindRequest& request);
+/// Two jaws that press a disc.
 Apparatus brazilian_apparatus(const KindRequest& request, const Shape& shape);
+/// A beam, with a notch if the case has one.
 Shape bending_shape(const KindRequest& request);
+/// Two supports and a pad that bends a beam.
 Apparatus bending_apparatus(const KindRequest& request, const Shape& shape);
+/// Half a disc with a notch.
 Shape scb_shape(const KindRequest& request);
+/// Two supports and a pad that bends half a disc.
 Apparatus scb_apparatus(const KindRequest& request, const Shape& shape);
+/// A box in two halves; the upper half moves under a normal stress.
 Apparatus direct_shear_apparatus(const KindRequest& request, const Shape& shape);
 
-/// f(a/W) of a notched beam in three-point bending, S = 4W: K_I = P S/W^1.5 f (ASTM E399), 0 < a/W < 1; of a thickness
-/// of 1.
+/// f(a/W) of a beam with a notch of length a in three-point bending with S = 4W, for unit thickness: K_I = P S/W^1.5 f
+/// (ASTM E399).
+/// @param ratio  a/W, above 0 and below 1
 double notched_beam_factor(double ratio);
-/// Y' of half a disc: K_I = Y' P sqrt(πa)/(2R) (Kuruppu et al., Rock Mech. Rock Eng. 47, 2014).
-/// @param ratio a/R, 0.4 to 0.6 @param half_span s/2R, 0.5 to 0.8
+/// Y' of a notched half disc: K_I = Y' P sqrt(πa)/(2R) (Kuruppu et al., Rock Mech. Rock Eng. 47, 2014).
+/// @param ratio  a/R, 0.4 to 0.6 @param half_span  s/(2R), 0.5 to 0.8
 double semicircle_factor(double ratio, double half_span);
-/// Stress at the centre of a disc over 2P/(πD): uniform pressure over an arc of half angle α on either side (Hondros,
-/// Aust. J. Appl. Sci. 10, 1959): (sin 2α - α)/sin α.
+/// Ratio of the stress at the centre of a disc to 2P/(πD), for uniform pressure on two opposite arcs of half angle α
+/// (Hondros, Aust. J. Appl. Sci. 10, 1959): (sin 2α - α)/sin α.
 double brazilian_factor(double alpha);
 
 }  // namespace crackle

@@ -18,16 +18,17 @@
 namespace crackle {
 namespace {
 
-// Long enough for a rate that another program on the machine does not halve, short beside making the specimen.
+// Long enough that another program cannot halve the measured speed, yet short compared with making the specimen.
 constexpr double seconds_of_steps = 0.5;
 constexpr int steps_at_once = 64;
 
 constexpr double fewest_grains_across = 20.0;
-// Of the thickness that bonds overlap by; of a corner's distance from a platen that the estimated strength closes: the
-// estimate may be wrong by as much.
+constexpr double fewest_steps = 10.0;  // with fewer steps, the test would overshoot max_axial_strain
+// Warning thresholds at the estimated strength: mean bond overlap relative to the bond thickness, and displacement of a
+// corner relative to its distance from a platen. They allow for errors of the estimate.
 constexpr double deep_overlap_share = 0.5, noticed_closing_share = 0.5;
 
-/// @param notices has a line more where the specimen cannot even be stepped
+/// Measures the speed of stepping. @param notices  receives a notice if stepping is unstable
 double steps_per_second(World& world, std::vector<std::string>& notices) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begun = Clock::now();
@@ -46,7 +47,7 @@ double steps_per_second(World& world, std::vector<std::string>& notices) {
     return static_cast<double>(steps) / seconds;
 }
 
-/// What is refused, as a warning.
+/// Calls `judge` and returns the error message if it throws InputError, for use as a warning.
 std::optional<std::string> refusal_of(auto&& judge) {
     try {
         judge();
@@ -69,14 +70,15 @@ std::optional<FirstLoss> loss_of(const ElasticAnalysis& analysis, const std::opt
 }
 
 void estimate_strength(TestCheck& check, const ElasticAnalysis& analysis, const TestCase& test, const TestSetup& own) {
-    if (test.numerics.intact || test.confined() || !test.uniaxial()) return;  // the rule is of unconfined specimens
+    // Estimates apply only to unconfined uniaxial specimens.
+    if (test.numerics.intact || test.confined() || !test.uniaxial()) return;
     const BreakShare rule = bond_break_share(own);
     const double strain = strain_of_share(analysis.bonds, rule.share);
     if (!std::isfinite(strain)) return;
     check.strength = {analysis.youngs_modulus * strain, strain, rule.share, rule.factor};
 }
 
-/// The corner that a platen comes nearest to passing.
+/// Finds the corner that comes closest to passing through a platen at the estimated strength.
 void find_deepest_corner(TestCheck& check, const ElasticAnalysis& analysis, const TestSetup& own) {
     if (!own.compression || !own.polygons || !check.strength) return;
     double deepest = 0.0;
@@ -92,23 +94,25 @@ void find_deepest_corner(TestCheck& check, const ElasticAnalysis& analysis, cons
     }
 }
 
-/// degrees, of the envelope of bonds that break in shear, else of the contacts; mean over the bonded points
+/// Mean friction angle over the bonded points, degrees: from the failure envelope for bonds that break in shear,
+/// otherwise from the contacts.
 double bond_friction_angle(const World& world) {
     double sum = 0.0, count = 0.0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if ((world.points.state[k].flags & point_bonded) == 0) continue;
         const ContactLaw& law = world.settings.laws[world.points.state[k].law];
-        sum += std::atan(world.settings.bond_law == BondLaw::coulomb ? law.bond_friction : law.friction);
+        sum += std::atan(law.*facts_of(world.settings.bond_law).friction);
         count += 1.0;
     }
     return sum / std::max(count, 1.0) * 180.0 / std::numbers::pi;
 }
 
-/// The disc's rock, squeezed and pulled as a whole packing between platens by one linear solution.
+/// Estimates the compressive and tensile strength of a disc's rock from one linear solution of the whole packing
+/// between platens.
 std::optional<DiscOutlook> outlook_of(const TestCase& disc, const TestHooks& hooks) {
     TestCase rock = disc;
-    rock.loading.kind = "compression";
-    rock.loading.platens = "bonded";
+    rock.loading.kind = LoadingKind::compression;
+    rock.loading.platens = PlatenKind::bonded;
     rock.loading.jaws.reset();
     rock.loading.half_angle.reset();
     rock.shape = {};
@@ -122,7 +126,7 @@ std::optional<DiscOutlook> outlook_of(const TestCase& disc, const TestHooks& hoo
             const BreakShare rule = bond_break_share(setup);
             strains[compression ? 0 : 1] =
                 strain_of_share(analyse_elastic(world, setup, moduli, 1.0, 0).bonds, rule.share);
-            squares += std::pow(std::log(rule.factor), 2.0);  // of errors by themselves
+            squares += std::pow(std::log(rule.factor), 2.0);  // the errors are independent
         }
     };
     TestHooks quietly;
@@ -130,7 +134,7 @@ std::optional<DiscOutlook> outlook_of(const TestCase& disc, const TestHooks& hoo
     quietly.working = hooks.working;
     try {
         bond_test(rock, quietly, look);
-    } catch (const InputError&) {  // what holds a disc need not hold the whole packing
+    } catch (const InputError&) {  // platens may fail to hold the whole packing, whereas jaws hold the disc
         return std::nullopt;
     }
     outlook.strength_ratio = strains[0] / strains[1];
@@ -156,14 +160,14 @@ constexpr double largest_strain_of_a_rock = 0.1;
 void warn_of_disc(TestCheck& check) {
     if (!check.disc || check.disc->can_be_valid() == true) return;
     const DiscOutlook& disc = *check.disc;
-    check.warnings.push_back(fmt::format(
-        "a Brazilian test of this rock {} valid: its strength is about {:.2g} times its tensile strength, within a "
-        "factor of {:.2g}, and only from 3 + N = {:.3g} on (friction angle {:.3g} degrees) does the centre of a disc "
-        "split before it is crushed; {}",
-        disc.can_be_valid() ? "cannot be" : "may not be", disc.strength_ratio, disc.factor, disc.needed,
-        disc.friction_angle,
-        disc.can_be_valid() ? "its peak is no tensile strength, kind = \"tension\" measures one"
-                            : "`validity` of its summary tells afterwards"));
+    check.warnings.push_back(
+        fmt::format("a Brazilian test of this rock {} valid: its strength is about {:.2g} times its tensile strength, "
+                    "within a factor of {:.2g}; a disc splits at its centre before it is crushed only if this ratio is "
+                    "at least 3 + N = {:.3g} (friction angle {:.3g} degrees); {}",
+                    disc.can_be_valid() ? "cannot be" : "may not be", disc.strength_ratio, disc.factor, disc.needed,
+                    disc.friction_angle,
+                    disc.can_be_valid() ? "its peak is not a tensile strength; measure it with kind = \"tension\""
+                                        : "check `validity` in the summary after the test"));
 }
 
 void warn(TestCheck& check) {
@@ -173,45 +177,53 @@ void warn(TestCheck& check) {
     warn_of_disc(check);
     if (test.confined()) {
         check.warnings.emplace_back(
-            "first slip and break are those of the specimen without its confining pressure, and no strength is "
-            "estimated under one");
+            "first slip and break are estimated without the confining pressure; no strength is "
+            "estimated under pressure");
     }
     if (setup.polygons && setup.mean_bond_overlap > deep_overlap_share * setup.bond_thick) {
         check.warnings.push_back(
             fmt::format("bonds overlap by {:.3g} m on average, {:.2g} of the thickness {:.3g} m: corners lie close to "
-                        "their neighbours' faces, and little load pushes them through; make mesh.thick larger, or "
-                        "bond.thick less of an excess over it",
+                        "their neighbours' faces, and a small load may push them through; increase mesh.thick, or "
+                        "reduce the excess of bond.thick over it",
                         setup.mean_bond_overlap, setup.mean_bond_overlap / setup.bond_thick, setup.bond_thick));
     }
-    // What else is out of proportion then follows from it.
+    // If strengths are out of proportion to the stiffness, other excessive values are consequences, so only that is
+    // reported.
     const bool out_of_proportion =
-        check.strength && setup.coulomb_bonds && check.strength->strain > largest_strain_of_a_rock;
+        check.strength && setup.bond_facts().strengths_are_given && check.strength->strain > largest_strain_of_a_rock;
     if (!out_of_proportion && check.corner_distance > 0.0 &&
         check.corner_closing > noticed_closing_share * check.corner_distance) {
         check.warnings.push_back(fmt::format(
             "at the estimated strength a platen presses a corner in by {:.3g} m, {:.2g} of its distance from the "
-            "platen's face, {:.3g} m: corners may pass the platen; make mesh.thick larger, or the stiffness",
+            "platen's face, {:.3g} m: corners may pass through the platen; increase mesh.thick or the stiffness",
             check.corner_closing, check.corner_closing / check.corner_distance, check.corner_distance));
     }
     if (check.grains_across < fewest_grains_across) {
         check.warnings.push_back(
-            fmt::format("the specimen is {} grains wide, fewer than {:g}: strength and modulus depend on the "
-                        "packing and the boundary; make it of more grains, or average over several seeds",
+            fmt::format("the specimen is {} grains wide, fewer than {:g}: strength and modulus depend on the packing "
+                        "and the boundary; use more grains, or average over several seeds",
                         spoken_below(check.grains_across, fewest_grains_across), fewest_grains_across));
     }
-    if (setup.polygons && test.loading.kind == "tension" && test.loading.platens == "bonded") {
+    if (setup.polygons && setup.uniaxial && !setup.compression && test.loading.platens == PlatenKind::bonded) {
         check.warnings.push_back(fmt::format(
-            "{}: polygons that are pulled by bonded platens part at the platen: the strength is not the rock's; "
-            "platens = \"glued\" hold it",
+            "{}: polygons pulled by bonded platens separate at the platen, so the strength is not the rock's; "
+            "use platens = \"glued\"",
             test.at("loading.platens")));
     }
-    if (out_of_proportion) {
+    if (check.to_end.steps < fewest_steps) {
         check.warnings.push_back(
-            fmt::format("the estimated strength lies at a strain of {:.2g}, far beyond any rock's: strengths are {}",
-                        check.strength->strain,
-                        test.area_units() ? "in Pa, likewise contact_modulus: look at their powers of ten"
-                                          : "N a point here; in Pa they need units = \"area\" with contact_modulus and "
-                                            "stiffness_ratio"));
+            fmt::format("{} = {:g} is only {:.2g} steps away, so the test overshoots it; use a larger "
+                        "strain or a lower rate",
+                        test.at("loading.max_axial_strain"), test.loading.max_axial_strain, check.to_end.steps));
+    }
+    if (out_of_proportion) {
+        check.warnings.push_back(fmt::format(
+            "the estimated strength would be reached at a strain of {:.2g}, far beyond the failure strain of any rock: "
+            "strengths are {}",
+            check.strength->strain,
+            test.area_units() ? "in Pa, and so is contact_modulus; check their orders of magnitude"
+                              : "in N per point here; in Pa they need units = \"area\" with contact_modulus and "
+                                "stiffness_ratio"));
     } else if (check.strength && check.strength->strain > test.loading.max_axial_strain) {
         check.warnings.push_back(fmt::format(
             "{} = {:.3g} is less than the strain of the estimated strength, {:.3g}: the test may end before "
@@ -228,12 +240,13 @@ std::optional<bool> DiscOutlook::can_be_valid() const {
     return std::nullopt;
 }
 
-// From the tests in specimens/METHODS.md 6: pulled, and squeezed but for Voronoi polygons, a rock fails soon after its
-// first breaks; Voronoi polygons under compression lock, and go on until a fifth of their bonds has gone. By
-// back-tension the overlaps of circles vary, and many weak bonds break early.
+// Calibrated on the tests in specimens/loading/METHODS.md: specimens fail soon after their first breaks, except Voronoi
+// polygons under compression. These interlock and carry load until a fifth of their bonds is broken. With back-tension,
+// the overlaps of circles vary, and many weak bonds break early.
 BreakShare bond_break_share(const TestSetup& setup) {
-    const bool circles = setup.specimen == "circles", voronoi = setup.specimen == "voronoi";
-    if (setup.coulomb_bonds) return setup.compression && voronoi ? BreakShare{0.2, 2.0} : BreakShare{0.01, 1.9};
+    const bool circles = setup.specimen == SpecimenKind::circles, voronoi = setup.specimen == SpecimenKind::voronoi;
+    if (setup.bond_facts().strengths_are_given)
+        return setup.compression && voronoi ? BreakShare{0.2, 2.0} : BreakShare{0.01, 1.9};
     if (!setup.compression)
         return circles ? BreakShare{0.05, 1.5} : voronoi ? BreakShare{0.005, 1.3} : BreakShare{0.02, 1.3};
     return circles ? BreakShare{0.03, 1.5} : voronoi ? BreakShare{0.02, 1.5} : BreakShare{0.005, 2.0};
@@ -253,7 +266,7 @@ TestCheck check_test(const TestCase& description, const TestHooks& hooks) {
     TestCheck check;
     check.youngs_modulus = check.poissons_ratio = check.gauge_modulus = std::numeric_limits<double>::quiet_NaN();
     const auto look = [&](const World& world, const TestSetup& own, const Moduli& moduli) {
-        constexpr double unit_strain = 1e-3;  // of forces, which grow with it
+        constexpr double unit_strain = 1e-3;  // strain for which forces are computed; they are proportional to it
         const ElasticAnalysis analysis = analyse_elastic(world, own, moduli, unit_strain, 0);
         check.youngs_modulus = moduli.youngs_modulus;
         check.poissons_ratio = moduli.poissons_ratio;
@@ -264,12 +277,12 @@ TestCheck check_test(const TestCase& description, const TestHooks& hooks) {
         find_deepest_corner(check, analysis, own);
     };
     check.test = prepare_test(description, hooks, look);
-    if (description.loading.kind == "brazilian" && !description.numerics.intact)
+    if (test_kind(description.loading.kind).valid_failure == ValidFailure::splits_disc && !description.numerics.intact)
         check.disc = outlook_of(description, hooks);
-    const auto rests = refusal_of([&] { refuse_resting(check.test); });  // before steps are timed
+    const auto rests = refusal_of([&] { refuse_resting(check.test); });  // checked before steps are timed
     const TestSetup& setup = check.test.setup;
     check.grains_across = setup.width / std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
-    hooks.report_work("measuring steps a second");
+    hooks.report_work("measuring steps per second");
     check.steps_per_second = steps_per_second(check.test.world, check.test.setup.notices);
     estimate_run(check);
     check.memory = largest_memory();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a case will give and cost, without loading it: small-strain moduli, the first bonds to give way, a rough
-// estimate of the strength, steps, seconds and memory, and what is likely to go wrong.
+// Predicts the result and cost of a case without loading it. The check reports small-strain moduli, the first bonds to
+// fail, a rough strength estimate, the number of steps, run time and memory, and likely problems.
 //
-// The estimate: E times the strain at which a share of the bonded points that can break would have broken, were the
-// linear solution to hold that far (bond_break_share). The share is what the shipped and other cases had reached at
-// their strength; specimens/METHODS.md 6 has them, and how far off the estimate was.
+// The strength estimate is E times the strain at which a given fraction of the breakable bonded points would have
+// broken if the linear solution held up to there (bond_break_share). The fraction was calibrated on supplied cases and
+// others; specimens/loading/METHODS.md lists them with the errors of the estimate.
 // Tested by tests/specimens/loading/check_test.cpp.
 #pragma once
 
@@ -21,60 +21,68 @@
 
 namespace crackle {
 
-/// A bond that gives way first.
+/// The first bond to slide or to break.
 struct FirstLoss {
-    double strain = 0.0, stress = 0.0;  // -, N/m (Pa in area units), positive in the sense of the test
+    double strain = 0.0, stress = 0.0;  // -, N/m (Pa in area units); positive in the direction of loading
     int body_i = 0, body_j = 0;         ///< input ids
 };
 
+/// Estimate of the strength from the linear solution.
 struct StrengthEstimate {
-    double stress = 0.0, strain = 0.0;  ///< as FirstLoss
-    double share = 0.0;                 ///< of the breakable points, by which it was estimated
-    double factor = 1.0;                ///< by which it was off at worst where it was calibrated
+    double stress = 0.0, strain = 0.0;  ///< as in FirstLoss
+    /// Fraction of the breakable points that are assumed to be broken at the strength.
+    double share = 0.0;
+    /// Largest ratio between estimate and result in the calibration tests, either way.
+    double factor = 1.0;
 };
 
-/// Whether a Brazilian test of a rock can be valid: the centre of a disc, under three times the tension there, splits
-/// before it is crushed where strength over tensile strength is 3 + N or more, N = (1 + sin φ)/(1 - sin φ).
+/// Whether a Brazilian test of a rock can be valid. The compression at the centre of a disc is three times the tension
+/// there. The disc splits before it is crushed if the ratio of compressive to tensile strength is at least 3 + N, where
+/// N = (1 + sin φ)/(1 - sin φ).
 struct DiscOutlook {
-    double strength_ratio = 0.0;  ///< of the rock's estimated strengths, by the linear solution of the whole packing
-    double factor = 1.0;          ///< by which it may be off
-    double friction_angle = 0.0;  // degrees, mean of the bonded points
-    double needed = 0.0;          ///< 3 + N
+    /// Ratio of compressive to tensile strength, both estimated from linear solutions of the whole packing.
+    double strength_ratio = 0.0;
+    double factor = 1.0;          ///< possible error of the ratio, as a factor
+    double friction_angle = 0.0;  // degrees, mean over bonded points
+    double needed = 0.0;          ///< required ratio, 3 + N
 
-    /// Nothing where the estimate is too rough to tell.
+    /// Empty if the estimate is too rough to decide.
     std::optional<bool> can_be_valid() const;
 };
 
+/// Expected results and cost of a test, without running it.
 struct TestCheck {
-    VirtualTest test;  ///< a few steps into its loading
+    VirtualTest test;  ///< the test, a few steps after the start of loading
     double grains_across = 0.0;
-    double youngs_modulus = 0.0, poissons_ratio = 0.0, gauge_modulus = 0.0;  ///< not a number where unknown
+    double youngs_modulus = 0.0, poissons_ratio = 0.0, gauge_modulus = 0.0;  ///< N/m, -, N/m; NaN if unknown
     std::optional<FirstLoss> first_slip, first_break;
     std::optional<StrengthEstimate> strength;
-    std::optional<DiscOutlook> disc;        ///< of a Brazilian test whose rock has a linear solution
-    double rate = 0.0, slowest_rate = 0.0;  // 1/s; equal where the rate is given
-    double steps_per_second = 0.0;          ///< as measured here
+    std::optional<DiscOutlook> disc;        ///< for a Brazilian test whose rock has a linear solution
+    double rate = 0.0, slowest_rate = 0.0;  // 1/s; equal if the case states a rate
+    double steps_per_second = 0.0;          ///< speed measured in this check
     std::optional<RunEstimate> to_strength;
-    RunEstimate to_end;   ///< to max_axial_strain
-    double memory = 0.0;  ///< bytes, largest of this process so far
-    /// Of the corner that a platen presses deepest by the linear solution at the estimated strength, m: its way, and
-    /// its distance from the platen's face now; 0 of circles, in tension, and without an estimate.
+    RunEstimate to_end;   ///< estimate up to max_axial_strain
+    double memory = 0.0;  ///< peak memory of this process up to now, bytes
+    /// The corner that a platen presses in deepest at the estimated strength, according to the linear solution: its
+    /// displacement towards the platen, and its initial distance to the platen's face, m. Both are 0 for circles, in
+    /// tension, and without an estimate.
     double corner_closing = 0.0, corner_distance = 0.0;
-    std::vector<std::string> warnings;  ///< what is likely to go wrong, a sentence each
+    std::vector<std::string> warnings;  ///< likely problems, one sentence each
 };
 
-/// Share of the breakable points that has broken at the strength, by the linear solution, and the factor by which a
-/// strength so estimated was off at worst.
+/// Fraction of the breakable points that are broken at the strength, according to the linear solution, and largest
+/// error of the strength estimate, as a factor.
 struct BreakShare {
     double share, factor;
 };
+/// Calibrated fraction and error for a kind of specimen, bonds and loading.
 BreakShare bond_break_share(const TestSetup& setup);
 
-/// Strain at which this share of the points (at least one) has broken by the linear solution; infinite where it never
-/// has. Points that cannot break do not count.
+/// Strain at which a given fraction of the breakable points (at least one) has broken according to the linear solution;
+/// infinite if the fraction is never reached.
 double strain_of_share(const std::vector<LinearBond>& bonds, double share);
 
-/// @throws as prepare_test()
+/// Checks a case. @throws the exceptions of prepare_test()
 TestCheck check_test(const TestCase& description, const TestHooks& hooks = {});
 
 }  // namespace crackle

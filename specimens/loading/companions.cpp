@@ -11,18 +11,18 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/processors_lent.hpp"
-#include "solver/base/threads_to_be_had.hpp"
+#include "solver/machine/processors_lent.hpp"
+#include "solver/machine/threads_to_be_had.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/measures/cycles.hpp"
-#include "specimens/results/summary.hpp"
+#include "specimens/results/make_summary.hpp"
 
 namespace crackle {
 namespace {
 
-constexpr double student_two = 2.920;      // 95 % point, two degrees of freedom
-constexpr double convergence_index = 3.0;  // two grids, first order
+constexpr double student_two = 2.920;      // 95 % point of Student's t for two degrees of freedom
+constexpr double convergence_index = 3.0;  // safety factor of the grid convergence index for two grids at first order
 constexpr std::chrono::milliseconds between_questions{50};
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
@@ -36,7 +36,7 @@ std::vector<CompanionPlan> plans_for(const TestCase& asked, int threads) {
     const auto plan = [&](const char* name) -> TestCase& {
         plans.push_back({name, asked});
         plans.back().description.numerics.threads = threads;
-        plans.back().description.output.emission = false;  // nobody reads what they hear
+        plans.back().description.output.emission = false;  // acoustic events of companions are not used
         return plans.back().description;
     };
     plan("half_time_step").halve_step();
@@ -44,11 +44,11 @@ std::vector<CompanionPlan> plans_for(const TestCase& asked, int threads) {
     plan("half_damping").damping_scale = 0.5;
     TestCase& doubled = plan("double_damping");
     doubled.damping_scale = 2.0;
-    doubled.numerics.time_step.reset();  // more damping needs a smaller step
+    doubled.numerics.time_step.reset();  // more damping requires a smaller time step
     return plans;
 }
 
-/// Stress at a strain, between rows; the last row's beyond them.
+/// Stress at a strain, interpolated between rows; beyond the last row, the stress of the last row.
 double stress_at(const std::vector<CurveRow>& rows, double strain) {
     const auto after =
         std::find_if(rows.begin(), rows.end(), [&](const CurveRow& r) { return r.axial_strain >= strain; });
@@ -71,27 +71,27 @@ double post_peak_difference(const VirtualTest& test, const VirtualTest& other) {
     return count > 0 ? sum / static_cast<double>(count) / test.state.failure.peak_stress : 0.0;
 }
 
-/// Dashpots of the first law, N s/m where given as such, sqrt(N/m) where by ratio.
+/// Dashpot of the first contact law: N s/m if given as a dashpot, sqrt(N/m) if given as a damping ratio.
 double damping_of(const World& world) {
-    if (world.settings.laws.empty()) return undefined;  // it became unstable before there was a world
+    if (world.settings.laws.empty()) return undefined;  // the companion became unstable before its world was built
     const ContactLaw& law = world.settings.laws.front();
     return law.normal_damping + law.normal_damping_ratio_term;
 }
 
-/// Read off its own world and rows, not off the plan: what was planned and not done would show.
-Companion what_it_did(const CompanionPlan& plan, const VirtualTest& test, const VirtualTest& other) {
-    Companion c;
-    c.name = plan.name;
+/// Reads the results from the companion's own world and rows rather than from its plan, so that a setting that was not
+/// applied would be noticed.
+CompanionFigures what_it_did(const VirtualTest& test, const VirtualTest& other) {
+    CompanionFigures c;
     c.ended_by = other.state.ended_by;
     c.steps = other.world.stepping.steps;
-    c.time_step = other.world.stepping.time / static_cast<double>(c.steps);
-    if (!other.state.rows.empty()) c.axial_strain_rate = other.state.mean_rate();
+    c.time_step = other.world.stepping.time / static_cast<double>(other.world.stepping.steps);
+    c.axial_strain_rate = other.state.rows.empty() ? 0.0 : other.state.mean_rate();
     c.damping = damping_of(other.world) / damping_of(test.world);
     return c;
 }
 
-/// @return nothing if interrupted
-std::optional<Companion> run_one(const CompanionPlan& plan, const VirtualTest& test, const TestHooks& hooks) {
+/// @return empty if interrupted
+std::optional<CompanionFigures> run_one(const CompanionPlan& plan, const VirtualTest& test, const TestHooks& hooks) {
     TestHooks quiet;
     quiet.interrupted = hooks.interrupted;
     VirtualTest other;
@@ -101,33 +101,34 @@ std::optional<Companion> run_one(const CompanionPlan& plan, const VirtualTest& t
     } catch (const TestInterrupted&) {
         return std::nullopt;
     } catch (const UnstableRun&) {
-        Companion unstable = what_it_did(plan, test, other);
+        CompanionFigures unstable = what_it_did(test, other);
         unstable.peak_stress = unstable.peak_strain = unstable.post_peak_difference = undefined;
-        unstable.crack_initiation_stress = unstable.crack_damage_stress = undefined;
+        if (test.setup.compression && test.setup.uniaxial)
+            unstable.crack_initiation_stress = unstable.crack_damage_stress = undefined;
         unstable.ended_by = ended_by_instability;
         return unstable;
     }
     if (other.state.ended_by.empty()) return std::nullopt;
-    Companion done = what_it_did(plan, test, other);
+    CompanionFigures done = what_it_did(test, other);
     done.peak_stress = other.state.failure.peak_stress;
     done.peak_strain = other.state.failure.peak_strain;
     done.post_peak_difference = post_peak_difference(test, other);
-    const CrackThresholds cracks =
-        crack_thresholds_of(other.description, other.setup, other.state).value_or(CrackThresholds{});
-    done.crack_initiation_stress = cracks.count_break;
-    done.crack_damage_stress = cracks.damage;
+    if (const auto cracks = crack_thresholds_of(other.description, other.setup, other.state)) {
+        done.crack_initiation_stress = cracks->count_break;
+        done.crack_damage_stress = cracks->damage;
+    }
     return done;
 }
 
-/// How far the largest of the rows may lie from the peak between them: a spacing in strain, and in stress what the last
-/// row before it rose by.
+/// Error of the peak stress due to the spacing of rows. The true peak lies at most one row spacing from the row with
+/// the largest stress; the error is taken as the stress increase in that row.
 double resolved_stress(const VirtualTest& test) {
     const FailureTracker& f = test.state.failure;
     if (f.peak_row < 1) return 0.0;
     const CurveRow& before = test.state.rows[static_cast<std::size_t>(f.peak_row - 1)];
     return std::abs(f.peak_stress - before.axial_stress) / f.peak_stress;
 }
-/// What the row that first comes to a stress rose by, over it; undefined as the stress is.
+/// Increase of the stress in the row that first reaches `stress`, relative to `stress`; NaN if `stress` is NaN.
 double resolved_before_peak(const VirtualTest& test, double stress) {
     if (std::isnan(stress)) return undefined;
     const std::vector<CurveRow>& rows = test.state.rows;
@@ -144,78 +145,79 @@ double resolved_strain(const VirtualTest& test) {
 
 }  // namespace
 
-bool on_one_branch(const NumberError& stress, const NumberError& strain) {
-    return stress.time_step <= branch_stress_change && stress.rate <= branch_stress_change &&
-           strain.time_step <= branch_strain_change && strain.rate <= branch_strain_change;
+bool on_one_branch(const ErrorFigures& stress, const ErrorFigures& strain) {
+    return stress.time_step.or_nan() <= branch_stress_change && stress.rate.or_nan() <= branch_stress_change &&
+           strain.time_step.or_nan() <= branch_strain_change && strain.rate.or_nan() <= branch_strain_change;
 }
 
-NumberError error_of(double asked, double resolution, const std::vector<Companion>& companions,
-                     double Companion::*value) {
-    NumberError error;
-    error.resolution = resolution;
+ErrorFigures error_of(double asked, double resolution, const Table<CompanionFigures>& companions,
+                      Number CompanionFigures::*value) {
+    double time_step = 0.0, rate = 0.0, damping = 0.0;
     std::vector<double> draws{asked};
-    for (const Companion& c : companions) {
-        const double change = std::abs(c.*value - asked) / std::abs(asked);
-        if (c.name == "half_time_step") error.time_step = change;
-        if (c.name == "half_rate") error.rate = change;
-        if (c.name.ends_with("damping"))
-            error.damping = std::isnan(change) ? change : std::max(error.damping, change);
+    for (const auto& [name, c] : companions) {
+        const double found = (c.*value).or_nan(), change = std::abs(found - asked) / std::abs(asked);
+        if (name == "half_time_step") time_step = change;
+        if (name == "half_rate") rate = change;
+        if (name.ends_with("damping"))
+            damping = std::isnan(change) ? change : std::max(damping, change);
         else
-            draws.push_back(c.*value);
+            draws.push_back(found);
     }
     double mean = 0.0, square = 0.0;
     for (const double x : draws) mean += x / static_cast<double>(draws.size());
     for (const double x : draws) square += (x - mean) * (x - mean) / static_cast<double>(draws.size() - 1);
     const double chance = student_two * std::sqrt(2.0 * square) / std::abs(asked);
-    error.stated = norm(Vec2{resolution, std::max(chance, convergence_index * error.rate)});
-    if (std::isnan(chance)) error.stated = undefined;
-    return error;
+    const double stated = norm(Vec2{resolution, std::max(chance, convergence_index * rate)});
+    return {time_step, rate, {}, damping, resolution, std::isnan(chance) ? undefined : stated};
 }
 
 std::optional<NumericalErrors> run_companions(const VirtualTest& test, const TestHooks& hooks) {
     if (test.state.failure.peak_row < 0) return std::nullopt;
     const std::vector<CompanionPlan> plans = plans_for(test.description, test.world.workers.threads);
     if (hooks.stage) hooks.stage(fmt::format("verifying: {} companions of the test", plans.size()));
-    std::vector<std::optional<Companion>> done(plans.size());
+    std::vector<std::optional<CompanionFigures>> done(plans.size());
     const int threads = std::max(1, test.world.workers.threads);
-    // This thread only waits for those that are begun.
+    // The calling thread only waits for companions, so its processor is free for one of them.
     const int had = threads_to_be_had(1 + processors_lent()) - 1;
     const auto at_once = static_cast<std::size_t>(std::max(1, had / threads));
-    // One at a time needs no thread of its own.
+    // Running one at a time needs no additional thread.
     const auto policy = at_once > 1 ? std::launch::async : std::launch::deferred;
     for (std::size_t first = 0; first < plans.size(); first += at_once) {
-        std::vector<std::future<std::optional<Companion>>> running;
+        std::vector<std::future<std::optional<CompanionFigures>>> running;
         for (std::size_t k = first; k < std::min(plans.size(), first + at_once); ++k)
             running.push_back(std::async(policy, [&, k] { return run_one(plans[k], test, hooks); }));
         for (std::size_t k = 0; k < running.size(); ++k) {
-            std::optional<Companion>& companion = done[first + k];
-            // This thread alone may be the one that hears of an interrupt.
+            std::optional<CompanionFigures>& companion = done[first + k];
+            // Only this thread may poll for interrupts.
             while (hooks.interrupted && running[k].wait_for(between_questions) == std::future_status::timeout)
                 hooks.interrupted();
             companion = running[k].get();
             if (companion && hooks.stage) {
-                hooks.stage(fmt::format("  {}: {:.4g} {} at strain {:.4g}, {} steps ({} of {})", companion->name,
-                                        companion->peak_stress, test.description.stress_unit(), companion->peak_strain,
-                                        companion->steps, first + k + 1, plans.size()));
+                hooks.stage(fmt::format("  {}: {:.4g} {} at strain {:.4g}, {} steps ({} of {})", plans[first + k].name,
+                                        companion->peak_stress.or_nan(), test.description.stress_unit(),
+                                        companion->peak_strain.or_nan(), *companion->steps, first + k + 1,
+                                        plans.size()));
             }
         }
     }
     NumericalErrors errors;
-    for (const auto& companion : done) {
-        if (!companion) return std::nullopt;
-        errors.companions.push_back(*companion);
+    ErrorsByFigure& figures = errors.figures;
+    Table<CompanionFigures>& companions = figures.companions.begin_table();
+    for (std::size_t k = 0; k < plans.size(); ++k) {
+        if (!done[k]) return std::nullopt;
+        companions.emplace_back(plans[k].name, *done[k]);
     }
     const FailureTracker& f = test.state.failure;
-    errors.peak_stress = error_of(f.peak_stress, resolved_stress(test), errors.companions, &Companion::peak_stress);
-    errors.peak_strain = error_of(f.peak_strain, resolved_strain(test), errors.companions, &Companion::peak_strain);
+    figures.peak_stress = error_of(f.peak_stress, resolved_stress(test), companions, &CompanionFigures::peak_stress);
+    figures.peak_strain = error_of(f.peak_strain, resolved_strain(test), companions, &CompanionFigures::peak_strain);
     if (const std::optional<CrackThresholds> own = crack_thresholds_of(test.description, test.setup, test.state)) {
-        const auto error = [&](double stress, double Companion::*value) {
-            return error_of(stress, resolved_before_peak(test, stress), errors.companions, value);
+        const auto error = [&](double stress, Number CompanionFigures::*value) {
+            return error_of(stress, resolved_before_peak(test, stress), companions, value);
         };
-        errors.crack_initiation_stress = error(own->count_break, &Companion::crack_initiation_stress);
-        errors.crack_damage_stress = error(own->damage, &Companion::crack_damage_stress);
+        figures.crack_initiation_stress = error(own->count_break, &CompanionFigures::crack_initiation_stress);
+        figures.crack_damage_stress = error(own->damage, &CompanionFigures::crack_damage_stress);
     }
-    if (f.failed) errors.peak_converged = on_one_branch(errors.peak_stress, errors.peak_strain);
+    if (f.failed) errors.peak_converged = on_one_branch(*figures.peak_stress, *figures.peak_strain);
     return errors;
 }
 

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far the numbers of a test depend on how it was computed: the same test again at half the time step, half the
-// loading rate, half and double the damping.
+// Estimates the numerical error of a test's results. Companions are repeats of the test at half the time step, at half
+// the loading rate, and at half and double the damping.
 //
-// A specimen that breaks follows one of many branches, and which one a rounding decides; so the peaks of companions
-// differ by chance as well as by the error of step and rate. The stated error is the larger of
-//   - chance, t·sqrt(2)·s, s the sample standard deviation of x (as asked), x at half the step and x at half the
-//     rate, t = 2.920 the 95 % point of Student's distribution with two degrees of freedom: were they
+// A specimen that breaks follows one of many branches, and round-off decides which one. The peaks of the companions
+// therefore differ not only because of time step and rate, but also by chance. The stated error is the larger of
+//   - chance, t·sqrt(2)·s, where s is the sample standard deviation of x itself, x at half the step and x at half the
+//     rate, and t = 2.920 is the 95 % point of Student's distribution with two degrees of freedom. If the runs were
 //     independent draws, 90 of 100 further runs would lie within;
 //   - rate, 3 |x - x at half the rate|, the grid convergence index of two grids at first order (Roache, J. Fluids Eng.
-//     116, 1994): inertia and dashpots act in proportion to the rate, the step's error is of second order;
-// and what the rows of the curve resolve, added as independent errors are: the root of the sum of squares. What the
-// damping changes is physics as much as error and stands apart.
+//     116, 1994): effects of inertia and dashpots are proportional to the rate; the error of the time step is of second
+//     order;
+// and the resolution of the curve rows. The two are combined as independent errors, by the root of the sum of squares.
+// Damping has a physical effect as well as causing an error, so its effect is stated separately.
 // Tested by tests/specimens/setup/loading_rate_test.cpp.
 #pragma once
 
@@ -24,21 +25,22 @@
 
 namespace crackle {
 
-/// A companion whose peak moved by more than this is on another branch.
+/// Relative changes of the peak stress and strain above which a companion is considered to follow another branch.
 inline constexpr double branch_stress_change = 0.03, branch_strain_change = 0.1;
 
-/// The errors of a number from those of the companions (above).
-/// @param asked of the test itself  @param resolution by its rows, a share of it  @param value of a companion
-NumberError error_of(double asked, double resolution, const std::vector<Companion>& companions,
-                     double Companion::*value);
+/// Error of a result, derived from the companions as described above.
+/// @param asked  result of the test itself  @param resolution  relative error due to the row spacing
+/// @param value  returns the result of a companion
+ErrorFigures error_of(double asked, double resolution, const Table<CompanionFigures>& companions,
+                      Number CompanionFigures::*value);
 
-/// Whether the companions by step and rate keep the peak, in stress and in strain. Comparisons with a value that is not
-/// a number are false.
-bool on_one_branch(const NumberError& stress, const NumberError& strain);
+/// Whether the companions with another time step or rate reproduce the peak stress and strain. Comparisons with NaN
+/// count as false.
+bool on_one_branch(const ErrorFigures& stress, const ErrorFigures& strain);
 
-/// Runs the companions of a finished test in memory, as many at a time as there are processors for its threads. One
-/// that becomes unstable is reported as such.
-/// @return nothing if interrupted, or the test has no peak
+/// Runs the companions of a finished test in memory, as many at a time as there are processors. An unstable companion
+/// is reported as such in the results.
+/// @return empty if interrupted, or if the test has no peak
 std::optional<NumericalErrors> run_companions(const VirtualTest& test, const TestHooks& hooks);
 
 }  // namespace crackle

@@ -21,17 +21,21 @@ namespace crackle {
 namespace {
 
 constexpr int most_rounds = 100, steps_of_relaxation = 2000;
-constexpr double most_left_by_a_solution = 0.5;  // of the force that was left before
-// Nothing is to be hoped for where so many rounds have not halved what was missing least so far.
+// Largest remaining force after a useful solution, relative to the force before it.
+constexpr double most_left_by_a_solution = 0.5;
+// The stage gives up after most_rounds_in_vain consecutive rounds in which the residual does not fall to half its
+// smallest value.
 constexpr int most_rounds_in_vain = 10;
 constexpr double most_left_by_rounds = 0.5;
-// A specimen slides as a whole where its particles' forces add up to this share of the sum of their sizes.
+// The specimen slides as a whole if the magnitude of the summed forces along x on its particles is at least this
+// fraction of the sum of their magnitudes.
 constexpr double share_of_one_way = 0.5;
-// Parts are brought to their force in the unloaded specimen: so near, from a first way of this share of a particle.
+// Parts are moved until the undeformed specimen carries their force: relative tolerance of the force, and first and
+// largest displacement relative to the particle size.
 constexpr double near_enough = 1e-3, first_way = 1e-5, farthest_way = 0.25;
-constexpr int most_tries = 100;  // of doublings and halvings: digits end before
+constexpr int most_tries = 100;  // largest number of doublings and bisections, enough to reach round-off
 
-/// Of each body of one world its number in another.
+/// Index in world `other` of each body of `world`.
 std::vector<BodyIndex> numbers_in(const World& other, const World& world) {
     std::unordered_map<int, BodyIndex> of_id;
     for (BodyIndex b = 0; b < other.bodies.size(); ++b) of_id.emplace(other.bodies.info(b).id, b);
@@ -40,10 +44,10 @@ std::vector<BodyIndex> numbers_in(const World& other, const World& world) {
     return numbers;
 }
 
-/// What is missing to equilibrium under the pressure.
+/// Deviation from equilibrium under the pressure.
 struct Imbalance {
-    double force = 0.0;   ///< largest on a body that bonds hold, over the pressure on a particle's width
-    double stress = 0.0;  // N/m, pressure less that of the platens
+    double force = 0.0;   ///< largest force on a body held by bonds, relative to the pressure times the particle size
+    double stress = 0.0;  // N/m; pressure minus the stress on the platens
 };
 
 class Confinement {
@@ -65,7 +69,7 @@ class Confinement {
         const std::int64_t broken = world_.bonds.broken, step = world_.stepping.steps;
         const double time = world_.stepping.time, kick_share = world_.stepping.kick_share;
         const std::size_t events = world_.bonds.events.size();
-        displace(world_, std::vector<BodyMotion>(moving.size()));  // at rest
+        displace(world_, std::vector<BodyMotion>(moving.size()));  // sets all velocities to 0
         if (test_.setup.has_walls()) {
             bring_parts();
             find_held();
@@ -115,7 +119,7 @@ class Confinement {
         }
         for (const BodyIndex platen : {test_.setup.bottom, test_.setup.top})
             change_velocity(world_, platen, 1, moving[platen].vy);
-        // Loading begins as it goes on: the walls give way as the specimen widens.
+        // Loading starts with a solution in which the walls yield as the specimen widens.
         if (test_.setup.has_walls()) test_.small_strain->moduli.solution = stretched();
         restart_account(world_);
         velocities_changed(world_);
@@ -126,7 +130,7 @@ class Confinement {
 
   private:
     static bool finite(const Imbalance& left) { return std::isfinite(left.force) && std::isfinite(left.stress); }
-    /// Of force or stress, whichever is more, over what may be left.
+    /// Residual force or stress relative to its limit, whichever is larger.
     double missing(const Imbalance& left) const {
         return std::max(left.force, std::abs(left.stress) / pressure_) / most_unbalanced;
     }
@@ -138,28 +142,28 @@ class Confinement {
             held_[b] = false;
     }
 
-    /// Force of the drive of a wall, along x.
+    /// Force along x with which a wall is driven, N.
     double force_of(BodyIndex wall) const {
         const auto control = std::ranges::find(world_.bodies.controls, wall, &ControlState::body);
         return control->force(0, world_.bodies.state[wall]);
     }
     double left_on(BodyIndex wall) const { return world_.bodies.force[wall].fx + force_of(wall); }
 
-    /// Each wall, and each platen that only touches, to where the specimen, which does not move, bears its force: what
-    /// it presses grows with the way.
+    /// Moves each wall, and each platen that is not bonded, until the specimen carries its force. Particles stay at
+    /// rest meanwhile, so the force increases with the displacement.
     void bring_parts() {
         struct Way {
             BodyIndex part;
             bool wall;
             double start, inwards, force, way;      // m, -, N, m
-            double too_little = 0.0, enough = 0.0;  // m, of the way; 0: not found yet
+            double too_little = 0.0, enough = 0.0;  // m, bounds of the displacement; 0 until found
             bool done = false;
         };
         const auto place = [&](const Way& one) -> double& {
             BodyState& body = world_.bodies.state[one.part];
             return one.wall ? body.x : body.y;
         };
-        const bool platens_touch = test_.description.loading.platens == "frictional";
+        const bool platens_touch = test_.description.loading.platens == PlatenKind::frictional;
         std::vector<Way> ways;
         for (const SetupPart& part : test_.setup.parts) {
             if (!part.wall && !platens_touch) continue;
@@ -187,7 +191,8 @@ class Confinement {
         }
     }
 
-    /// A strain of 1 between the platens: Moduli's own solution, or with walls that keep their force.
+    /// Linear solution for a strain of 1 between the platens. It is the solution in Moduli or, with walls, one in which
+    /// the walls keep their force.
     ElasticSolution stretched() const {
         return solve_elastic(bonded_, prescribed_parts(own_, own_.length), {}, closed_points(own_));
     }
@@ -205,7 +210,8 @@ class Confinement {
         return left;
     }
 
-    /// One solution: the forces left, and the strain that brings the platens' stress to the pressure.
+    /// Moves the bodies by one linear solution, for the residual forces and for the strain that makes the platens'
+    /// stress equal to the pressure.
     void approach(const Imbalance& left) {
         if (!finite(left)) refuse(left, "");
         std::vector<BodyMotion> loads(bonded_.bodies.size());
@@ -218,7 +224,7 @@ class Confinement {
         for (const SetupPart& part : own_.parts)
             if (part.wall) loads[part.body].x = left_on(part.body);
         const ElasticSolution solved = solve_elastic(bonded_, prescribed_parts(own_, 0.0), loads, closed_points(own_));
-        // Held in place by more force from outside is pressed by as much more from within.
+        // A change of the external force is balanced by an equal change of the stress in the specimen.
         const double gained = -nominal_stress(own_, solved.reaction);
         const ElasticSolution with_walls = own_.has_walls() ? stretched() : ElasticSolution{};
         const ElasticSolution& stretch = own_.has_walls() ? with_walls : test_.small_strain->moduli.solution;
@@ -232,9 +238,9 @@ class Confinement {
         displace(world_, way);
     }
 
-    /// Where bonds slide, or particles roll until something holds them, no linear solution helps: some steps of motion,
-    /// which ends each time that the kinetic energy has passed its peak (Cundall's kinetic damping). Platens stay in
-    /// place.
+    /// Takes dynamic steps, because linear solutions do not help if bonds slide or particles roll until something stops
+    /// them. All velocities are set to zero whenever the kinetic energy has passed a peak (Cundall's kinetic damping).
+    /// Platens stay in place.
     void relax() {
         double kinetic = 0.0;
         for (int n = 0; n < steps_of_relaxation; ++n) {
@@ -252,10 +258,10 @@ class Confinement {
             }
             kinetic = now;
         }
-        displace(world_, std::vector<BodyMotion>(world_.bodies.size()));  // at rest
+        displace(world_, std::vector<BodyMotion>(world_.bodies.size()));  // sets all velocities to 0
     }
 
-    /// N, along x, that moves the specimen between its platens; 0 where it does not slide as a whole.
+    /// Net force along x that pushes the specimen out from between its platens, N; 0 unless it slides as a whole.
     double push_sideways() const {
         if (test_.setup.has_walls()) return 0.0;
         double sum = 0.0, sizes = 0.0;
@@ -271,20 +277,20 @@ class Confinement {
     [[noreturn]] void refuse(const Imbalance& left, const std::string& cause) const {
         const double push = push_sideways();
         const std::string text = fmt::format(
-            "{}: found no equilibrium under {:g} {}: by linear solutions a force of {:.2g} of the pressure on a "
-            "particle was left, expected at most {:g}, and {} bonds had broken{}",
+            "{}: found no equilibrium under {:g} {}: linear solutions left a force of {:.2g} of the pressure on a "
+            "particle, expected at most {:g}, and {} bonds had broken{}",
             test_.description.at("confinement.pressure"), pressure_, test_.description.stress_unit(), left.force,
             most_unbalanced, world_.bonds.broken, cause);
         if (!(push > 0.0)) throw PressureRefused(text);
         throw InputError(
-            fmt::format("{}; the specimen slides between its platens, for the membrane's ends push it "
-                        "sideways by {:.3g} N more than they hold: raise loading.platen_friction_angle",
+            fmt::format("{}; the specimen slides between its platens, since the membrane's ends push it "
+                        "sideways by {:.3g} N more than the platens hold; raise loading.platen_friction_angle",
                         text, push));
     }
 
     [[noreturn]] void refuse_part(bool wall, double way, double force) const {
         throw PressureRefused(fmt::format(
-            "{}: found no place of the {} where the specimen bears its {:.4g} N: {:.3g} m from where it touches, "
+            "{}: found no position of the {} where the specimen carries {:.4g} N: {:.3g} m beyond first contact, "
             "expected less than a quarter of a particle, {:.3g} m",
             test_.description.at("confinement.pressure"), wall ? "walls" : "platens", force, way,
             farthest_way * particle_));
@@ -294,19 +300,18 @@ class Confinement {
     World& world_;
     const World& bonded_;
     const TestSetup& own_;
-    std::vector<BodyIndex> number_;  // in the bonded world
+    std::vector<BodyIndex> number_;  // indices of the bodies in bonded_
     double pressure_;                // N/m
-    double particle_;                // m
-    std::vector<bool> held_;         // by bonds, of the bonded world
+    double particle_;                // m, particle size
+    std::vector<bool> held_;         // whether bonds hold a body, by body of bonded_
 };
 
 }  // namespace
 
 void confine(VirtualTest& test, const World& bonded, const TestSetup& own) {
     if (!test.small_strain) {
-        throw InputError(
-            fmt::format("{}: expected an elastic solution, by which the specimen is brought under pressure: {}",
-                        test.description.at("confinement.pressure"), test.no_small_strain));
+        throw InputError(fmt::format("{}: expected an elastic solution, which is needed to apply the pressure: {}",
+                                     test.description.at("confinement.pressure"), test.no_small_strain));
     }
     if (test.setup.has_walls())
         Confinement(test, test.world, test.setup).run();

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The isotropic stage of a biaxial test: a membrane or walls press the sides, the platens the ends, with the same
-// stress.
+// The isotropic stage of a biaxial test: a membrane or walls press on the sides, and the platens on the ends, with
+// equal stress.
 //
-// No time passes. Bodies are moved by linear solutions (Newton's method with the stiffness of the bonded specimen, and
-// of what touches the walls): what is left of force on each is a load of the next solution, with the strain between the
-// platens that brings their stress to the pressure. It ends where the largest force left on a body is 1e-5 of the
-// pressure on a particle's width, on a wall 1e-5 of its force, and the platens' stress is the pressure to 1e-5. Where a
-// solution does not halve what is left, for bonds slide or particles roll, steps of motion with kinetic damping follow
-// it. Then strains count from there. Walls, and between walls platens that only touch, are first brought to where the
-// specimen at rest bears their force.
+// The stage takes no simulated time. Bodies are moved by linear solutions (Newton's method with the stiffness of the
+// bonded specimen and of its contacts with walls). The loads of each solution are the residual forces on the bodies,
+// together with the axial strain that makes the platens' stress equal to the pressure. The stage ends when all
+// residuals are at most 1e-5:
+//   - the largest force on a particle, divided by the pressure times the particle size;
+//   - the largest residual force on a wall, divided by the wall's force;
+//   - the error of the platens' stress, divided by the pressure.
+// If bonds slide or particles roll, a solution may fail to halve the residual; it is then followed by dynamic steps
+// with kinetic damping. Strains are measured from the end of the stage. Walls, and with them frictional platens, are
+// first moved until the undeformed specimen carries their force.
 //
 // Tested by tests/specimens/loading/confine_test.cpp.
 #pragma once
@@ -20,16 +23,17 @@ namespace crackle {
 
 inline constexpr double most_unbalanced = 1e-5;
 
-/// No equilibrium was found under the pressure; under a lower one there may be.
+/// Thrown if no equilibrium was found under the pressure; there may be one under a lower pressure.
 class PressureRefused : public InputError {
   public:
     using InputError::InputError;
 };
 
-/// @param bonded the test's world, or its twin with bonded platens where these only touch: what is solved, but with
-/// walls, which press the test's own world alone
-/// @param own setup of that world
-/// @throws InputError where the specimen does not bear the pressure, PressureRefused where a lower one may help
+/// Applies the confining pressure.
+/// @param bonded  world used for the linear solutions: the test's own world or, if its platens are not bonded, a copy
+/// with bonded platens. With walls, the test's own world is used
+/// @param own  setup of `bonded`
+/// @throws InputError if the specimen cannot carry the pressure; PressureRefused if a lower pressure may work
 void confine(VirtualTest& test, const World& bonded, const TestSetup& own);
 
 }  // namespace crackle

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double share_of_a_step = 0.1;
 
-/// Velocities of driven degrees of freedom, so many times the motion; others have been set.
+/// Sets the velocities of driven degrees of freedom to `motion` multiplied by `times`.
 void drive_parts(World& world, const std::vector<BodyMotion>& motion, double times) {
     const std::vector<ControlState> controls = world.bodies.controls;
     for (const ControlState& control : controls) {
@@ -23,7 +23,7 @@ void drive_parts(World& world, const std::vector<BodyMotion>& motion, double tim
     }
 }
 
-/// One drift with these velocities and without forces.
+/// Moves all bodies by a fraction of `way` in one drift of the integrator, without forces.
 void drift(World& world, const std::vector<BodyMotion>& way, double share) {
     compute_forces(world);
     set_velocities(world, way, share / world.stepping.time_step);
@@ -33,7 +33,7 @@ void drift(World& world, const std::vector<BodyMotion>& way, double share) {
     compute_forces(world);
 }
 
-/// Sets loads on driven bodies aside while it lives.
+/// Removes the loads on driven bodies while this object exists.
 class WithoutLoads {
   public:
     explicit WithoutLoads(World& world) : world_(world), controls_(world.bodies.controls) {
@@ -79,7 +79,7 @@ void displace(World& world, const std::vector<BodyMotion>& way) {
     set_velocities(world, std::vector<BodyMotion>(way.size()), 0.0);
     drive_parts(world, std::vector<BodyMotion>(way.size()), 0.0);
     compute_forces(world);
-    // No drive has done work by this.
+    // The displacement must not count as work of the driven parts.
     for (ControlState& control : world.bodies.controls) std::ranges::fill(control.last_move, 0.0);
     world.stepping.steps = step;
     world.stepping.time = time;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bodies moved by what a linear solution says, before loading begins.
+// Moves bodies by the displacements of a linear solution before loading starts.
 // Tested by tests/specimens/loading/confine_test.cpp.
 #pragma once
 
@@ -10,12 +10,15 @@
 
 namespace crackle {
 
-/// Moves the bodies, platens too, and lets the shear springs follow, in drifts of the integrator without forces: as
-/// many as keep each within a tenth of what a step may move. Velocities are 0 afterwards, time and steps as before.
-/// @param way m and rad, by body
+/// Moves all bodies, including platens, and updates the shear springs, in drifts of the integrator without forces. Each
+/// drift is at most a tenth of the displacement allowed in a step. All velocities are 0 afterwards; time and step
+/// number do not change.
+/// @param way  displacement of each body, m and rad
 void displace(World& world, const std::vector<BodyMotion>& way);
 
-/// Sets the velocities of all bodies, platens too. @param motion by body, @param times 1/s, of it
+/// Sets the velocities of all bodies, including platens, to `motion` multiplied by `times`.
+/// @param motion  displacement of each body, m and rad
+/// @param times  1/s
 void set_velocities(World& world, const std::vector<BodyMotion>& motion, double times);
 
 }  // namespace crackle

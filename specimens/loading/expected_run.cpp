@@ -13,31 +13,32 @@
 namespace crackle {
 namespace {
 
-// Particle-steps a second and thread (tests/benchmarks/results/throughput.md).
+// Particle-steps per second and thread, from tests/benchmarks/results/throughput.md.
 constexpr double rate_of_circles = 2e7, rate_of_polygons = 4e6;
 
-// A step below this share of the stable one, and a first strain below this, are what makes a run long.
+// Thresholds for naming the cause of a long run: time step relative to the stable one, and RateRule::first_strain.
 constexpr double small_step_share = 0.01, small_first_strain = 1e-6;
 
-/// The key that makes a run long, with its value.
+/// The most likely cause of a long run: a key and its value.
 std::string likely_cause(const VirtualTest& test) {
     const TestCase& asked = test.description;
     if (asked.numerics.time_step && *asked.numerics.time_step < small_step_share * test.setup.stable_time_step) {
-        return fmt::format("{} = {:.3g} s, where {:.3g} s are stable", asked.at("numerics.time_step"),
+        return fmt::format("{} = {:.3g} s, although {:.3g} s would be stable", asked.at("numerics.time_step"),
                            *asked.numerics.time_step, test.setup.stable_time_step);
     }
     if (asked.loading.axial_strain_rate)
         return fmt::format("{} = {:.3g} 1/s", asked.at("loading.axial_strain_rate"), *asked.loading.axial_strain_rate);
     if (test.setup.rate_rule.first_strain < small_first_strain) {
         return fmt::format(
-            "{} = {:g}: its first points slide or break at a strain of {:.2g}, and loading goes on as slowly as that "
-            "asks for; look at friction angles and strengths, or give axial_strain_rate",
+            "{} = {:g}: the first bonds slide or break at a strain of {:.2g}, which requires very slow "
+            "loading; check friction angles and strengths, or set axial_strain_rate",
             asked.at("loading.rate_tolerance"), *asked.loading.rate_tolerance, test.setup.rate_rule.first_strain);
     }
     return fmt::format("{} = {:g}", asked.at("loading.rate_tolerance"), *asked.loading.rate_tolerance);
 }
 
-/// Where one particle is so small that it makes the time step, and the run long: which.
+/// Describes a particle that is so small that it determines the time step and makes the run long; empty if there is
+/// none.
 std::string small_particle(const VirtualTest& test) {
     constexpr double noticed_steps = 10.0;
     const World& world = test.world;
@@ -79,8 +80,8 @@ void refuse_endless(const VirtualTest& test, const RunEstimate& run) {
     if (run.steps <= most_steps && run.seconds <= most_seconds) return;
     constexpr double seconds_a_day = 86400.0;
     throw InputError(
-        fmt::format("{} = {:g} is {:.2g} steps away, about {:.2g} days, expected at most {:g} steps and a day without "
-                    "--long. It comes from {}{}",
+        fmt::format("{} = {:g} would take {:.2g} steps, about {:.2g} days, expected at most {:g} steps and a day "
+                    "without --long. The cause is {}{}",
                     test.description.at("loading.max_axial_strain"), run.strain, run.steps, run.seconds / seconds_a_day,
                     most_steps, likely_cause(test), small_particle(test)));
 }
@@ -93,8 +94,8 @@ void refuse_resting(const VirtualTest& test) {
     if (speed > 0.0 && place + way != place) return;
     const TestCase& asked = test.description;
     throw InputError(
-        fmt::format("{}: found a way of {:.2g} m a step of the part that drives the specimen, expected one that moves "
-                    "it: its place is {:.3g} m, and its strain would stay 0; give another rate",
+        fmt::format("{}: found a displacement of {:.2g} m per step of the driving part, expected one that changes its "
+                    "position of {:.3g} m despite round-off; the strain would stay 0. Use a higher rate",
                     asked.at(asked.loading.axial_strain_rate ? "loading.axial_strain_rate" : "loading.rate_tolerance"),
                     way, place));
 }

@@ -24,11 +24,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t steps_between_health_checks = 100;
-constexpr std::int64_t steps_between_clock_checks =
-    64;  // reading the clock and asking for interrupts stay off the profile
+// Largest number of steps between polls of the clock and of interrupts. Small specimens poll rarely, so the cost is
+// negligible; specimens of a million bodies poll after every step.
+constexpr std::int64_t most_steps_between_clock_checks = 64, bodies_between_clock_checks = 1'000'000;
 constexpr double seconds_between_progress = 0.2;
-// Fewest rows that peak, failure and moduli are found from, however few of them are written: what is reported must
-// not depend on how much of it is looked at.
+// Smallest number of rows from which peak, failure and moduli are determined. It applies even if fewer rows are
+// written, because results must not depend on the number of written rows.
 constexpr std::int64_t min_judged_rows = 2000;
 
 std::int64_t judged_per_written(const VirtualTest& test) {
@@ -57,6 +58,9 @@ class LoadingLoop {
           begun_(Clock::now()),
           last_checkpoint_(begun_),
           last_progress_(begun_),
+          steps_between_clock_checks_(
+              std::clamp(bodies_between_clock_checks / static_cast<std::int64_t>(test.world.bodies.size() + 1),
+                         std::int64_t{1}, most_steps_between_clock_checks)),
           first_step_(test.world.stepping.steps),
           step_seconds_before_(test.state.step_seconds) {}
 
@@ -64,7 +68,7 @@ class LoadingLoop {
         try {
             load();
         } catch (const UnstableRun&) {
-            record_events();  // of the step that went wrong
+            record_events();  // records events of the failed step too
             write_emission(listener_.end_all());
             state_.step_seconds = step_seconds();
             throw;
@@ -77,8 +81,9 @@ class LoadingLoop {
     void load() {
         if (files_ != nullptr && state_.rows.empty()) files_->write_checkpoint(setup_, state_, world_);
         while (true) {
-            if (stop_asked_ || (world_.stepping.steps % steps_between_clock_checks == 0 && check_clock())) break;
-            // Platens stand where the last step has put them, whether the forces are known or not.
+            if (stop_asked_ || (world_.stepping.steps % steps_between_clock_checks_ == 0 && check_clock())) break;
+            // The strain follows from the positions after the last step, whether or not forces have been computed
+            // there.
             strain_ = setup_.axial_strain(world_);
             const double travel = state_.path.travel(strain_);
             const bool at_end = (lateral_rule_.on() ? travel : strain_) >= max_strain_;
@@ -100,10 +105,10 @@ class LoadingLoop {
             if (row_due) record_row(at_end);
             if (look_due && state_.ended_by.empty()) look(row_due);
             const bool ended = !state_.ended_by.empty();
-            // An end that instability brought about is none.
+            // Stability is checked before the end is accepted: an unstable run must not count as finished.
             if (ended || check_due) check();
             if (ended) break;
-            // A look may have ended loading by tolerance.
+            // The callback in look() may have taken over the control of the loading rate from the tolerance.
             if (setup_.rate_rule.tolerance > 0.0) {
                 watch_platens(world_.stepping.drift);
                 if (rate_due) set_rate();
@@ -122,7 +127,8 @@ class LoadingLoop {
         check_health(world_);
     }
 
-    /// The inertia error of the last force pass. @param drift s, that led to its positions
+    /// Updates the inertia error from the last force computation.
+    /// @param drift  time step that led to the current positions, s
     void watch_platens(double drift) {
         const PhaseTimer timer(world_.workers.profile, Phase::set_the_rate);
         const PartForces forces = forces_on_parts(world_, setup_);
@@ -130,7 +136,7 @@ class LoadingLoop {
                       drift);
     }
 
-    /// The platen's speed by the inertia error.
+    /// Sets the speed of the platen according to the inertia error.
     void set_rate() {
         const PhaseTimer timer(world_.workers.profile, Phase::set_the_rate);
         const Ledger ledger = measure_ledger(world_);
@@ -183,7 +189,7 @@ class LoadingLoop {
         write_emission(listener_.listen(std::span(world_.bonds.events).subspan(events_counted_), strain_));
     }
 
-    /// @param count of the last events that ended
+    /// Writes acoustic events. @param count  number of events at the end of the list that have just ended
     void write_emission(std::size_t count) {
         if (files_ == nullptr) return;
         const std::vector<AcousticEvent>& events = state_.emission.events;
@@ -197,7 +203,7 @@ class LoadingLoop {
         const CurveRow row = observe_row(world_, setup_);
         state_.rows.push_back(row);
         const double travel = state_.path.travel(row.axial_strain);
-        // What is gone through once more, being unloaded and loaded again, says nothing of peak and failure.
+        // Strain that was already reached before an unloading does not count for peak and failure.
         const bool farther = row.axial_strain > state_.path.farthest;
         if (farther) state_.path.farthest = row.axial_strain;
         const bool new_peak = (farther || lateral_rule_.on()) &&
@@ -219,7 +225,7 @@ class LoadingLoop {
         const PhaseTimer writing(world_.workers.profile, Phase::write);
         if (index % judged_per_written_ == 0 || !state_.ended_by.empty()) files_->add_row(row);
         const bool frame_due = travel >= frame_spacing_ * static_cast<double>(state_.next_frame);
-        // In one go over those that a step passes, and exactly over the last.
+        // Skips frames whose strain the step has already passed. The last candidate is compared exactly.
         const auto passed = static_cast<std::int64_t>(travel / frame_spacing_);
         state_.next_frame = std::max(state_.next_frame, passed - 1);
         while (travel >= frame_spacing_ * static_cast<double>(state_.next_frame)) ++state_.next_frame;
@@ -227,9 +233,9 @@ class LoadingLoop {
         if (frame_due || !state_.ended_by.empty()) files_->add_frame(row, index, setup_, state_, world_);
     }
 
-    /// @param recorded whether the moment is the last row already
+    /// Calls look(). @param recorded  whether the last row already describes the current state
     void look(bool recorded) {
-        if (files_ != nullptr) world_.bonds.events.swap(unseen_);  // those since the last look
+        if (files_ != nullptr) world_.bonds.events.swap(unseen_);  // look() sees the events since its last call
         const AfterLook after = hooks_.look(test_);
         if (files_ != nullptr) {
             world_.bonds.events.clear();
@@ -248,7 +254,8 @@ class LoadingLoop {
         files_->add_frame(state_.rows.back(), index, setup_, state_, world_);
     }
 
-    /// Between steps: progress, checkpoint, interrupt. @return whether to stop
+    /// Updates progress and checkpoint between steps, and polls for an interrupt.
+    /// @return whether the run is interrupted
     bool check_clock() {
         if (hooks_.interrupted && hooks_.interrupted()) return true;
         const Clock::time_point now = Clock::now();
@@ -293,22 +300,23 @@ class LoadingLoop {
     std::int64_t judged_per_written_;
     UnloadRule unload_rule_;
     LateralRule lateral_rule_;
-    double whole_travel_;  // strain
+    double whole_travel_;  // total strain travelled by the end, including unloadings
     double row_spacing_, frame_spacing_, checkpoint_interval_;
     Clock::time_point begun_, last_checkpoint_, last_progress_;
-    std::int64_t first_step_;
+    std::int64_t steps_between_clock_checks_, first_step_;
     double step_seconds_before_;
-    double strain_ = 0.0;  // axial, of the last force pass
+    double strain_ = 0.0;  // axial strain at the last force computation
     std::size_t events_counted_ = 0;
-    bool stop_asked_ = false;         // by a look
-    std::vector<BreakEvent> unseen_;  // by looks, of a test with files
+    bool stop_asked_ = false;         // whether look() has requested an interrupt
+    std::vector<BreakEvent> unseen_;  // events not yet seen by look(); used only if the test has files
 };
 
 }  // namespace
 
 void load_specimen(VirtualTest& test, const TestHooks& hooks, TestFiles* files) {
     if (test.state.rows.empty()) refuse_resting(test);
-    malloc_trim(0);  // what packing, meshing and bonding needed: a third of all there is at 200,000 discs
+    // Returns memory used for packing, meshing and bonding to the system: a third of the total at 200,000 discs.
+    malloc_trim(0);
     LoadingLoop(test, hooks, files).run();
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loading loop: steps the world until it fails, reaches its largest strain or is interrupted.
+// The loading loop: steps the world until the specimen fails, the largest strain is reached or the run is interrupted.
 //
-// Observers are called in the steps that are measured, in a fixed order: curve row, failure, frame; broken bonds as
-// they come. Nothing of this reaches the kernels. Tested by tests/specimens/loading/virtual_test_test.cpp.
+// In steps in which a row is due, observers run in a fixed order: curve row, failure, frame. Breaks are recorded when
+// they occur. The kernels do not depend on observers.
+// Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
 #include <vector>
@@ -14,13 +15,12 @@ namespace crackle {
 
 class TestFiles;
 
-/// Loads to the end. @param files where to write; nullptr: rows and events stay in memory (state.rows,
-/// world.bonds.events)
-/// @throws UnstableRun with everything so far kept.
+/// Loads the test to its end.
+/// @param files  output files; if nullptr, rows and events stay in memory (state.rows, world.bonds.events)
+/// @throws UnstableRun if the run becomes unstable; results up to then are kept
 void load_specimen(VirtualTest& test, const TestHooks& hooks = {}, TestFiles* files = nullptr);
 
-/// Rows of a loaded test that curve.csv holds: of those that are judged, so many as output.curve_rows asks for, and the
-/// last.
+/// Rows of a loaded test that are written to curve.csv: about output.curve_rows of the judged rows, and the last one.
 std::vector<CurveRow> written_rows(const VirtualTest& test);
 
 }  // namespace crackle

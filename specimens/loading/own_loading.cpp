@@ -28,15 +28,16 @@ void set_platen_speed(VirtualTest& test, double speed) {
     const TestCase::Loading& loading = test.description.loading;
     if (!std::isfinite(speed)) throw InputError(fmt::format("platen speed: found {}, expected a number in m/s", speed));
     if (loading.unloads() || loading.by_lateral_strain()) {
-        throw InputError(fmt::format(
-            "platen speed: found one set while the case drives by {}, expected one of them; leave that key out",
-            loading.unloads() ? "a list of unloadings" : "lateral strain"));
+        throw InputError(
+            fmt::format("platen speed: found a speed set by the caller while the case controls loading by {}, expected "
+                        "only one of them; remove that key",
+                        loading.unloads() ? "a list of unloadings" : "lateral strain"));
     }
     TestSetup& setup = test.setup;
     if (!driven_at_velocity(test.world, setup.top, setup.axis)) {
         throw InputError(
-            "platen speed: found one set while the driving part moves by a force or freely along the axis, expected it "
-            "to be driven at a velocity; drive it so first");
+            "platen speed: found a driving part that moves freely or under a force along the axis, expected one "
+            "driven at a velocity; set such a drive first");
     }
     LoadingPath& path = test.state.path;
     const double strain = setup.axial_strain(test.world);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loading by the caller's own rule: the speed of the part that drives the test, set while it runs.
+// Loading controlled by the caller, who sets the speed of the driving part during the run.
 // Tested by tests/specimens/loading/own_loading_test.cpp.
 #pragma once
 
@@ -7,16 +7,17 @@
 
 namespace crackle {
 
-/// Speed of the driving part in the sense of the test, m/s, negative while it goes back.
+/// Speed of the driving part in the direction of loading, m/s; negative if the part moves back.
 double platen_speed(const VirtualTest& test);
 
-/// Sets it from the coming step on. Loading by tolerance ends with it: the speed is the caller's, and so is the error
-/// by inertia. Of that the summary has the platens' out-of-balance at the peak; its share above the tolerance is of the
-/// strain until then, and the mean rate that of the way gone. A notice says from which strain on. Rows follow the way
-/// gone back and forth. Velocities that jump send a wave: change them in steps that are small against the stress wave's
-/// transit.
-/// @throws InputError where the speed is no number, where the case itself turns the platen round, and where the part is
-/// not driven at a velocity any more
+/// Sets the speed of the driving part from the next step on. If the case gives rate_tolerance, the tolerance no longer
+/// controls the rate: the caller now controls the speed and is responsible for the inertia error. The summary still
+/// gives the platens' out-of-balance stress at the peak. Its fraction of strain above the tolerance covers only the
+/// strain before the first call. The mean rate refers to the travelled strain. A notice states the strain at the first
+/// call. Curve rows are spaced by the strain travelled back and forth. A sudden change of velocity sends a stress wave,
+/// so allow at least one wave transit between small changes.
+/// @throws InputError if the speed is not finite, if the case itself controls unloading or the lateral strain, or if
+/// the part is no longer driven at a given velocity
 void set_platen_speed(VirtualTest& test, double speed);
 
 }  // namespace crackle

@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What was bonded, and where the step comes from.
+/// Reports the bonds and how the time step was determined.
 void report_bonded(const TestHooks& hooks, const World& world, const TestSetup& setup, const TestCase& test) {
     if (!hooks.detail) return;
     hooks.detail(fmt::format("{} bodies, {} segments; {} contact points touch, {} of them bonded; {} threads",
@@ -37,13 +37,15 @@ void report_bonded(const TestHooks& hooks, const World& world, const TestSetup& 
         setup.stable_time_step, setup.stable_time_step_proved ? "" : " (from below)", setup.time_step_bound));
 }
 
-// Loading by tolerance counts from where this share of the bonded points has given way by the linear solution, which is
-// 0.1 to 1.3 of the strain at peak of the guide's six tests; single slivers give way at a thousandth of it.
+// A loading rate controlled by a tolerance is derived from the strain at which this fraction of the bonded points has
+// failed according to the linear solution. In six tests of the DEMseg guide's example rock, it is 0.1 to 1.3 times the
+// strain at peak; single slivers fail at a thousandth of that.
 constexpr double first_yield_share = 0.02;
-// Of tests that are not between platens: stress is uneven, and a disc or a beam is through when a few bonds are.
+// Fraction in tests without platens. Their stress is uneven, and a disc or a beam fails once a few bonds have failed.
 constexpr double first_yield_share_uneven = 0.001;
 
-// Solving 50,000 cells takes 27 s and 3 GB, and both grow faster than the number of bodies: more are solved on demand.
+// Solving 50,000 cells takes 27 s and 3 GB; both grow faster than the number of bodies. Larger worlds than this are
+// therefore solved only on request.
 constexpr std::size_t most_bodies_solved = 200'000;
 
 void note_no_small_strain(VirtualTest& test, const std::string& why) {
@@ -51,11 +53,11 @@ void note_no_small_strain(VirtualTest& test, const std::string& why) {
     test.setup.notices.push_back("no small-strain modulus: " + why);
 }
 
-/// Linear solution of a world with bonded platens, or a notice why there is none.
+/// Computes the linear solution of a world with bonded platens, or adds a notice that states why there is none.
 void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& own, const SolutionVisitor& visit) {
     if (world.bodies.size() > most_bodies_solved) {
         note_no_small_strain(
-            test, fmt::format("{} bodies, more than {} are not solved beside a test; `crackle elastic` does it",
+            test, fmt::format("found {} bodies, more than the {} up to which a test computes it; use `crackle elastic`",
                               world.bodies.size(), most_bodies_solved));
         return;
     }
@@ -74,7 +76,8 @@ void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& 
     }
 }
 
-/// Acoustic events are told apart by a shear wave's speed; without one a notice says that there are none.
+/// Sets up the detection of acoustic events, which needs the shear wave speed. If this speed is unknown, a notice
+/// states that there are no events.
 void listen_for_emission(VirtualTest& test) {
     const TestCase::Output& output = test.description.output;
     if (!output.emission) return;
@@ -87,7 +90,7 @@ void listen_for_emission(VirtualTest& test) {
     }
 }
 
-/// Bonds as deep as this share of a particle's size reach beyond the faces that lie against each other.
+/// Overlap of bonds, relative to the particle size, above which polygons bond that share no face.
 constexpr double deep_bond_share = 0.1;
 
 void notice_deep_bonds(VirtualTest& test) {
@@ -97,12 +100,12 @@ void notice_deep_bonds(VirtualTest& test) {
     const double excess = setup.bond_thick - setup.mesh_gap;
     if (excess <= deep_bond_share * size) return;
     test.setup.notices.push_back(fmt::format(
-        "bond.thick = {:.4g} m exceeds the gap of {:.4g} m by {:.2g} of the mean particle size: polygons that share no "
-        "face bond too; the excess is the overlap that bonds them, and should be small",
+        "bond.thick = {:.4g} m exceeds the gap of {:.4g} m by {:.2g} of the mean particle size, so that polygons "
+        "without a common face are bonded, too; this excess is the overlap at bonding and should be small",
         setup.bond_thick, setup.mesh_gap, excess / size));
 }
 
-// Times the rate that loading by this tolerance would begin with.
+// A notice is given if the rate in the case exceeds noticed_rate times the initial rate for noticed_tolerance.
 constexpr double noticed_tolerance = 0.01, noticed_rate = 3.0;
 
 void notice_fast_loading(VirtualTest& test) {
@@ -111,27 +114,27 @@ void notice_fast_loading(VirtualTest& test) {
     const double given = *test.description.loading.axial_strain_rate;
     if (given <= noticed_rate * derived) return;
     test.setup.notices.push_back(
-        fmt::format("{} = {:.3g} 1/s is {:.2g} times the rate that rate_tolerance = {} would begin with: inertia and "
-                    "dashpots bear part of the stress; leave the rate out, or see with --verify what it changes",
+        fmt::format("{} = {:.3g} 1/s is {:.2g} times the initial rate of rate_tolerance = {}, so that inertia and "
+                    "dashpots carry part of the stress; leave the rate out, or measure its effect with --verify",
                     test.description.at("loading.axial_strain_rate"), given, given / derived, noticed_tolerance));
 }
 
-/// A twin of the specimen with bonded platens, where those of the test only touch; without a world there is none.
+/// A copy of the specimen with bonded platens if those of the test are not bonded; otherwise `world` is nullptr.
 struct SeparateBonding {
     const World* world = nullptr;
     const TestSetup* setup = nullptr;
     std::function<void()> while_solving;
 };
 
-/// Whether the specimen bears a lower pressure.
+/// Whether the specimen carries the pressure of the case `lower`.
 bool bears(const VirtualTest& refused, const TestCase& lower, const Specimen& specimen, const SeparateBonding& twin) {
     VirtualTest attempt;
     attempt.description = lower;
     attempt.small_strain = refused.small_strain;
     BondedSpecimen bonded = bond_specimen(specimen, lower, lower.loading, twin.while_solving);
     attempt.world = std::move(bonded.world);
-    attempt.setup = record_setup(attempt.world, specimen, bonded.platens, test_kind(lower.loading.kind),
-                                 lower.loading.grip.value_or(0.0));
+    attempt.setup =
+        record_setup(attempt.world, specimen, bonded.platens, lower.loading.kind, lower.loading.grip.value_or(0.0));
     try {
         if (twin.world != nullptr)
             confine(attempt, *twin.world, *twin.setup);
@@ -143,7 +146,7 @@ bool bears(const VirtualTest& refused, const TestCase& lower, const Specimen& sp
     }
 }
 
-/// Confines the specimen; where it does not bear the pressure lower ones are tried before one is advised.
+/// Confines the specimen. If it does not carry the pressure, lower pressures are tried before one is recommended.
 void confine_or_advise(VirtualTest& test, const Specimen& specimen, const SeparateBonding& twin) {
     try {
         if (twin.world != nullptr)
@@ -155,12 +158,12 @@ void confine_or_advise(VirtualTest& test, const Specimen& specimen, const Separa
             TestCase lower = test.description;
             *lower.confinement.pressure *= share;
             if (bears(test, lower, specimen, twin))
-                throw InputError(fmt::format("{}; lower the pressure: there is an equilibrium under {:.3g} {}",
+                throw InputError(fmt::format("{}; lower the pressure; there is an equilibrium under {:.3g} {}",
                                              error.what(), *lower.confinement.pressure, lower.stress_unit()));
         }
         throw InputError(
-            fmt::format("{}; a lower pressure does not help, down to a thousandth of it: look at the strength of the "
-                        "bonds, and at particles that nothing holds",
+            fmt::format("{}; lower pressures, down to a thousandth, do not help either; check the strength of the "
+                        "bonds, and whether particles are not held by any bond",
                         error.what()));
     }
 }
@@ -174,7 +177,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
     if (description.has_table("packing") && !material.damping_ratio && !material.normal_damping) {
         hooks.report_stage(
             fmt::format("damping ratio {:.4g} by default: a particle ringing on its contacts loses 95 % of its "
-                        "energy a period",
+                        "energy per period",
                         default_damping_ratio));
     }
     const Clock::time_point begun = Clock::now();
@@ -191,7 +194,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
     test.world = std::move(bonded.world);
     test.world.bonds.watch_slips = description.output.slips;
     const double grip = description.loading.grip.value_or(0.0);
-    const TestKind& kind = test_kind(description.loading.kind);
+    const LoadingKind kind = description.loading.kind;
     test.setup = record_setup(test.world, specimen, bonded.platens, kind, grip);
     if (!description.output.frames)
         test.description.output.frames = default_frames(test.setup.particles, description.output.curve_rows);
@@ -211,7 +214,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
         if (test.setup.normal_force > 0.0 || test.setup.normal_spring > 0.0) press(test);
     } else {
         TestCase::Loading held = description.loading;
-        held.platens = "bonded";
+        held.platens = PlatenKind::bonded;
         const BondedSpecimen twin = bond_specimen(specimen, description, held, while_solving);
         const TestSetup own = record_setup(twin.world, specimen, twin.platens, kind, grip);
         try {
@@ -220,7 +223,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
         } catch (const InputError& error) {
             note_no_small_strain(test, error.what());
         }
-        // What it refuses, no test goes on without.
+        // Confining throws if the case makes loading impossible.
         if (description.confined()) confine_or_advise(test, specimen, {&twin.world, &own, while_solving});
     }
     listen_for_emission(test);
@@ -228,8 +231,8 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
         hooks.report_stage(
             fmt::format("confined by {:.4g} {}", test.setup.confining_pressure, description.stress_unit()));
     if (std::isfinite(test.state.youngs_modulus) && !test.setup.uniaxial) {
-        hooks.report_stage(fmt::format("small strain: nominal stress over nominal strain {:.4g} {}",
-                                       test.state.youngs_modulus, description.stress_unit()));
+        hooks.report_stage(fmt::format("small strain: nominal modulus {:.4g} {}", test.state.youngs_modulus,
+                                       description.stress_unit()));
     } else if (std::isfinite(test.state.youngs_modulus)) {
         hooks.report_stage(fmt::format("small strain: E = {:.4g} {}, nu = {:.3g}", test.state.youngs_modulus,
                                        description.stress_unit(), test.state.poissons_ratio));
@@ -241,17 +244,18 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks, co
     VirtualTest test = bond_test(description, hooks, visit);
     if (description.loading.rate_tolerance) {
         start_by_tolerance(test);
-        hooks.report_stage(fmt::format("loading by tolerance {}: first rate {:.3g} 1/s, a wave's transit {:.3g} s",
-                                       *description.loading.rate_tolerance, test.state.rate.rate,
-                                       test.setup.rate_rule.transit_time));
-        // What it refuses, no test goes on without.
+        hooks.report_stage(
+            fmt::format("loading with rate_tolerance = {}: initial rate {:.3g} 1/s, wave transit time {:.3g} s",
+                        *description.loading.rate_tolerance, test.state.rate.rate, test.setup.rate_rule.transit_time));
+        // lateral_rule_of() throws if the case makes loading impossible.
         lateral_rule_of(description, test.setup.rate_rule, test.state.poissons_ratio);
     } else {
         if (!test.setup.uniaxial) start_by_rate(test);
         notice_fast_loading(test);
     }
     for (const std::string& notice : test.setup.notices) hooks.report_stage("notice: " + notice);
-    test.world.workers.while_solving = {};  // loading hears by itself, and has something to keep
+    test.world.workers
+        .while_solving = {};  // loading polls for interrupts itself, because there are then results to keep
     return test;
 }
 

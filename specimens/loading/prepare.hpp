@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a case to a test that is ready to be loaded.
+// Prepares a test from its case up to the start of loading.
 //
-//   bond_test()     case → specimen → platens → world → bonds → linear solution, at rest
-//   prepare_test()  and the start of loading
+//   bond_test()      case → specimen → platens → world → bonds → linear solution, at rest
+//   prepare_test()   additionally starts the loading motion
 // Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
@@ -14,16 +14,18 @@
 
 namespace crackle {
 
-/// Sees the linear solution with its world: the test's, or its twin with bonded platens where those are frictional.
+/// Called with the linear solution and the world for which it was computed: the test's own world or, if its platens are
+/// frictional, a copy with bonded platens.
 using SolutionVisitor = std::function<void(const World&, const TestSetup&, const Moduli&)>;
 
-/// @throws InputError for everything that makes the case impossible; TestInterrupted.
+/// Prepares a test at rest. @throws InputError if the case cannot be tested for any reason; TestInterrupted
 VirtualTest bond_test(const TestCase& description, const TestHooks& hooks = {}, const SolutionVisitor& visit = {});
 
-/// @throws as bond_test()
+/// Prepares a test and starts the loading motion. @throws the exceptions of bond_test()
 VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks = {}, const SolutionVisitor& visit = {});
 
-/// Its linear solution, solved now where it was left out for its size. @throws InputError where there is none
+/// The linear solution of a test, computed now if it was skipped because the test is large.
+/// @throws InputError if there is no solution
 Moduli moduli_of(const VirtualTest& test);
 
 }  // namespace crackle

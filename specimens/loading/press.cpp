@@ -19,9 +19,10 @@ namespace crackle {
 namespace {
 
 constexpr int most_press_rounds = 50;
-constexpr double most_left_by_bonds = 0.5;  // of the force that was left before
+// Largest remaining force after a useful solution with bonds only, relative to the force before it.
+constexpr double most_left_by_bonds = 0.5;
 
-/// Forces that are left on every body, the normal force among them.
+/// Unbalanced force on every body, including the normal force on the upper box.
 std::vector<BodyMotion> forces_left(const VirtualTest& test) {
     std::vector<BodyMotion> left;
     for (const BodyForce& force : test.world.bodies.force) left.push_back({force.fx, force.fy, force.torque});
@@ -29,31 +30,33 @@ std::vector<BodyMotion> forces_left(const VirtualTest& test) {
     return left;
 }
 
-/// A spring stiffer than what holds the box would rule the time step, which knows nothing of it.
+/// Rejects a normal spring that is stiffer than the bonds of the upper box. It would limit the time step, which is
+/// derived without the spring.
 void check_spring(const VirtualTest& test) {
     double holding = 0.0;
     for (const Spring& spring : springs_of(test.world, ClosedPoints::bonded))
         if (spring.i == test.setup.top || spring.j == test.setup.top) holding += spring.stiffness;
     if (test.setup.normal_spring <= holding) return;
     throw InputError(fmt::format(
-        "{}: found {:g} {}/m, expected at most {:.3g}, the stiffness of the bonds of the upper box; lower it",
+        "{}: found {:g} {}/m, expected at most {:.3g}, the stiffness of the bonds of the upper box; lower this value",
         test.description.at("loading.normal_stiffness"), *test.description.loading.normal_stiffness,
         test.description.stress_unit(), holding / test.setup.width));
 }
 
-/// Moves the bodies until the specimen bears the normal force.
+/// Moves the bodies until the specimen carries the normal force.
 void find_equilibrium(VirtualTest& test) {
     World& world = test.world;
     const TestSetup& setup = test.setup;
     if (!test.small_strain) {
-        throw InputError(fmt::format("{}: expected an elastic solution, by which the specimen is pressed: {}",
+        throw InputError(fmt::format("{}: expected an elastic solution, which is needed to apply the normal stress: {}",
                                      test.description.at("loading.normal_stress"), test.no_small_strain));
     }
     std::vector<bool> held(world.bodies.size(), true);
     for (const BodyIndex b : find_free_motions(world, bodies_of_parts(setup)).bodies) held[b] = false;
     const double particle = std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
     const double of_particle = setup.normal_force * particle / setup.width;
-    // Bonds hold it; where pressing brings particles together that were apart, these bear their part as well.
+    // The first solutions include only bonds. If pressing closes gaps between particles, these contacts are included
+    // from then on.
     double before = std::numeric_limits<double>::infinity();
     for (int round = 0;; ++round) {
         std::vector<BodyMotion> left = forces_left(test);
@@ -66,9 +69,8 @@ void find_equilibrium(VirtualTest& test) {
         if (largest <= most_unbalanced_pressed) break;
         if (round == most_press_rounds || !std::isfinite(largest)) {
             throw InputError(
-                fmt::format("{}: found no equilibrium under {:g} {}: a force of {:.2g} of that on a particle was left, "
-                            "expected at most "
-                            "{:g}, and {} bonds had broken; lower it",
+                fmt::format("{}: found no equilibrium under {:g} {}: a force of {:.2g} of that stress on a particle "
+                            "was left, expected at most {:g}, and {} bonds had broken; lower the normal stress",
                             test.description.at("loading.normal_stress"), *test.description.loading.normal_stress,
                             test.description.stress_unit(), largest, most_unbalanced_pressed, world.bonds.broken));
         }
@@ -76,7 +78,7 @@ void find_equilibrium(VirtualTest& test) {
         before = largest;
         displace(world, solve_elastic(world, prescribed_parts(setup, 0.0), left, test.closed).displacement);
     }
-    // Loading begins as it goes on.
+    // Loading starts with a solution that includes the contacts closed by pressing.
     if (test.closed == ClosedPoints::touching)
         test.small_strain->moduli.solution =
             solve_elastic(world, prescribed_parts(setup, setup.length), {}, test.closed);

@@ -23,7 +23,8 @@ ClosedPoints closed_of(const VirtualTest& test) {
     return test.closed == ClosedPoints::touching ? test.closed : closed_points(test.setup);
 }
 
-/// Motion of every body for an axial strain of 1 in the sense of the test.
+/// Motion of every body for an axial strain of 1 in the direction of loading.
+/// @param elastic  whether a body moves as in the linear solution
 std::vector<BodyMotion> elastic_motion(const VirtualTest& test, const std::vector<bool>& elastic) {
     const TestSetup& setup = test.setup;
     const World& world = test.world;
@@ -35,8 +36,8 @@ std::vector<BodyMotion> elastic_motion(const VirtualTest& test, const std::vecto
         motion[b] = setup.axis == 1 ? BodyMotion{0.0, share, 0.0} : BodyMotion{share, 0.0, 0.0};
         if (elastic[b]) motion[b] = test.small_strain->moduli.solution.displacement[b];
     }
-    // Where it is not bonded the driving part is none of the solution's, and the others stay.
-    // Walls give way as the solution has it.
+    // A driving part that is not bonded is not part of the solution and moves on its own; other unbonded parts stay at
+    // rest. Walls move as in the solution.
     const std::vector<Prescribed> parts = prescribed_parts(setup, setup.length);
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const BodyIndex body = parts[k].body;
@@ -46,7 +47,7 @@ std::vector<BodyMotion> elastic_motion(const VirtualTest& test, const std::vecto
     return motion;
 }
 
-/// J s2, of a rate of 1.
+/// Kinetic energy at a strain rate of 1/s, divided by the square of that rate, J s2.
 double kinetic_of(const World& world, const std::vector<BodyMotion>& motion) {
     double sum = 0.0;
     for (std::size_t b = 0; b < motion.size(); ++b) {
@@ -57,13 +58,14 @@ double kinetic_of(const World& world, const std::vector<BodyMotion>& motion) {
     return sum;
 }
 
-/// Moves the bodies by w (see the header), shear springs included, in one drift of the integrator without forces.
+/// Displaces the bodies by w (see quasi_static_start.hpp) and updates shear springs, in one drift of the integrator
+/// without forces.
 void settle_dashpots(World& world, const TestSetup& setup, const std::vector<bool>& elastic, ClosedPoints closed) {
     compute_forces(world);
     std::vector<BodyMotion> loads(world.bodies.size());
     for (std::size_t b = 0; b < loads.size(); ++b)
         if (elastic[b]) loads[b] = {world.bodies.force[b].fx, world.bodies.force[b].fy, world.bodies.force[b].torque};
-    // A force from outside balances contacts that are to stay as they are.
+    // External forces are included, because the contacts that balance them must not change.
     for (const ControlState& control : world.bodies.controls)
         for (int d = 0; d < 3; ++d)
             if (control.dof[d].drive == Drive::force)
@@ -72,8 +74,9 @@ void settle_dashpots(World& world, const TestSetup& setup, const std::vector<boo
     displace(world, settled.displacement);
 }
 
-/// sqrt(3 K/U), K and U the kinetic and strain energy of unit rate and strain by the linear solution: of a bar between
-/// platens the transit of a wave, of a beam a share of its slowest period.
+/// sqrt(3 K/U), where K is the kinetic energy at unit strain rate and U the strain energy at unit strain in the linear
+/// solution. For a bar between platens, this is the transit time of a wave; for a beam, a fraction of its longest
+/// period.
 double transit_of_motion(const VirtualTest& test) {
     const ElasticSolution& solved = test.small_strain->moduli.solution;
     const std::vector<bool> elastic(test.world.bodies.size(), solved.displacement.size() == test.world.bodies.size());
@@ -85,7 +88,7 @@ double transit_of_motion(const VirtualTest& test) {
 RateRule rate_rule_of(const VirtualTest& test, double tolerance) {
     if (!test.small_strain || !(test.small_strain->moduli.youngs_modulus > 0.0)) {
         throw InputError(fmt::format(
-            "{}: expected an elastic solution to derive the rate from, or axial_strain_rate in its place: {}",
+            "{}: expected an elastic solution from which to derive the rate; set axial_strain_rate instead: {}",
             test.description.at("loading.rate_tolerance"),
             test.small_strain ? "the specimen has no stiffness" : test.no_small_strain));
     }
@@ -93,7 +96,7 @@ RateRule rate_rule_of(const VirtualTest& test, double tolerance) {
     double mass = 0.0;
     for (std::size_t b = 0; b < test.world.bodies.size(); ++b)
         if (!setup.is_platen(static_cast<BodyIndex>(b))) mass += test.world.bodies.inertia[b].mass;
-    // Work of a stress and a strain of 1.
+    // Work is stress times strain times `area`.
     const double modulus = test.small_strain->moduli.youngs_modulus, area = setup.section * setup.length;
     RateRule rule;
     rule.tolerance = tolerance;
@@ -103,7 +106,7 @@ RateRule rate_rule_of(const VirtualTest& test, double tolerance) {
     if (setup.normal_force > 0.0)
         rule.first_strain =
             std::min(rule.first_strain, joint_slip_strain(test.world, setup, test.small_strain->moduli));
-    // Nothing gives way in the test: its own length is all there is to go by.
+    // If nothing fails before, the largest strain of the test is used.
     rule.first_strain = std::min(rule.first_strain, test.description.loading.max_axial_strain);
     rule.stress_floor = modulus * rule.first_strain;
     rule.energy_floor = 0.5 * rule.stress_floor * rule.first_strain * area;
@@ -112,12 +115,12 @@ RateRule rate_rule_of(const VirtualTest& test, double tolerance) {
 
 namespace {
 
-/// Whether there is a linear solution that the specimen between its parts moves by.
+/// Whether the specimen starts with the motion of a linear solution.
 bool moves_elastically(const VirtualTest& test) {
-    return test.small_strain && test.description.loading.platens != "frictional";
+    return test.small_strain && test.description.loading.platens != PlatenKind::frictional;
 }
 
-/// Which bodies move by the linear solution: of bonded parts all that they hold.
+/// Whether each body moves as in the linear solution. With bonded parts, these are all bodies that bonds hold.
 std::vector<bool> elastic_bodies(const VirtualTest& test) {
     const bool elastically = moves_elastically(test);
     std::vector<bool> elastic(test.world.bodies.size(), elastically);
@@ -127,7 +130,7 @@ std::vector<bool> elastic_bodies(const VirtualTest& test) {
     return elastic;
 }
 
-/// At this rate from the start on, without a shock. @return the motion of a rate of 1
+/// Starts the motion at a given strain rate, without a shock. @return the motion at a strain rate of 1/s
 std::vector<BodyMotion> start_moving(VirtualTest& test, double rate) {
     World& world = test.world;
     const TestSetup& setup = test.setup;
@@ -139,11 +142,11 @@ std::vector<BodyMotion> start_moving(VirtualTest& test, double rate) {
         set_velocities(world, motion, rate);
     }
     change_velocity(world, setup.top, setup.axis, -setup.sense() * rate * setup.length);
-    if (!setup.uniaxial) {  // parts that are free have moved with the rest
+    if (!setup.uniaxial) {  // parts that are free already move with the other bodies
         strains_begin_at(test.setup, world);
         relax_drives(world);
     }
-    restart_account(world);  // it begins with this motion
+    restart_account(world);  // the energy balance starts with this motion
     velocities_changed(world);
     compute_forces(world);
     return motion;

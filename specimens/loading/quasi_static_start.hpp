@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loading by tolerance begins in steady motion: no shock of the platen runs through the specimen, and the dashpots bear
-// their share of the stress from the first step on.
+// Starts loading in steady motion if the loading rate is controlled by a tolerance. The platen sends no shock through
+// the specimen, and the dashpots carry their part of the stress from the first step on.
 //
-// With u(ε) = ε û the linear solution of the specimen between its platens and ε̇ the rate, bodies begin with the
-// velocities ε̇ û, and where K w = -C ε̇ û leaves them, w = 0 at the platens: then springs and dashpots balance on every
-// body, nothing accelerates while the specimen stays linear, and the stress rises by E from the first row on.
+// Let u(ε) = ε û be the linear solution of the specimen between its platens, and ε̇ the strain rate. Bodies start with
+// velocities ε̇ û, at positions displaced by w, where K w = -C ε̇ û and w = 0 at the platens. Springs and dashpots then
+// balance on every body. Nothing accelerates while the specimen stays linear, and the stress rises with slope E from
+// the first row.
 // Tested by tests/specimens/setup/loading_rate_test.cpp.
 #pragma once
 
@@ -13,17 +14,17 @@
 
 namespace crackle {
 
-/// The rule for a specimen with a linear solution. @param tolerance of the inertia error
-/// @throws InputError where the specimen has none
+/// Rule for the loading rate of a specimen with a linear solution. @param tolerance  tolerance of the inertia error
+/// @throws InputError if the specimen has no linear solution
 RateRule rate_rule_of(const VirtualTest& test, double tolerance);
 
-/// Sets the specimen moving at the rule's first rate; what carries no load, and everything where the platens are not
-/// bonded, moves in proportion to its height.
-/// @throws InputError where there is no linear solution to take the rate from
+/// Sets the specimen in motion at the initial rate of the rule. Bodies that carry no load move in proportion to their
+/// height. If the platens are not bonded, all bodies do.
+/// @throws InputError if there is no linear solution to derive the rate from
 void start_by_tolerance(VirtualTest& test);
 
-/// Sets a specimen that is not between platens moving at the rate that its case gives, as start_by_tolerance() does;
-/// without a linear solution everything moves in proportion to its height.
+/// Sets a specimen without platens in motion at the rate of its case, as start_by_tolerance() does. Without a linear
+/// solution, all bodies move in proportion to their height.
 void start_by_rate(VirtualTest& test);
 
 }  // namespace crackle

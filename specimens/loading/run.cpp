@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "solver/base/version.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "solver/files/read_file.hpp"
@@ -24,6 +25,7 @@
 #include "specimens/results/files.hpp"
 #include "specimens/results/output_folder.hpp"
 #include "specimens/results/sha256.hpp"
+#include "specimens/summary/summary_file.hpp"
 
 namespace crackle {
 namespace {
@@ -37,19 +39,20 @@ std::ifstream open_file(const fs::path& path) {
     errno = 0;
     std::ifstream in(path, std::ios::binary);
     if (!in)
-        throw InputError(fmt::format("{}: cannot be read ({}), expected a file", path.string(), std::strerror(errno)));
+        fail_reading(errno,
+                     fmt::format("{}: cannot be read ({}), expected a file", path.string(), std::strerror(errno)));
     return in;
 }
 
 FileOptions file_options(const VirtualTest& test) {
     const TestCase::Output& output = test.description.output;
-    return {.precision = output.frame_precision == "double" ? PointPrecision::double_ : PointPrecision::single_,
+    return {.precision = output.frame_precision,
             .slips = output.slips,
             .pressed = test.description.pressed(),
             .jointed = !test.setup.traces.empty()};
 }
 
-/// Of the threads asked for those that are of use.
+/// Sets the number of threads: at most as many as are requested and worthwhile.
 void choose_threads(World& world, const TestOptions& options, int asked, const TestHooks& hooks) {
     const auto worth = static_cast<std::int64_t>(world.bodies.size()) / options.fewest_bodies_a_thread;
     const int most = static_cast<int>(std::clamp<std::int64_t>(worth, 1, options.most_threads));
@@ -57,17 +60,19 @@ void choose_threads(World& world, const TestOptions& options, int asked, const T
     if (most < asked) {
         hooks.report_stage(fmt::format("notice: {} of {} threads are used: {}", most, asked,
                                        most < options.most_threads
-                                           ? fmt::format("{} bodies are no work for more", world.bodies.size())
+                                           ? fmt::format("{} bodies do not keep more of them busy", world.bodies.size())
                                            : options.most_threads_why));
     }
 }
 
-/// The specimen's files until there is a place for them: a test that cannot be made leaves none.
+/// Keeps the specimen's files in memory until the output folder exists. If the test cannot be set up, no folder is left
+/// behind.
 class SpecimenFiles {
   public:
     TestHooks collecting(TestHooks hooks) {
         hooks.made = [this](const std::string& name, Scene scene) {
-            for (Material& material : scene.materials) material.damping_ratio.reset();  // no place in the format
+            // Damping ratios are not part of the file format.
+            for (Material& material : scene.materials) material.damping_ratio.reset();
             std::ostringstream text;
             write_geometry(text, scene);
             files_.emplace_back(name, std::move(text).str());
@@ -97,7 +102,7 @@ TestTiming timing_of(const VirtualTest& test, const TestOptions& options) {
             test.world.workers.threads};
 }
 
-/// Loads with files open, and closes the account whatever the end.
+/// Loads the test with open files, and writes the summary however loading ends.
 TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const TestHooks& hooks, OutputFolder& folder,
                            TestFiles& files) {
     TestOutcome outcome;
@@ -121,8 +126,8 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
     }
     outcome.interrupted = test.state.ended_by.empty();
     if (outcome.interrupted) {
-        // The checkpoint knows neither this end nor the picture of the peak so far: a resumed test may pass a higher
-        // one.
+        // The checkpoint keeps neither the interrupt flag nor the frame at the present peak, because the resumed test
+        // may reach a higher peak.
         TestState kept = test.state;
         kept.wall_seconds += seconds_since(options.process_start);
         files.write_checkpoint(test.setup, kept, test.world);
@@ -132,10 +137,10 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
     } else {
         write_peak();
         TestState kept = test.state;
-        kept.wall_seconds = kept.step_seconds =
-            0.0;  // nothing is left to add them to: the same run gives the same bytes
+        // No later run adds to these times; zeros keep the file reproducible.
+        kept.wall_seconds = kept.step_seconds = 0.0;
         files.write_checkpoint(test.setup, kept, test.world);
-        write_summary();  // complete before the companions begin, whatever becomes of them
+        write_summary();  // complete before the companions start, since they may fail
         if (options.verify) {
             errors = run_companions(test, hooks);
             outcome.unverified = !errors && test.state.failure.peak_row >= 0;
@@ -147,18 +152,35 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
     return outcome;
 }
 
-/// A test that has nothing left to be loaded: verified now, if that is asked and has not been done.
+/// Adds the location of the earlier results to errors that occur while new results replace them.
+template <class Work>
+TestOutcome naming_the_fate(const OutputFolder& folder, const Work& work) {
+    try {
+        return work();
+    } catch (const OutputError& error) {
+        if (!folder.staged()) throw;
+        throw OutputError(fmt::format("{}; {}", error.what(), folder.fate_of_earlier_results()));
+    } catch (const SystemFailure& error) {
+        if (!folder.staged()) throw;
+        throw SystemFailure(error, folder.fate_of_earlier_results());
+    } catch (const InputError& error) {
+        if (!folder.staged()) throw;
+        throw InputError(fmt::format("{}; {}", error.what(), folder.fate_of_earlier_results()));
+    }
+}
+
+/// Handles a test that was already loaded to its end: runs the companions if they are requested and missing.
 TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const TestHooks& hooks,
                           const OutputFolder& folder) {
     TestOutcome outcome;
     outcome.folder = folder.path();
     const fs::path name = folder.path() / "summary.json";
-    // Without one the process was stopped in between: what only the clock knew is lost.
+    // If there is no summary, the process was killed before writing it, and the run times are lost.
     const bool exists = is_file(name);
-    if (exists) outcome.summary = TestSummary::parse(read_file(name));
-    const TestSummary& old = outcome.summary;
-    const bool readable = exists && old.word("ended_by") == test.state.ended_by;
-    const bool verified = readable && old.contains("numerical_errors.companions");
+    if (exists) outcome.summary = parse_summary(read_file(name));
+    const Summary& old = outcome.summary;
+    const bool readable = exists && old.about.ended_by.value_or("") == test.state.ended_by;
+    const bool verified = readable && old.numerical_errors && old.numerical_errors->companions.stated();
     outcome.was_finished = readable && (verified || !options.verify);
     if (readable) {
         const FileMarks stated = stated_files(old, name.string());
@@ -167,12 +189,9 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
     }
     if (outcome.was_finished) return outcome;
     TestTiming timing{0.0, 0.0, test.world.workers.threads};
-    const auto number = [&](const char* key, double otherwise) {  // whoever wrote what is there
-        return old.number(key).value_or(otherwise);
-    };
-    if (readable)
-        timing = {number("wall_seconds", 0.0), number("step_seconds", 0.0),
-                  static_cast<int>(std::clamp(number("threads", 1.0), 1.0, 1e6))};
+    if (readable)  // the file may have been edited
+        timing = {old.run.wall_seconds.value_or(0.0), old.run.step_seconds.value_or(0.0),
+                  static_cast<int>(std::clamp<std::int64_t>(old.run.threads.value_or(1), 1, 1'000'000))};
     std::optional<NumericalErrors> errors;
     const auto write_summary = [&] {
         outcome.summary =
@@ -196,7 +215,11 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
 TestOutcome run_test(const TestCase& description, const TestOptions& options, const TestHooks& hooks) {
     TestCase recorded = description;
     recorded.inputs = files_read(description);
-    OutputFolder folder = OutputFolder::create(options.folder, options.force, recorded.inputs);
+    OutputFolder folder = OutputFolder::create(options.folder,
+                                               !options.force         ? Earlier::refused
+                                               : options.begins_again ? Earlier::begun_again
+                                                                      : Earlier::replaced,
+                                               recorded.inputs);
     std::optional<SpecimenFiles> specimen(std::in_place);
     const int threads = options.threads > 0 ? options.threads : static_cast<int>(description.numerics.threads);
     TestCase made = description;
@@ -205,30 +228,25 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     choose_threads(test.world, options, threads, hooks);
     const RunEstimate run = expected_run(test, description.loading.max_axial_strain, roughly_steps_per_second(test));
     if (!options.endless) refuse_endless(test, run);
-    refuse_resting(test);  // before there is a folder
+    refuse_resting(test);  // must throw before anything is written, so that the new folder is removed
     hooks.report_detail(
         fmt::format("{:.3g} steps to max_axial_strain = {:g}, in about {:.2g} s", run.steps, run.strain, run.seconds));
     Profile profile;
     if (options.profile) test.world.workers.profile = &profile;
     test.state.command = options.command;
-    // Known only now where the case is silent.
+    // Derived values are recorded for keys that the case does not set.
     recorded.output.frames = test.description.output.frames;
     recorded.mesh.thick = test.description.mesh.thick;
     const std::string text = resolved_case(recorded, folder.target());
-    // Empty until loading: by that a test that has only begun is known.
-    TestFiles files(folder, sha256(text), test.state, file_options(test));
-    try {
-        folder.write("case.toml", text, Durable::yes);  // first: by its contents a folder is known to be a test's
+    if (options.loading_begins) options.loading_begins();
+    return naming_the_fate(folder, [&] {
+        // Written first, because it marks the folder as the output of a test.
+        folder.write("case.toml", text, Durable::yes);
+        TestFiles files(folder, sha256(text), test.state, file_options(test));
         specimen->write(folder);
-        specimen.reset();  // not kept while the test runs
+        specimen.reset();  // not needed during the test
         return run_with_files(test, options, hooks, folder, files);
-    } catch (const OutputError& error) {
-        if (!folder.staged()) throw;
-        throw OutputError(fmt::format("{}; {}", error.what(), folder.fate_of_earlier_results()));
-    } catch (const InputError& error) {
-        if (!folder.staged()) throw;
-        throw InputError(fmt::format("{}; {}", error.what(), folder.fate_of_earlier_results()));
-    }
+    });
 }
 
 TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
@@ -236,11 +254,11 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     const fs::path checkpoint_path = folder.path() / "checkpoint";
     std::error_code error;
     if (!is_file(checkpoint_path)) {
-        throw InputError(fmt::format("{}: found no checkpoint, {}", checkpoint_path.string(),
-                                     holds_test_results(folder.path())
-                                         ? "expected one to resume from; run the test again with --force"
-                                         : "for the test was stopped before its loading began; nothing is lost, run "
-                                           "the test again"));
+        throw InputError(fmt::format(
+            "{}: found no checkpoint, {}", checkpoint_path.string(),
+            holds_test_results(folder.path())
+                ? "expected one to resume from; run the test again with --force"
+                : "because the test was stopped before loading began; nothing is lost, run the test again"));
     }
     const fs::path case_path = folder.path() / "case.toml";
     VirtualTest test;
@@ -250,7 +268,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     saved.close();
     if (checkpoint.case_hash != sha256(read_file(case_path))) {
         throw InputError(fmt::format(
-            "{}: found another case than the one the checkpoint belongs to, expected it unchanged; restore it, "
+            "{}: found a case that differs from the one of the checkpoint, expected no change; restore the file, "
             "or run the test again with --force",
             case_path.string()));
     }
@@ -259,13 +277,23 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     test.world = std::move(checkpoint.world);
     choose_threads(test.world, options,
                    options.threads > 0 ? options.threads : static_cast<int>(test.description.numerics.threads), hooks);
-    if (!test.state.ended_by.empty()) return finished_test(test, options, hooks, folder);
-    // That of the interrupt: curve and frames go beyond it from here.
+    if (!test.state.ended_by.empty()) {
+        return naming_the_fate(folder, [&] {
+            TestOutcome outcome = finished_test(test, options, hooks, folder);
+            folder.finish();
+            outcome.folder = folder.path();
+            return outcome;
+        });
+    }
+    if (options.loading_begins) options.loading_begins();
+    // The summary of the interrupted test is removed, because curve and frames continue beyond it.
     fs::remove(folder.path() / "summary.json", error);
-    TestFiles files(folder, checkpoint.case_hash, test.state, file_options(test));
     hooks.report_stage(fmt::format("resumed at step {}, axial strain {:.4g}", test.world.stepping.steps,
                                    test.setup.axial_strain(test.world)));
-    return run_with_files(test, options, hooks, folder, files);
+    return naming_the_fate(folder, [&] {
+        TestFiles files(folder, checkpoint.case_hash, test.state, file_options(test));
+        return run_with_files(test, options, hooks, folder, files);
+    });
 }
 
 }  // namespace crackle

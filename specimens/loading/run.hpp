@@ -1,47 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A test with its folder OUT: begun, or gone on with from its checkpoint.
+// Runs a test in its output folder OUT, from the start or from its checkpoint.
 // Tested by tests/tools/commands/resume_test.cpp.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 #include "specimens/case/case_file.hpp"
 #include "specimens/making/hooks.hpp"
-#include "specimens/recordings/test_summary.hpp"
+#include "specimens/summary/summary.hpp"
 
 namespace crackle {
 
+/// Options for running a test and writing its results.
 struct TestOptions {
-    std::filesystem::path folder;  ///< OUT
+    std::filesystem::path folder;  ///< output folder, OUT
     bool force = false;
-    bool verify = false;   ///< run the companions, specimens/loading/companions.hpp
-    bool profile = false;  ///< time the phases of a step, for the summary
-    int threads = 0;       ///< 0: the case's
-    // Fewer threads than asked for do the work beyond these; what is written is the same.
+    bool begins_again = false;  ///< whether to discard, with `force`, what an unfinished test left in OUT.new
+    bool verify = false;        ///< whether to run the companions (specimens/loading/companions.hpp)
+    bool profile = false;       ///< whether to time the phases of a step, for the summary
+    int threads = 0;            ///< number of threads; 0: as stated in the case
+    // Upper limit on the number of threads. Results do not depend on it.
     int most_threads = 1024;
-    std::string most_threads_why;  ///< for a notice
+    std::string most_threads_why;  ///< reason for the limit, used in a notice
     std::int64_t fewest_bodies_a_thread = 1;
-    bool endless = false;  ///< as many steps and days as it takes; refuse_endless() is not asked
-    std::string command;   ///< for the summary
+    std::function<void()> loading_begins;  ///< called before the first file is written or changed
+    /// Whether to allow any number of steps and any run time; refuse_endless() is then not called.
+    bool endless = false;
+    std::string command;  ///< command line that started the test, recorded in the summary
     std::chrono::steady_clock::time_point process_start = std::chrono::steady_clock::now();
 };
 
+/// Outcome of a test.
 struct TestOutcome {
-    TestSummary summary;
+    Summary summary;
     std::filesystem::path folder;  ///< where the results are: OUT, or OUT.new if earlier results are still in OUT
     bool interrupted = false;
-    bool unverified = false;    ///< the companions were interrupted: the test is complete, but states no error
-    bool was_finished = false;  ///< resume_test() found nothing to do
+    /// Whether the companions were interrupted; the test is then complete, but no numerical error is stated.
+    bool unverified = false;
+    bool was_finished = false;  ///< whether resume_test() found nothing to do
 };
 
-/// @throws InputError, UnstableRun (results up to there are kept), TestInterrupted
+/// Runs a test. @throws InputError; UnstableRun, with results up to then kept; TestInterrupted
 TestOutcome run_test(const TestCase& description, const TestOptions& options, const TestHooks& hooks = {});
 
-/// Goes on with a test from its last checkpoint. @throws InputError if the folder, its case or its checkpoint do not
-/// fit.
+/// Resumes a test from its last checkpoint.
+/// @throws InputError if the folder, its case or its checkpoint are inconsistent
 TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks = {});
 
 }  // namespace crackle

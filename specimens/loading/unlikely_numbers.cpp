@@ -12,11 +12,12 @@
 namespace crackle {
 namespace {
 
-// Rocks fail at some 1e-3 of strain, the softest soils at 0.1: numbers far from that are in another unit.
+// Rocks fail at strains near 1e-3, the softest soils at 0.1. Values far outside this range are probably in another
+// unit.
 constexpr double least_strength_over_modulus = 1e-6, least_modulus = 1e5;  // Pa
-// Of what is as stiff as rock no grain is as large as a head; blocks of a rock mass lie between joints.
+// Grains as stiff as rock are at most as large as a head; blocks of a rock mass are separated by joints.
 constexpr double stiff_as_rock = 1e9, largest_grain = 0.1;  // Pa, m
-// Light as aerogel; bonds of rocks have 1 to 10.
+// The lowest density is that of aerogel. In bonds of rocks, cohesion is 1 to 10 times the tensile strength.
 constexpr double least_density = 100.0, largest_cohesion_over_tension = 15.0;  // kg/m2, -
 constexpr double degrees_a_radian = 180.0 / std::numbers::pi;
 
@@ -26,7 +27,7 @@ class Look {
 
     void at(const std::string& table, const TestCase::MaterialKeys& m) const {
         const auto notice = [&](const char* key, double value, const char* unit, const std::string& why) {
-            // What a mineral does not give itself is the rock's, and named there.
+            // A value that a mineral does not set itself comes from [material] and is reported there.
             if (table != "material" && !test_.position.contains(fmt::format("{}.{}", table, key))) return;
             notices_.push_back(fmt::format("{}.{} = {:g}{} {}", table, key, value, unit, why));
         };
@@ -41,21 +42,20 @@ class Look {
         }
         if (m.friction_angle && *m.friction_angle == 0.0)
             notice("friction_angle", 0.0, " degrees",
-                   "lets broken faces slide freely, and no pressure makes bonds stronger: rocks have 20 to 45");
+                   "lets broken faces slide freely, and pressure does not strengthen bonds; rocks have 20 to 45");
         for (const auto& [key, angle] : {std::pair("friction_angle", m.friction_angle),
                                          std::pair("residual_friction_angle", m.residual_friction_angle)})
             if (angle && *angle > 0.0 && *angle <= std::numbers::pi / 2.0)
                 notice(key, *angle, " degrees",
-                       fmt::format("is next to nothing: is it meant in radians? That is {:.3g} degrees",
+                       fmt::format("is almost zero: is it meant in radians? That is {:.3g} degrees",
                                    *angle * degrees_a_radian));
         if (m.density && *m.density < least_density)
             notice("density", *m.density, " kg/m2",
                    fmt::format("is lighter than any rock: is it meant in g/cm3? That is {:g} kg/m2", 1e3 * *m.density));
-        if (test_.coulomb_bonds() && m.cohesion && m.tensile_strength &&
-            *m.cohesion > largest_cohesion_over_tension * *m.tensile_strength)
+        if (m.cohesion && m.tensile_strength && *m.cohesion > largest_cohesion_over_tension * *m.tensile_strength)
             notice("cohesion", *m.cohesion, test_.area_units() ? " Pa" : " N",
-                   fmt::format("is {:.3g} times the tensile strength: bonds of rocks have 1 to 10; is one of them in "
-                               "another unit?",
+                   fmt::format("is {:.3g} times the tensile strength, while 1 to 10 is usual for rocks; is one of them "
+                               "in another unit?",
                                *m.cohesion / *m.tensile_strength));
     }
 
@@ -64,8 +64,8 @@ class Look {
         const double stiffness = test_.material.contact_modulus.value_or(0.0);
         if (!test_.area_units() || test_.jointed() || stiffness < stiff_as_rock || grain < largest_grain) return;
         notices_.push_back(
-            fmt::format("the specimen is {:.3g} m by {:.3g} m, of grains of {:.2g} m as stiff as rock: are its lengths "
-                        "meant in mm? Numbers are in m",
+            fmt::format("the specimen is {:.3g} m by {:.3g} m, with grains of {:.2g} m that are as stiff as rock: are "
+                        "its lengths meant in mm? Numbers are in m",
                         setup.width, setup.height, grain));
     }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers of a case that no rock has, with what they are likely to mean: millimetres, MPa, g/cm3, radians. A case may
-// mean them all the same, so they are notices.
+// Finds values in a case that are unlikely for any rock, and suggests the unit that was probably used: millimetres,
+// MPa, g/cm3 or radians. Such values may be intended, so they only cause notices.
 // Tested by tests/specimens/loading/unlikely_numbers_test.cpp.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace crackle {
 
-/// A sentence each, naming key and value.
+/// A sentence for each unlikely value, naming its key.
 std::vector<std::string> unlikely_numbers(const TestCase& test, const TestSetup& setup);
 
 }  // namespace crackle

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One virtual test in memory: prepare.hpp makes it from a case, load_specimen.hpp loads it, run.hpp does both with
-// files.
+// One virtual test in memory. prepare.hpp makes it from a case, load_specimen.hpp loads it, and run.hpp does both and
+// writes files.
 #pragma once
 
 #include <optional>
@@ -15,16 +15,18 @@
 
 namespace crackle {
 
+/// The complete state of a test between two steps.
 struct VirtualTest {
     TestCase description;
     TestSetup setup;
     TestState state;
     World world;
     std::optional<SmallStrain> small_strain;  ///< linear solution with bonded platens
-    std::string no_small_strain;              ///< why there is none; a notice says it, too
-    /// What bears when loading begins, by linear solutions: bonds, or what pressing has closed as well.
+    std::string no_small_strain;              ///< reason why there is no linear solution; a notice states it too
+    /// Contacts that carry load at the start of loading, as used in linear solutions: only bonds, or also contacts that
+    /// the normal force of a shear test has closed.
     ClosedPoints closed = ClosedPoints::bonded;
-    double specimen_seconds = 0.0;  ///< wall clock that making the specimen took
+    double specimen_seconds = 0.0;  ///< wall-clock time spent on making the specimen, s
 };
 
 }  // namespace crackle

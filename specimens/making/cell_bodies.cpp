@@ -13,7 +13,7 @@ void add_cell_bodies(Scene& scene, const Mesh& mesh, std::span<const int> centre
         for (const Point& corner : mesh.outline(cell)) outline.push_back({corner.x, corner.y});
         int seed = cell.centre;
         for (const int corner : cell.centres) seed = seed < 0 ? corner : seed;
-        // A triangle between three points of the faces has no seed.
+        // A triangle has no seed if all its corners lie on faces of the domain.
         const int material = seed < 0 ? centre_materials.front() : centre_materials[static_cast<std::size_t>(seed)];
         scene.add_chain_body(++id, material, outline, true);
     }

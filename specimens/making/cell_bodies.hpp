@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The cells of a mesh as rigid bodies.
+// Creates rigid bodies from the cells of a mesh.
 // Tested by tests/tools/commands/mesh_test.cpp.
 #pragma once
 
@@ -10,9 +10,9 @@
 
 namespace crackle {
 
-/// Adds a closed chain for each cell, numbered from 1 in the mesh's order. A Voronoi cell has the material of its seed,
-/// a triangle that of its first corner that is a seed (corners on the domain's faces are none).
-/// @param centre_materials index into scene.materials, by seed
+/// Adds a closed chain for each cell, with ids from 1 in mesh order. A Voronoi cell has the material of its seed. A
+/// triangle has that of its first corner that is a seed (corners on faces of the domain are not seeds).
+/// @param centre_materials  for each seed, index into scene.materials
 void add_cell_bodies(Scene& scene, const Mesh& mesh, std::span<const int> centre_materials);
 
 }  // namespace crackle

@@ -15,15 +15,16 @@
 namespace crackle {
 namespace {
 
-/// Coefficients of variation: of the circles' radii, and of the cells' equivalent diameters that they give.
+/// Coefficients of variation of circle radii, and of the equivalent diameters of the resulting cells.
 struct SpreadPair {
     double circles, voronoi, delaunay;
 };
 
-// Means of three to six packings of 300 to 2,000 circles at mean overlaps of 0.004 and 0.03 radii, by
-// measure_cell_spreads beside this file; a packing of 600 lies within 0.005 (Voronoi) and 0.01 (Delaunay) of them, and
-// within six times as much at the wide end, where a few large circles decide. Triangles beside the faces are smaller:
-// of 300 circles 0.02 more at the low end. tests/specimens/making/cell_sizes_test.cpp measures some of them again.
+// Means of three to six packings of 300 to 2,000 circles at mean overlaps of 0.004 and 0.03 radii, measured by
+// measure_cell_spreads in this folder. Values of a packing of 600 circles differ from them by at most 0.005 (Voronoi)
+// and 0.01 (Delaunay). For the widest spreads, the scatter is six times as large, because a few large circles dominate.
+// Triangles beside the faces are smaller: in packings of 300 circles, this raises the smallest spread by 0.02.
+// tests/specimens/making/cell_sizes_test.cpp checks some of the values.
 constexpr std::array<SpreadPair, 7> uniform_spreads{{{0.0, 0.037, 0.110},
                                                      {0.1, 0.054, 0.124},
                                                      {0.2, 0.096, 0.158},
@@ -46,7 +47,7 @@ constexpr std::array<SpreadPair, 14> lognormal_spreads{{{0.0, 0.037, 0.110},
                                                         {1.2, 0.480, 0.664},
                                                         {1.3, 0.536, 0.738}}};
 
-/// The circles' spread that gives the cells', on the straight line between two measured ones.
+/// Spread of circle radii that gives a requested spread of cells, interpolated linearly between measurements.
 double circle_spread(std::span<const SpreadPair> measured, double SpreadPair::*cells, double asked) {
     std::size_t k = 1;
     while (k + 1 < measured.size() && measured[k].*cells < asked) ++k;
@@ -54,7 +55,7 @@ double circle_spread(std::span<const SpreadPair> measured, double SpreadPair::*c
     return std::lerp(low.circles, high.circles, (asked - low.*cells) / (high.*cells - low.*cells));
 }
 
-// Of the circles' diameter over the cells': a random packing fills about this share of its box.
+// Square of the ratio of circle diameter to cell diameter; random packings fill about this fraction of their box.
 constexpr double filled_share = 0.835;
 
 }  // namespace
@@ -86,22 +87,22 @@ std::string small_cell_text(const Mesh& mesh) {
         at.x, at.y, smallest->area / mean, times);
 }
 
-SizeDistribution radii_for_cells(MeshKind kind, const std::string& sizes, const CellSizes& asked, double correction) {
-    const bool lognormal = sizes == "lognormal";
+SizeDistribution radii_for_cells(MeshKind kind, RadiusLaw sizes, const CellSizes& asked, double correction) {
+    const bool lognormal = sizes == RadiusLaw::lognormal;
     const std::span<const SpreadPair> widest = lognormal_spreads, measured = lognormal ? widest : uniform_spreads;
     const auto cells = kind == MeshKind::voronoi ? &SpreadPair::voronoi : &SpreadPair::delaunay;
     const double least = measured.front().*cells, most = measured.back().*cells;
     if (asked.spread < least || asked.spread > most) {
         const double reached = widest.back().*cells;
         throw InputError(fmt::format("found {}, expected {} to {} for {} cells of {} circles; {}", asked.spread, least,
-                                     most, kind == MeshKind::voronoi ? "Voronoi" : "Delaunay", sizes,
-                                     asked.spread < least ? "even those of equal circles vary so much"
+                                     most, kind == MeshKind::voronoi ? "Voronoi" : "Delaunay", name_of(sizes),
+                                     asked.spread < least ? "cells of equal circles already vary by more"
                                      : asked.spread <= reached
                                          ? fmt::format("sizes = \"lognormal\" reaches {}", reached)
                                          : fmt::format("{} is the most that packed circles reach", reached)));
     }
     const double spread = circle_spread(measured, cells, std::clamp(asked.spread + correction, least, most));
-    // As many circles as Voronoi cells, half as many as triangles.
+    // A mesh has one Voronoi cell, or about two triangles, per circle.
     const double per_cell = kind == MeshKind::voronoi ? 1.0 : 2.0;
     const double mean =
         0.5 * asked.mean *

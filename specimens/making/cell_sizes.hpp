@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sizes of the cells of a mesh: measured, and the circles that give the ones asked for.
+// Measures the sizes of mesh cells, and finds the circle sizes that produce requested cell sizes.
 //
-// A cell of area A, before the inset, has the equivalent diameter D = sqrt(4A/pi). With mean D̄ and coefficient of
-// variation s of N cells that fill a box, D̄² (1 + s²) = 4 W H/(π N) exactly: the mean is met by scaling all radii. The
-// spread follows from that of the radii as measured (specimens/METHODS.md 2).
+// A cell of area A before the inset has the equivalent diameter D = sqrt(4A/π). For N cells that fill a box of width W
+// and height H, with mean diameter D̄ and coefficient of variation s, D̄² (1 + s²) = 4 W H/(π N) holds exactly. Scaling
+// all radii therefore gives the requested mean. The spread of the cells is related to that of the radii by measurements
+// (specimens/making/METHODS.md).
 // Tested by tests/specimens/making/cell_sizes_test.cpp.
 #pragma once
 
 #include <string>
 
 #include "mesher/mesher.hpp"
+#include "specimens/case/test_case.hpp"
 #include "specimens/packing/size_distribution.hpp"
 
 namespace crackle {
@@ -20,25 +22,26 @@ struct CellSizes {
     double spread = 0.0;  ///< coefficient of variation, -
 };
 
-/// Share of the mean cell size sqrt(area/cells) that lies between cells of a case that gives no gap: at 0.02 all but
-/// one in a hundred faces have both their points (solver/MODEL.md 5.2), and no cell of a usual packing is destroyed.
+/// Default gap between cells, relative to the mean cell size sqrt(area/cells). At 0.02, 99 % of the faces have both
+/// contact points (solver/MODEL.md 5.2), and no cell of a usual packing is destroyed.
 inline constexpr double derived_gap_share = 0.02;
-double derived_gap(double area, double cells);  // m
+/// Gap for a case that states none, m. @param area  area of the box, m2 @param cells  number of cells in the box
+double derived_gap(double area, double cells);
 
+/// Sizes of the cells of a mesh, including gaps.
 CellSizes measure_cells(const Mesh& mesh);
 
-/// A sentence on the smallest cell, where by its mass the stable time step would be more than ten times shorter than by
-/// that of the mean one: step ~ sqrt(mass), for the springs are alike. Empty of other meshes.
+/// A sentence on the smallest cell if its mass makes the stable time step more than ten times shorter than the mean
+/// cell would; otherwise empty. The stable step is proportional to sqrt(mass), since the springs are similar.
 std::string small_cell_text(const Mesh& mesh);
 
-/// Sizes of circles whose centres' cells have these diameters, but for a factor on all radii near 1.
-/// @param sizes "uniform" or "lognormal", as a case's packing.sizes
-/// @param correction  added to the spread, for another packing where one has missed it
-/// @throws InputError «found X, expected Y; …» for a spread that no such circles give
-SizeDistribution radii_for_cells(MeshKind kind, const std::string& sizes, const CellSizes& asked,
-                                 double correction = 0.0);
+/// Radii of circles whose mesh cells have the requested diameters, up to a common factor close to 1.
+/// @param sizes  uniform or lognormal
+/// @param correction  added to the requested spread, to retry after a packing has missed it
+/// @throws InputError «found X, expected Y; …» if no circles with such radii give the requested spread
+SizeDistribution radii_for_cells(MeshKind kind, RadiusLaw sizes, const CellSizes& asked, double correction = 0.0);
 
-/// All radii times `by`.
+/// The distribution with all radii multiplied by a factor.
 SizeDistribution scaled(SizeDistribution sizes, double by);
 
 }  // namespace crackle

@@ -12,9 +12,9 @@
 namespace crackle {
 namespace {
 
-constexpr std::size_t fewest_bodies = 10;  // in what is cut
+constexpr std::size_t fewest_bodies = 10;  // smallest number of bodies that must remain after cutting
 
-/// A scene of some of its bodies, with their circles alone. @param keep  whether to, by body
+/// Copy of a scene with only some of its bodies, which must be circles. @param keep  whether to keep a given body
 template <class Keep>
 Scene part_of(const Scene& scene, const Keep& keep) {
     Scene part = scene;
@@ -36,9 +36,9 @@ void cut_shape(Scene& scene, const Shape& shape, bool polygons, const TestCase& 
     if (shape.whole()) return;
     if (polygons && !shape.outline.empty()) {
         throw InputError(
-            fmt::format("{}: found a particle file of polygons, expected circles, or a [packing], with kind = "
-                        "\"{}\": polygons are not cut",
-                        test.at("particles.file"), test.loading.kind));
+            fmt::format("{}: found a particle file of polygons, expected circles or a [packing] with kind = "
+                        "\"{}\", since polygons cannot be cut",
+                        test.at("particles.file"), name_of(test.loading.kind)));
     }
     const bool slot = shape.notch && !test.has_table("mesh") && !polygons;
     scene = polygons ? scene : part_of(scene, [&](const Body& body) {
@@ -48,7 +48,7 @@ void cut_shape(Scene& scene, const Shape& shape, bool polygons, const TestCase& 
     });
     if (scene.bodies.size() < fewest_bodies) {
         throw InputError(
-            fmt::format("{}: found {} particles in what is cut from the packing, expected at least {}; make the "
+            fmt::format("{}: found {} particles in the shape cut from the packing, expected at least {}; make the "
                         "particles smaller, or the specimen larger",
                         test.at("loading.kind"), scene.bodies.size(), fewest_bodies));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a kind of test leaves of a packing: the bodies within its shape, and those at its sides.
+// Cuts the shape for a kind of test out of a packing, and finds the bodies at its sides.
 // Tested by tests/specimens/making/specimen_test.cpp.
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace crackle {
 
-/// Leaves the bodies that lie within the shape of the kind of test; circles that its notch runs through are taken away.
-/// @throws InputError where too few are left, or polygons would have to be cut
+/// Keeps the bodies inside the shape; circles that the notch crosses are removed.
+/// @throws InputError if too few bodies remain, or if polygons would have to be cut
 void cut_shape(Scene& scene, const Shape& shape, bool polygons, const TestCase& test);
 
 /// Ids of the bodies that lie within a region.

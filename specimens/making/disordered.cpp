@@ -13,10 +13,10 @@
 namespace crackle {
 namespace {
 
-/// Uniform in [-1, 1).
+/// Uniform random number in [-1, 1).
 double swing(std::mt19937_64& generator) { return 2.0 * uniform_number(generator) - 1.0; }
 
-/// Convex counter-clockwise polygon whose edges are those of `corners` moved inwards by `depth`.
+/// Polygon obtained by moving every edge of the convex, counter-clockwise polygon `corners` inwards by `depth`.
 std::vector<Vec2> inset(const std::vector<Vec2>& corners, double depth, int id) {
     const std::size_t n = corners.size();
     const auto direction = [&](std::size_t k) {
@@ -26,14 +26,14 @@ std::vector<Vec2> inset(const std::vector<Vec2>& corners, double depth, int id) 
     std::vector<Vec2> moved;
     for (std::size_t k = 0; k < n; ++k) {
         const Vec2 before = direction((k + n - 1) % n), after = direction(k);
-        // The corner lies `depth` to the left of both edges: along the sum of their inward normals.
+        // The new corner lies `depth` to the left of both edges, along the sum of their inward normals.
         const Vec2 both = perpendicular(before) + perpendicular(after);
         moved.push_back(corners[k] + (depth / (1.0 + dot(before, after))) * both);
     }
     for (std::size_t k = 0; k < n; ++k) {
         if (dot(moved[(k + 1) % n] - moved[k], direction(k)) <= 0.0) {
             throw InputError(
-                fmt::format("shaken cell {}: found an edge that an inset of {} m destroys, expected a "
+                fmt::format("shaken cell {}: found an edge that disappears with an inset of {} m, expected a "
                             "smaller gap or less shaking",
                             id, depth));
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Callbacks of a test's caller while it runs: progress, notices, interrupts, what was made.
+// Callbacks from a running test to its caller: progress, notices, interrupts, and finished specimens.
 // Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
@@ -17,58 +17,66 @@ struct PackingRequest;
 struct TestCase;
 struct VirtualTest;
 
+/// Progress of a test; stresses in stress_unit.
 struct TestProgress {
     double axial_strain = 0.0;
-    double share_done = 0.0;  ///< of max_axial_strain
+    double share_done = 0.0;  ///< axial strain divided by max_axial_strain
     double axial_stress = 0.0, peak_stress = 0.0;
     const char* stress_unit = "";
     std::int64_t bonds_broken = 0, step = 0;
     double steps_per_second = 0.0;
-    double seconds_left = 0.0;  ///< until max_axial_strain; failure may come first
+    double seconds_left = 0.0;  ///< time until max_axial_strain; the specimen may fail earlier
 };
 
-/// What a look at a running test decides.
+/// What a test does after look() returns.
 enum class AfterLook : std::uint8_t {
     go_on,
-    end,       ///< the test is complete; the moment looked at is its last row
-    interrupt  ///< as an interrupt: what is written stays, and the test can be gone on with
+    end,       ///< end the test as complete; the current state becomes the last row
+    interrupt  ///< interrupt the test; results are kept, and the test can be resumed
 };
 
-/// Empty members are skipped.
+/// Callbacks of a test; empty ones are ignored.
 struct TestHooks {
-    std::function<void(const std::string&)> stage;      ///< one line a stage: "packed 304 circles …"
-    std::function<void(const std::string&)> detail;     ///< what only some want to know of a stage, likewise
-    std::function<void(const std::string&)> working;    ///< what is being done before loading, often
-    std::function<void(const TestProgress&)> progress;  ///< a few times a second
-    std::function<bool()> interrupted;                  ///< asked by any thread; once true it stays so
-    std::function<void(const std::string& name, const Scene&)> made;  ///< circles, then polygons, as they are tested
+    std::function<void(const std::string&)> stage;   ///< called with one line at each stage: "packed 304 circles …"
+    std::function<void(const std::string&)> detail;  ///< called with further details of a stage, one line each
+    std::function<void(const std::string&)>
+        working;  ///< called frequently, before loading starts, with a description of the current work
+    std::function<void(const TestProgress&)> progress;  ///< called a few times a second
+    /// May be called by any thread; once it returns true, it must always do so.
+    std::function<bool()> interrupted;
+    std::function<void(const std::string& name, const Scene&)>
+        made;  ///< called with the circles, then with the polygons, as they are tested
 
-    /// Looks at the test while it is loaded, where the forces of the moment are known and nothing has moved yet: at
-    /// every judged row, or every so many steps. World::bonds.events holds the breaks since the last look. May set the
+    /// Called during loading, when the current forces are known and nothing has moved yet: at every judged row, or
+    /// every `look_every` steps. World::bonds.events contains the breaks since the last call. The callback may set the
     /// platen's speed (specimens/loading/own_loading.hpp).
     std::function<AfterLook(VirtualTest&)> look;
-    std::int64_t look_every = 0;  ///< steps; 0: at rows
+    std::int64_t look_every = 0;  ///< number of steps between calls of `look`; 0: at rows
 
-    /// Gives the packing of a case, made by `make` or made before; not asked for where it is empty.
+    /// Returns the packing for a case, either from a store or made by calling `make`. If the callback is empty, every
+    /// packing is made.
     std::function<Packing(const TestCase&, const PackingRequest&, const std::function<Packing()>& make)> keep_packing;
 
+    /// Calls `stage`, if there is one.
     void report_stage(const std::string& line) const {
         if (stage) stage(line);
     }
+    /// Calls `detail`, if there is one.
     void report_detail(const std::string& line) const {
         if (detail) detail(line);
     }
-    /// Before loading. @throws TestInterrupted if that is asked for
+    /// Reports work before loading. @throws TestInterrupted if the caller has requested an interrupt
     void report_work(const std::string& what) const;
+    /// Calls `made`, if there is one.
     void report_made(const std::string& name, const Scene& scene) const {
         if (made) made(name, scene);
     }
 };
 
-/// The caller's interrupt before loading has begun: there is nothing to keep.
+/// Thrown if the caller interrupts before loading starts; no results are kept.
 class TestInterrupted : public std::runtime_error {
   public:
-    TestInterrupted() : std::runtime_error("interrupted before loading began, nothing is written") {}
+    TestInterrupted() : std::runtime_error("interrupted before loading began; nothing was written") {}
 };
 
 inline void TestHooks::report_work(const std::string& what) const {

@@ -3,6 +3,7 @@
 
 #include <cairo.h>
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,8 @@
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <new>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -24,7 +27,7 @@ bool contains(const Scene& scene, const Body& body, Vec2 place) {
         const CircleElement& circle = scene.circles[body.first_circle + k];
         if (norm(place - circle.centre) < circle.radius) return true;
     }
-    bool inside = false;  // by the number of edges to the right
+    bool inside = false;  // parity of the number of edges to the right of the point
     for (std::uint32_t k = 0; k < body.vertex_count; ++k) {
         const Vec2 a = scene.vertices[body.first_vertex + k];
         const Vec2 b = scene.vertices[body.first_vertex + (k + 1) % body.vertex_count];
@@ -54,23 +57,107 @@ Box box_of(const Scene& scene, const Body& body) {
     return box;
 }
 
-// Pixels that are taken into the memory at once, 600 MB; an empty image of more has a few kilobytes.
+// Largest number of pixels read into memory, 600 MB. A compressed blank image of a few kilobytes can have more.
 constexpr std::uint64_t most_pixels = 100'000'000;
 
-/// Pixels of a PNG by its head; 0 of any other file.
+// Cairo's limit for width and height.
+constexpr std::uint64_t most_pixels_across = 32767;
+
+constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+constexpr std::size_t width_at = 16, height_at = 20;
+
+/// Big-endian number in the four bytes at a position.
+std::uint64_t number_at(std::string_view bytes, std::size_t at) {
+    std::uint64_t number = 0;
+    for (std::size_t k = 0; k < 4; ++k) number = number << 8 | static_cast<std::uint8_t>(bytes[at + k]);
+    return number;
+}
+
+/// Number of pixels according to the header of a PNG file; 0 for any other file.
 std::uint64_t pixels_of(const std::filesystem::path& file) {
-    constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
-    constexpr std::size_t width_at = 16, height_at = 20;  // four bytes each, highest first
-    std::array<char, 24> head{};
+    std::array<char, height_at + 4> head{};
     std::ifstream in(file, std::ios::binary);
-    if (!in.read(head.data(), head.size()) || !std::string_view(head.data(), head.size()).starts_with(signature))
-        return 0;
-    const auto number_at = [&](std::size_t at) {
-        std::uint64_t number = 0;
-        for (std::size_t k = 0; k < 4; ++k) number = number << 8 | static_cast<std::uint8_t>(head[at + k]);
-        return number;
-    };
-    return number_at(width_at) * number_at(height_at);
+    const std::string_view read(head.data(), head.size());
+    if (!in.read(head.data(), head.size()) || !read.starts_with(signature)) return 0;
+    return number_at(read, width_at) * number_at(read, height_at);
+}
+
+/// Decompresses zlib data and discards the result. @return number of bytes; empty if the data are damaged
+std::optional<std::uint64_t> unpacked_bytes(const std::string& packed) {
+    z_stream stream{};
+    if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
+    const std::unique_ptr<z_stream, int (*)(z_stream*)> ended(&stream, inflateEnd);
+    std::array<Bytef, 1 << 14> room;
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));  // NOLINT: zlib's own type
+    stream.avail_in = static_cast<uInt>(packed.size());
+    for (int outcome = Z_OK; outcome == Z_OK;) {
+        stream.next_out = room.data();
+        stream.avail_out = room.size();
+        outcome = inflate(&stream, Z_NO_FLUSH);
+        if (outcome == Z_MEM_ERROR) throw std::bad_alloc();
+        if (outcome != Z_OK && outcome != Z_STREAM_END) return std::nullopt;
+    }
+    return stream.total_out;
+}
+
+/// Whether memory is insufficient for the pixels of a PNG with a valid header.
+bool lacks_room(std::string_view bytes) {
+    const auto size = [&](std::size_t at) { return static_cast<int>(number_at(bytes, at)); };
+    const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(
+        cairo_image_surface_create(CAIRO_FORMAT_ARGB32, size(width_at), size(height_at)), cairo_surface_destroy);
+    return cairo_surface_status(surface.get()) == CAIRO_STATUS_NO_MEMORY;
+}
+
+/// Describes the defect of a PNG file that could not be read, because Cairo reports insufficient memory for every
+/// defect. Empty if memory is insufficient.
+std::string flaw_of_png(std::string_view bytes) {
+    if (!bytes.starts_with(signature)) return "other data";
+    constexpr std::size_t frame = 12;  // bytes of a chunk besides its data: length, name, checksum
+    constexpr std::array<unsigned, 7> colours{1, 0, 3, 1,
+                                              2, 0, 4};  // channels per pixel, by colour type; 0 for invalid types
+    std::uint64_t row_bytes = 0, rows = 0;
+    bool interlaced = false, needs_palette = false, has_palette = false;
+    std::string packed;
+    for (std::size_t at = signature.size();;) {
+        if (bytes.size() - at < frame) return fmt::format("an end at byte {} before the chunk IEND", bytes.size());
+        const std::uint64_t length = number_at(bytes, at);
+        const std::string_view name = bytes.substr(at + 4, 4);
+        if (length > bytes.size() - at - frame)
+            return fmt::format("a chunk of {} bytes at byte {}, beyond the end of the file", length, at);
+        const std::string_view data = bytes.substr(at + 8, length);
+        const uLong sum = crc32(0, reinterpret_cast<const Bytef*>(name.data()), static_cast<uInt>(4 + length));
+        if (sum != number_at(bytes, at + 8 + length))
+            return fmt::format("the chunk {} at byte {} with a wrong checksum", name, at);
+        const bool first = at == signature.size();
+        if (first != (name == "IHDR")) return first ? "no chunk IHDR at its beginning" : "a second chunk IHDR";
+        if (first) {
+            if (length != 13) return fmt::format("a chunk IHDR of {} bytes instead of 13", length);
+            const std::uint64_t width = number_at(data, 0);
+            rows = number_at(data, 4);
+            if (width == 0 || rows == 0 || width > most_pixels_across || rows > most_pixels_across)
+                return fmt::format("{} x {} pixels, outside of 1 to {} each", width, rows, most_pixels_across);
+            const auto depth = static_cast<unsigned char>(data[8]), type = static_cast<unsigned char>(data[9]);
+            if (type >= colours.size() || colours[type] == 0 || depth == 0 || depth > 16 ||
+                (depth & (depth - 1U)) != 0 || (type == 3 ? depth == 16 : type != 0 && depth < 8))
+                return fmt::format("{} bits per channel and colour type {}, which PNG does not allow", depth, type);
+            if (data[10] != 0 || data[11] != 0 || (data[12] & ~1) != 0)
+                return "a method of compression, filtering or interlacing that PNG does not have";
+            row_bytes = (width * colours[type] * depth + 7) / 8 + 1;
+            interlaced = data[12] != 0;
+            needs_palette = type == 3;
+        }
+        has_palette = has_palette || name == "PLTE";
+        if (name == "IDAT") packed += data;
+        if (name == "IEND") break;
+        at += frame + length;
+    }
+    if (packed.empty()) return "no chunk IDAT, hence no pixels";
+    if (needs_palette && !has_palette) return "palette colours without a chunk PLTE";
+    const std::optional<std::uint64_t> unpacked = unpacked_bytes(packed);
+    if (!unpacked) return "IDAT chunks that cannot be decompressed";
+    if (!interlaced && *unpacked < rows * row_bytes)
+        return fmt::format("pixels for only {} of {} rows", *unpacked / row_bytes, rows);
+    return lacks_room(bytes) ? "" : "a defect in one of its chunks";
 }
 
 std::string expected_colours(std::span<const std::uint32_t> colours, std::span<const std::string> names) {
@@ -90,19 +177,24 @@ LabelImage::LabelImage(const std::filesystem::path& file, std::span<const std::u
             fmt::format("{}: found no file {}, expected a PNG image; check the path", where, file.string()));
     }
     if (const std::uint64_t pixels = pixels_of(file); pixels > most_pixels) {
-        throw InputError(fmt::format("{}: found {} with {} pixels, expected at most {}; save it smaller", where,
-                                     file.string(), pixels, most_pixels));
+        throw InputError(fmt::format("{}: found {} with {} pixels, expected at most {}; reduce the image's resolution",
+                                     where, file.string(), pixels, most_pixels));
     }
     const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(
         cairo_image_surface_create_from_png(file.string().c_str()), cairo_surface_destroy);
     if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS) {
-        throw InputError(fmt::format("{}: found {}, which cannot be read as PNG ({}), expected a PNG image", where,
-                                     file.string(), cairo_status_to_string(status)));
+        const std::string flaw = flaw_of_png(read_file(file));
+        if (flaw.empty() && status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
+        throw InputError(
+            fmt::format("{}: found {}, which cannot be read as PNG because it has {}, expected a PNG image; "
+                        "save the image again",
+                        where, file.string(), flaw.empty() ? cairo_status_to_string(status) : flaw));
     }
     const cairo_format_t format = cairo_image_surface_get_format(surface.get());
     if (format != CAIRO_FORMAT_RGB24 && format != CAIRO_FORMAT_ARGB32) {
         throw InputError(
-            fmt::format("{}: found {} with more than 8 bits a colour, expected 8; save it so", where, file.string()));
+            fmt::format("{}: found {} with more than 8 bits per colour channel, expected 8; save the image with 8",
+                        where, file.string()));
     }
     width_ = cairo_image_surface_get_width(surface.get());
     height_ = cairo_image_surface_get_height(surface.get());
@@ -133,7 +225,7 @@ std::uint16_t LabelImage::at(int column, int row) const {
 
 std::size_t LabelImage::label_of(const Scene& scene, const Body& body) const {
     const Domain& domain = scene.domain;
-    const double across = (domain.x2 - domain.x1) / width_, down = (domain.y2 - domain.y1) / height_;  // m a pixel
+    const double across = (domain.x2 - domain.x1) / width_, down = (domain.y2 - domain.y1) / height_;  // m per pixel
     const auto column_at = [&](double x) {
         return static_cast<int>(std::clamp(std::floor((x - domain.x1) / across), 0.0, width_ - 1.0));
     };

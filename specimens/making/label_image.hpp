@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A PNG image whose colours are labels, laid over a box: its lowest row of pixels along y1, its left column along x1.
+// A PNG image whose colours are labels. It covers a box: the lowest pixel row is at y1, the left column at x1.
 // Tested by tests/specimens/making/minerals_test.cpp.
 #pragma once
 
@@ -15,18 +15,18 @@ namespace crackle {
 
 class LabelImage {
   public:
-    /// @param colours 0xrrggbb of each label
-    /// @param names of the labels, for errors
-    /// @param where begins the text of an error: «file:line: key»
-    /// @throws InputError unless every pixel is opaque and of one of the colours
+    /// Reads an image. @param colours  0xrrggbb of each label
+    /// @param names  names of the labels, for error messages
+    /// @param where  start of the error message: «file:line: key»
+    /// @throws InputError unless every pixel is opaque and has one of the colours
     LabelImage(const std::filesystem::path& file, std::span<const std::uint32_t> colours,
                std::span<const std::string> names, const std::string& where);
 
-    int width() const { return width_; }    ///< pixels
-    int height() const { return height_; }  ///< pixels
+    int width() const { return width_; }    ///< number of pixels
+    int height() const { return height_; }  ///< number of pixels
 
-    /// Label of most of the pixels whose centres lie in the body, of several equal ones the first; of a body between
-    /// the centres that of the pixel at its centroid.
+    /// Most frequent label among the pixels whose centres lie in a body; in a tie, the label that comes first. A body
+    /// without pixel centres has the label of the pixel at its centroid.
     std::size_t label_of(const Scene& scene, const Body& body) const;
 
   private:
@@ -34,7 +34,7 @@ class LabelImage {
 
     int width_ = 0, height_ = 0;
     std::size_t labels_ = 0;
-    std::vector<std::uint16_t> pixels_;  ///< label, row by row from the top
+    std::vector<std::uint16_t> pixels_;  ///< labels, row by row from the top
 };
 
 }  // namespace crackle

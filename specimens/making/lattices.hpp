@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Regular arrangements with closed-form stiffness, waves and stable steps; shared by tests, benchmarks and the viewer.
+// Regular arrangements for which stiffness, wave speed and stable time step are known in closed form. Tests, benchmarks
+// and the viewer use them.
 // Tested by tests/verification/lattice_test.cpp.
 #pragma once
 
@@ -7,19 +8,20 @@
 
 namespace crackle {
 
-/// Equal discs of radius R at spacing 2R - overlap on a triangular lattice, rows along x.
-/// @param columns,rows discs along x in even rows (odd rows have one less), and rows along y
+/// Equal discs of the given radius at distance 2 radius - overlap on a triangular lattice, with rows along x.
+/// @param columns, rows  number of discs along x in even rows (one less in odd rows), and number of rows
 /// @return scene without walls; ids 1, 2, … row by row from the lower left
 Scene triangular_lattice(int columns, int rows, double radius, double overlap, const Material& material);
 
-/// Equal discs of radius R at spacing 2R - overlap on a square lattice, ids row by row from the lower left, without
-/// walls.
+/// Equal discs of the given radius at distance 2 radius - overlap on a square lattice, without walls; ids 1, 2, … row
+/// by row from the lower left.
 Scene square_lattice(int columns, int rows, double radius, double overlap, const Material& material);
 
-/// Equal discs of radius R in a row along x at the given spacing, ids 1 … count, without walls.
+/// Equal discs in a row along x at the given spacing, with ids 1, 2, …, count, without walls.
 Scene disc_chain(int count, double radius, double spacing, const Material& material);
 
-/// Regular hexagons of apothem a on a honeycomb, `thick` apart (each inset by thick/2), ids row by row, without walls.
+/// Regular hexagons of the given apothem on a honeycomb, separated by gaps of `thick` (each is inset by thick/2),
+/// without walls; ids 1, 2, … row by row.
 Scene honeycomb(int columns, int rows, double apothem, double thick, const Material& material);
 
 }  // namespace crackle

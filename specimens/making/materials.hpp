@@ -7,8 +7,8 @@
 
 namespace crackle {
 
-/// The guide's rock but for its stiffness: density 2500 kg/m2, no dashpots. @param normal_stiffness k_n, N/m
-/// @param friction_angle degrees @param shear_share k_s over k_n
+/// A rock without dashpots, with density 2500 kg/m2 as in the DEMseg guide's example.
+/// @param normal_stiffness  k_n, N/m @param friction_angle  degrees @param shear_share  k_s/k_n
 inline Material undamped_rock(double normal_stiffness, double friction_angle, double shear_share = 0.25) {
     Material material;
     material.density = 2500.0;

@@ -19,9 +19,9 @@
 namespace crackle {
 namespace {
 
-using Minerals = std::vector<std::size_t>;  // of each grain
+using Minerals = std::vector<std::size_t>;  // index of the mineral of each grain
 
-/// Whole numbers to whole numbers that look random: the finaliser of SplitMix64.
+/// Hashes an integer to a pseudo-random one, with the finaliser of SplitMix64.
 std::uint64_t scattered(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15U;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -29,7 +29,8 @@ std::uint64_t scattered(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// Areas asked for in m2: what is written, and for the one without a share the rest.
+/// Requested areas in m2: those of the given fractions, and the remainder for the mineral without a fraction.
+/// @param all  total area of the grains
 std::vector<double> asked_areas(const TestCase& test, double all) {
     double sum = 0.0;
     bool open = false;
@@ -44,8 +45,9 @@ std::vector<double> asked_areas(const TestCase& test, double all) {
     return asked;
 }
 
-/// In an order that hangs on seed and ids alone, each grain goes to the mineral that lacks most. So no share misses by
-/// more than one grain: a mineral gets one only while it lacks some area.
+/// Visits the grains in a pseudo-random order that depends only on seed and ids. Each grain gets the mineral with the
+/// largest missing area. No fraction then deviates by more than one grain, because a mineral gets a grain only while
+/// area is missing.
 Minerals drawn(const Scene& scene, const TestCase& test, const std::vector<double>& areas,
                std::vector<double> lacking) {
     const std::uint64_t seed = scattered(static_cast<std::uint64_t>(test.minerals.seed));
@@ -62,7 +64,8 @@ Minerals drawn(const Scene& scene, const TestCase& test, const std::vector<doubl
     return minerals;
 }
 
-/// The largest grains have the first mineral. A grain goes where its middle lies: no border misses by more than half.
+/// Assigns the first mineral to the largest grains, the next to smaller ones, and so on. A grain is assigned by the
+/// middle of its area, so no boundary between minerals deviates by more than half a grain.
 Minerals by_size(const Scene& scene, const std::vector<double>& areas, const std::vector<double>& asked) {
     std::vector<std::size_t> order(areas.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -87,7 +90,7 @@ std::vector<std::string> names_of(const TestCase& test) {
     return names;
 }
 
-/// By name, or by number from 1; the number of minerals where it is neither.
+/// Index of a mineral given by name or by one-based number. If there is no such mineral, the number of minerals.
 std::size_t mineral_called(const std::vector<std::string>& names, const std::string& label) {
     std::size_t number = 0;
     const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), number);
@@ -103,27 +106,27 @@ Minerals read_labels(const TestCase& test, std::size_t grains) {
         throw InputError(fmt::format("{}: found no file {}, expected labels; check the path",
                                      test.at("minerals.labels"), file.string()));
     }
-    const std::string text = read_text(file);
-    refuse_foreign(file.string(), text, "a list of labels, a mineral's name or number a line");
+    const std::string text = read_text(file, most_bytes_of_table);
+    refuse_foreign(file.string(), text, "a list of labels: one line per grain with the name or number of a mineral");
     Minerals minerals;
     TableReader labels(file.string(), text, TableReader::Form::words);
     while (labels.next()) {
         const std::string label(labels.values().front());
         minerals.push_back(mineral_called(names, label));
         if (minerals.back() < names.size()) continue;
-        throw InputError(fmt::format("{}:{}: label: found \"{:.40}\", expected a mineral: {}, or its number from 1",
+        throw InputError(fmt::format("{}:{}: label: found \"{:.40}\", expected a mineral: {}, or a number from 1",
                                      file.string(), labels.line(), label, fmt::join(names, ", ")));
     }
     if (minerals.size() != grains) {
         throw InputError(
-            fmt::format("{}: found {} labels in {}, expected {}, one a grain in the order of the "
-                        "specimen's file; correct the file",
+            fmt::format("{}: found {} labels in {}, expected {}, one per grain in the order of the "
+                        "grains in the specimen file; correct the file",
                         test.at("minerals.labels"), minerals.size(), file.string(), grains));
     }
     return minerals;
 }
 
-// Pixels longer than wide by more than this are hardly meant.
+// Relative difference between pixel width and height above which the image is probably distorted by mistake.
 constexpr double stretch_to_mention = 0.02;
 
 Minerals read_image(const Scene& scene, const TestCase& test, std::vector<std::string>& notices) {
@@ -148,10 +151,10 @@ Minerals read_image(const Scene& scene, const TestCase& test, std::vector<std::s
 
 Minerals minerals_of(const Scene& scene, const TestCase& test, const std::vector<double>& areas,
                      const std::vector<double>& asked, std::vector<std::string>& notices) {
-    const std::string& assign = test.minerals.assign;
-    if (assign == "labels") return read_labels(test, areas.size());
-    if (assign == "image") return read_image(scene, test, notices);
-    if (assign == "size") return by_size(scene, areas, asked);
+    const MineralAssignment assign = test.minerals.assign;
+    if (assign == MineralAssignment::labels) return read_labels(test, areas.size());
+    if (assign == MineralAssignment::image) return read_image(scene, test, notices);
+    if (assign == MineralAssignment::size) return by_size(scene, areas, asked);
     return drawn(scene, test, areas, asked);
 }
 
@@ -167,11 +170,10 @@ std::vector<MineralShare> assign_minerals(Scene& scene, const TestCase& test, st
     const std::vector<double> asked = asked_areas(test, all);
     const Minerals minerals = minerals_of(scene, test, areas, asked, notices);
 
-    const bool by_share = test.minerals.assign == "random" || test.minerals.assign == "size";
     std::vector<MineralShare> shares;
     for (std::size_t k = 0; k < asked.size(); ++k) {
         std::optional<double> share = test.mineral[k].area_share;
-        if (!share && by_share) share = asked[k] / all;
+        if (!share && test.minerals.by_share()) share = asked[k] / all;
         shares.push_back({test.mineral[k].name, share, 0.0, 0});
     }
     for (std::size_t b = 0; b < minerals.size(); ++b) {
@@ -179,13 +181,13 @@ std::vector<MineralShare> assign_minerals(Scene& scene, const TestCase& test, st
         shares[minerals[b]].reached += areas[b] / all;
         ++shares[minerals[b]].grains;
     }
-    // More than whole grains can explain, which is a matter of labels and images.
+    // Only differences that whole grains do not explain are reported; they occur with labels and images.
     const double grain = *std::max_element(areas.begin(), areas.end()) / all;
     for (const MineralShare& m : shares) {
-        if (m.grains == 0) notices.push_back(fmt::format("no grain is {}", m.name));
+        if (m.grains == 0) notices.push_back(fmt::format("no grain is made of {}", m.name));
         if (m.asked && std::abs(m.reached - *m.asked) > grain)
             notices.push_back(
-                fmt::format("{} has {:.3g} of the area where {:.3g} were asked for", m.name, m.reached, *m.asked));
+                fmt::format("{} has {:.3g} of the grain area; the case requests {:.3g}", m.name, m.reached, *m.asked));
     }
     return shares;
 }

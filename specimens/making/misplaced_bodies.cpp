@@ -16,7 +16,7 @@ namespace {
 struct Place {
     int id = 0;
     Vec2 at;
-    double size = 0.0;  ///< m, square root of the area
+    double size = 0.0;  ///< square root of the body's area, m
     double along = 0.0;
 };
 
@@ -33,13 +33,15 @@ void refuse_outside(const Place& body, const Domain& domain, const std::string& 
 }  // namespace
 
 void refuse_misplaced_bodies(const Scene& scene, const std::string& where) {
-    constexpr double one_place = 0.01;  // of the size: overlaps of a specimen are far smaller than what is left
-    // Bodies in the order of a slanted line: rows and columns of a lattice have different places along it.
+    // Relative to the size of a body; overlapping bodies of a specimen are much farther apart.
+    constexpr double one_place = 0.01;
+    // Bodies are sorted along a slanted line, so that bodies in a row or column of a lattice have different
+    // coordinates.
     const Vec2 slant{1.0, 0.6180339887};
     std::vector<Place> places;
     places.reserve(scene.bodies.size());
     for (const Body& body : scene.bodies) {
-        if (body.vertex_count > 0 && !body.closed) continue;  // a chain: refused elsewhere
+        if (body.vertex_count > 0 && !body.closed) continue;  // open chains are rejected elsewhere
         const MassProperties properties = mass_properties(scene, body);
         const double area = properties.mass / scene.materials[static_cast<std::size_t>(body.material)].density;
         places.push_back({body.id, properties.centroid, std::sqrt(area), dot(slant, properties.centroid)});
@@ -54,7 +56,7 @@ void refuse_misplaced_bodies(const Scene& scene, const std::string& where) {
             const Place& b = places[j];
             if (norm(b.at - a.at) > one_place * std::min(a.size, b.size)) continue;
             throw InputError(
-                fmt::format("{}: found bodies {} and {} at one place, ({:.6g}, {:.6g}), expected each body once; "
+                fmt::format("{}: found bodies {} and {} at the same place, ({:.6g}, {:.6g}), expected each body once; "
                             "remove one of them",
                             where, std::min(a.id, b.id), std::max(a.id, b.id), a.at.x, a.at.y));
         }

@@ -8,10 +8,10 @@
 
 namespace crackle {
 
-/// Refuses a particle file with a body whose centroid lies beyond a side of the domain, or with two bodies at one
-/// place, be they alike or not: centroids nearer than a hundredth of the smaller one's size.
-/// @param where begins the text of an error: «file:line: key»
-/// @throws InputError naming the bodies and their places
+/// Rejects a particle file in which the centroid of a body lies outside the domain, or in which two bodies coincide.
+/// Bodies coincide if the distance between their centroids is less than a hundredth of the smaller body's size.
+/// @param where  start of the error message: «file:line: key»
+/// @throws InputError that names the bodies and their positions
 void refuse_misplaced_bodies(const Scene& scene, const std::string& where);
 
 }  // namespace crackle

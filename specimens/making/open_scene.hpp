@@ -6,7 +6,7 @@
 
 namespace crackle {
 
-/// No bodies and no walls; all that is added is of one material.
+/// A scene without bodies and walls, with a single material.
 inline Scene open_scene(const Material& material) {
     Scene scene;
     scene.materials = {material};

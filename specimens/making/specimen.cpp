@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Case → packing or particle file → circles or polygons, with the bodies of the side faces marked.
+// Makes a specimen from a case: a packing or particle file becomes circles or polygons, and the bodies at the side
+// faces are identified.
 
 #include "specimens/making/specimen.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -56,27 +56,19 @@ void scale_damping(Material& material, double by) {
 
 SizeDistribution sizes_of(const TestCase& test) {
     const auto& keys = test.packing;
-    if (keys.sizes == "sieve") return read_sieve_curve(test.resolve_path("packing.sieve", *keys.sieve));
-    if (keys.sizes == "lognormal") {
+    if (keys.sizes == RadiusLaw::sieve) return read_sieve_curve(test.resolve_path("packing.sieve", *keys.sieve));
+    if (keys.sizes == RadiusLaw::lognormal) {
         return LognormalRadii{*keys.radius_median, *keys.radius_log_deviation, keys.radius_min.value_or(0.0),
                               keys.radius_max.value_or(0.0)};
     }
     return UniformRadii{*keys.radius_min, *keys.radius_max};
 }
 
-/// Packing errors begin with the key; the case knows where that was written.
+/// Adds file and line to a packing error, which begins with a key of the case.
 InputError located(const TestCase& test, const std::string& text) {
     const std::string key = text.substr(0, text.find_first_of(": ,"));
     const bool known = test.position.contains("packing." + key);
     return InputError(known ? test.at("packing." + key) + text.substr(key.size()) : test.at("packing") + ": " + text);
-}
-
-MeshKind mesh_kind(const TestCase& test) {
-    return *test.mesh.kind == "voronoi" ? MeshKind::voronoi : MeshKind::delaunay;
-}
-
-Boundary mesh_boundary(const TestCase& test) {
-    return test.mesh.boundary == "seeds" ? Boundary::centres : Boundary::domain;
 }
 
 Rectangle rectangle(const Domain& domain) { return {domain.x1, domain.x2, domain.y1, domain.y2}; }
@@ -97,13 +89,13 @@ std::vector<Point> outline_of(const Shape& shape) {
     return outline;
 }
 
-/// The cells of circles, without gaps between them.
+/// Cells meshed from circles, without gaps between the cells.
 Mesh bare_cells(const TestCase& test, const Scene& circles, const Shape& shape = {}, const TestHooks& hooks = {}) {
     MeshRequest request;
     request.interrupted = hooks.interrupted;
     request.outline = outline_of(shape);
-    request.kind = mesh_kind(test);
-    request.boundary = mesh_boundary(test);
+    request.kind = *test.mesh.kind;
+    request.boundary = test.mesh.boundary;
     try {
         return make_mesh(centres_of(circles), rectangle(circles.domain), request);
     } catch (const MeshInterrupted&) {
@@ -113,19 +105,20 @@ Mesh bare_cells(const TestCase& test, const Scene& circles, const Shape& shape =
     }
 }
 
-// Packings made for cells of a size, and what is near enough: one circle more or less in a box of a few hundred changes
-// the mean by as much, another arrangement the spread by half of its share.
+// Number of packings tried for cells of a given size, and accepted errors. In a box of a few hundred circles, one
+// circle more or less changes the mean size by about the accepted error. Another arrangement changes the spread by half
+// of its accepted error.
 constexpr int cell_packings = 4;
 constexpr double met_diameter_share = 0.002, met_spread = 0.02;
 
-/// Packs circles whose cells have the diameters asked for, or come nearest to them.
+/// Packs circles whose cells have the requested diameters, or come as close as possible.
 Packing pack_for_cells(const TestCase& test, PackingRequest request, const PackingCallback& progress) {
     const CellSizes asked{*test.packing.cell_diameter, *test.packing.cell_spread};
     std::optional<Packing> best;
     double best_miss = 0.0, scale = 1.0, correction = 0.0;
     for (int k = 0; k < cell_packings && !(best && best_miss <= 1.0); ++k) {
         try {
-            request.sizes = scaled(radii_for_cells(mesh_kind(test), test.packing.sizes, asked, correction), scale);
+            request.sizes = scaled(radii_for_cells(*test.mesh.kind, test.packing.sizes, asked, correction), scale);
         } catch (const InputError& error) {
             throw InputError(fmt::format("{}: {}", test.at("packing.cell_spread"), error.what()));
         }
@@ -143,7 +136,8 @@ Packing pack_for_cells(const TestCase& test, PackingRequest request, const Packi
             best_miss = miss;
         }
         scale *= asked.mean / reached.mean;
-        // Once: what is left then is chance, and each change of the spread moves the mean.
+        // The spread is corrected only once: the remaining error is random, and each change of the spread also changes
+        // the mean.
         if (k == 0 && std::abs(reached.spread - asked.spread) > met_spread) correction = asked.spread - reached.spread;
     }
     return std::move(*best);
@@ -219,7 +213,7 @@ Scene read_particles(const TestCase& test, const TestHooks& hooks, std::vector<s
     return scene;
 }
 
-/// A test starts from bodies at rest in a world without gravity, whatever the file was made for.
+/// Sets velocities and gravity to zero: a test starts with bodies at rest in a world without gravity.
 void bring_to_rest(Scene& scene, std::vector<std::string>& notices) {
     if (scene.gravity.x != 0.0 || scene.gravity.y != 0.0) {
         notices.push_back("the particle file's gravity is left out: tests run without");
@@ -243,13 +237,13 @@ bool circle_overlaps_side(const Scene& scene, const Body& body, Wall side) {
     });
 }
 
-/// Polygons from a file carry no faces: an edge lies on a face when both its ends are as near as the nearest
-/// corner of all.
+/// Finds the polygons on a side of the domain, which the file does not mark. An edge lies on the side if both its ends
+/// are as close to the side as the closest corner of any polygon.
 std::vector<int> polygons_on_side(const Scene& scene, Wall side) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Vec2 v : scene.vertices) nearest = std::min(nearest, distance_to_side(scene.domain, side, v));
-    const double tolerance =
-        1e-6 * (scene.domain.x2 - scene.domain.x1);  // far below an edge, far above rounding in the file
+    // Much smaller than an edge, much larger than round-off in the file.
+    const double tolerance = 1e-6 * (scene.domain.x2 - scene.domain.x1);
     std::vector<int> ids;
     for (const Body& body : scene.bodies) {
         const auto corners = std::span(scene.vertices).subspan(body.first_vertex, body.vertex_count);
@@ -259,7 +253,8 @@ std::vector<int> polygons_on_side(const Scene& scene, Wall side) {
     return ids;
 }
 
-/// Bodies are circles (or clumps) throughout, or polygons throughout: the two bond with different platens.
+/// Checks that the bodies are all circles (or clumps) or all polygons, because the two kinds are bonded to platens
+/// differently.
 void classify(Specimen& specimen, const TestCase& test) {
     std::size_t circles = 0, polygons = 0, triangles = 0;
     for (const Body& body : specimen.scene.bodies) {
@@ -281,7 +276,9 @@ void classify(Specimen& specimen, const TestCase& test) {
                                      test.at("particles.file"), circles, polygons));
     }
     specimen.polygons = polygons > 0;
-    specimen.kind = circles > 0 ? "circles" : triangles == polygons ? "delaunay" : "voronoi";
+    specimen.kind = circles > 0             ? SpecimenKind::circles
+                    : triangles == polygons ? SpecimenKind::delaunay
+                                            : SpecimenKind::voronoi;
 }
 
 void measure_circles(Specimen& specimen) {
@@ -295,15 +292,15 @@ void measure_circles(Specimen& specimen) {
     }
 }
 
-/// Triangles between seeds have no edge on the domain: they count as side particles where two of their circles touched
-/// the wall.
+/// Whether a cell is at a side. Triangles between seeds have no edge on the domain; they count if two of their circles
+/// touched the wall.
 bool cell_on_side(const Cell& cell, Wall side, bool domain_boundary, const std::vector<char>& centre_touches) {
     if (domain_boundary) return side == Wall::left ? cell.on_left() : cell.on_right();
     const auto touches = [&](int seed) { return seed >= 0 && centre_touches[static_cast<std::size_t>(seed)] != 0; };
     return std::count_if(cell.centres.begin(), cell.centres.end(), touches) >= 2;
 }
 
-/// m2, of what is tested.
+/// Area of the tested part, m2.
 double area_of(const Shape& shape, const Domain& box) {
     if (shape.outline.empty()) return (box.x2 - box.x1) * (box.y2 - box.y1);
     double twice = 0.0;
@@ -314,10 +311,10 @@ double area_of(const Shape& shape, const Domain& box) {
     return 0.5 * twice;
 }
 
-/// The gap between cells of a case that gives none.
+/// Gap between the cells of a case without mesh.thick: twice mesh.inset if given, otherwise the default.
 double derived_mesh_thick(const TestCase& test, const Scene& circles, const Shape& shape, const TestHooks& hooks) {
     if (test.mesh.inset) return 2.0 * *test.mesh.inset;
-    const std::size_t cells = mesh_kind(test) == MeshKind::voronoi
+    const std::size_t cells = *test.mesh.kind == MeshKind::voronoi
                                   ? circles.bodies.size()
                                   : bare_cells(test, circles, shape, hooks).cells.size();
     const double thick = derived_gap(area_of(shape, circles.domain), static_cast<double>(cells));
@@ -326,10 +323,11 @@ double derived_mesh_thick(const TestCase& test, const Scene& circles, const Shap
     return thick;
 }
 
-// Cells beyond these of what was asked are worth a notice: the second is twice the error of the spread's fit.
+// Deviations of the cells from the requested sizes above which a notice is given. The limit for the spread is twice the
+// error of the fit.
 constexpr double noticed_diameter_share = 0.01, noticed_spread = 0.02;
 
-/// Sizes of the cells among the figures of the packing that they come from.
+/// Adds the sizes of the cells to the description of the packing.
 void record_cells(Specimen& specimen, const TestCase& test, const CellSizes& cells, const TestHooks& hooks) {
     if (!test.has_table("packing")) return;
     specimen.packing.emplace_back("cell_diameter", cells.mean);
@@ -345,7 +343,7 @@ void record_cells(Specimen& specimen, const TestCase& test, const CellSizes& cel
     specimen.notices.push_back(text + "; more circles would meet them better");
 }
 
-/// What the joints' snap did; what it changed is worth a notice.
+/// Reports how traces were cleaned, and adds a notice if cleaning changed anything.
 void report_cleaning(const Cleaning& cleaning, Specimen& specimen, const TestHooks& hooks) {
     const std::string text = cleaning_text(cleaning);
     if (cleaning.changed())
@@ -354,7 +352,7 @@ void report_cleaning(const Cleaning& cleaning, Specimen& specimen, const TestHoo
         hooks.report_stage(text);
 }
 
-/// Replaces the circles by the polygons of their centres; ids count from 1 in the mesh's order.
+/// Replaces the circles with polygons around their centres; ids count from 1 in mesh order.
 void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
     const Scene circles = specimen.scene;
     const std::vector<CellCentre> centres = centres_of(circles);
@@ -366,8 +364,8 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
         touches_right.push_back(circle_overlaps_side(circles, body, Wall::right) ? 1 : 0);
     }
     MeshRequest request;
-    request.kind = mesh_kind(test);
-    request.boundary = mesh_boundary(test);
+    request.kind = *test.mesh.kind;
+    request.boundary = test.mesh.boundary;
     request.interrupted = hooks.interrupted;
     specimen.mesh_thick = test.mesh.thick ? *test.mesh.thick : derived_mesh_thick(test, circles, specimen.shape, hooks);
     request.mesh_gap = specimen.mesh_thick;
@@ -423,17 +421,17 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     }
     specimen.scene = std::move(scene);
     specimen.polygons = true;
-    specimen.kind = *test.mesh.kind;
+    specimen.kind = request.kind == MeshKind::voronoi ? SpecimenKind::voronoi : SpecimenKind::delaunay;
     specimen.mesh_gap = request.inset ? 2.0 * *request.inset : request.mesh_gap;
     specimen.centres = static_cast<std::int64_t>(centres.size());
     specimen.segments = mesh.report.segments;
-    hooks.report_stage(fmt::format("meshed into {} {} cells with {} segments", mesh.report.cells, specimen.kind,
-                                   mesh.report.segments));
+    hooks.report_stage(fmt::format("meshed into {} {} cells with {} segments", mesh.report.cells,
+                                   name_of(specimen.kind), mesh.report.segments));
     if (const std::string small = small_cell_text(mesh); !small.empty()) specimen.notices.push_back(small);
     record_cells(specimen, test, measure_cells(mesh), hooks);
 }
 
-/// Traces among the circles of a specimen, which have flat faces on them.
+/// Adds traces to a specimen of circles; circles on a trace get flat faces along it.
 void joint_circles(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
     Scene& scene = specimen.scene;
     const auto refuse = [&](const char* found) {
@@ -461,20 +459,21 @@ void joint_circles(Specimen& specimen, const TestCase& test, const TestHooks& ho
 
 void measure_polygons(Specimen& specimen, const TestCase& test) {
     specimen.mesh_gap = specimen.scene.thick;
-    if (test.coulomb_bonds() ? test.bond.thick && *test.bond.thick < specimen.mesh_gap
-                             : !test.bond.thick || *test.bond.thick <= specimen.mesh_gap) {
+    const bool across_gaps = test.bond_facts().bonds_across_gaps;
+    if (across_gaps ? test.bond.thick && *test.bond.thick < specimen.mesh_gap
+                    : !test.bond.thick || *test.bond.thick <= specimen.mesh_gap) {
         throw InputError(
             fmt::format("{}: found {}, expected {} the particle file's thick = {} m; the excess is the "
                         "overlap that bonds the polygons",
                         test.at("bond.thick"), test.bond.thick ? fmt::format("{} m", *test.bond.thick) : "nothing",
-                        test.coulomb_bonds() ? "at least" : "more than", specimen.mesh_gap));
+                        across_gaps ? "at least" : "more than", specimen.mesh_gap));
     }
     for (const Body& body : specimen.scene.bodies) specimen.segments += body.vertex_count;
     specimen.left_ids = polygons_on_side(specimen.scene, Wall::left);
     specimen.right_ids = polygons_on_side(specimen.scene, Wall::right);
 }
 
-/// Of the pairs that the case names.
+/// Contact properties of the pairs of minerals that the case lists.
 std::vector<MaterialPair> pairs_of(const TestCase& test) {
     const auto index = [&](const std::string& name) {
         const auto found = std::find_if(test.mineral.begin(), test.mineral.end(),
@@ -484,8 +483,8 @@ std::vector<MaterialPair> pairs_of(const TestCase& test) {
     std::vector<MaterialPair> pairs;
     pairs.reserve(test.mineral_pair.size());
     for (const auto& [between, own] : test.mineral_pair) {
-        MaterialPair pair{index(between[0]),  index(between[1]),    own.normal_stiffness, own.shear_stiffness,
-                          own.friction_angle, own.tensile_strength, own.cohesion,         own.residual_friction_angle};
+        MaterialPair pair{index(between[0]),   index(between[1]),  own.normal_stiffness,
+                          own.shear_stiffness, own.friction_angle, own};
         if (own.contact_modulus) {
             pair.normal_stiffness = own.contact_modulus;
             pair.shear_stiffness = *own.contact_modulus / *own.stiffness_ratio;
@@ -495,15 +494,16 @@ std::vector<MaterialPair> pairs_of(const TestCase& test) {
     return pairs;
 }
 
-/// Materials become those of the minerals, then [material]'s, which the platens keep; each grain has its mineral's.
+/// Replaces the materials with those of the minerals, followed by [material], which the platens keep. Each grain gets
+/// its mineral's material.
 void take_minerals(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
     Scene& scene = specimen.scene;
     specimen.platen_material = scene.bodies.front().material;
     if (test.mineral.empty()) return;
     if (scene.materials.size() > 1) {
         throw InputError(
-            fmt::format("{}: found a particle file with {} materials, expected one; remove [[mineral]] to take the "
-                        "file's, or leave one material in it",
+            fmt::format("{}: found a particle file with {} materials, expected one; remove [[mineral]] to use the "
+                        "file's materials, or keep only one material in the file",
                         test.at("mineral[1]"), scene.materials.size()));
     }
     const Material rock = scene.materials.front();
@@ -517,17 +517,17 @@ void take_minerals(Specimen& specimen, const TestCase& test, const TestHooks& ho
     hooks.report_stage(mineral_shares_text(specimen.minerals));
 }
 
-/// m, mean size of the bodies to come.
+/// Mean size of the bodies to be made, m.
 double particle_size(const Specimen& specimen, const TestCase& test) {
     const Domain& box = specimen.scene.domain;
     const bool meshed = test.has_table("mesh");
     if (!meshed && !specimen.polygons) return 2.0 * specimen.mean_radius;
     const double cells = static_cast<double>(specimen.scene.bodies.size()) *
-                         (meshed && mesh_kind(test) == MeshKind::delaunay ? 2.0 : 1.0);
+                         (meshed && *test.mesh.kind == MeshKind::delaunay ? 2.0 : 1.0);
     return std::sqrt((box.x2 - box.x1) * (box.y2 - box.y1) / cells);
 }
 
-/// The bodies by whose distance the lateral strain counts, where the kind of test says where they are.
+/// Finds the bodies for measuring lateral strain, if the kind of test defines regions for them.
 void find_sides(Specimen& specimen) {
     const Shape& shape = specimen.shape;
     const bool measured = shape.left && shape.right;

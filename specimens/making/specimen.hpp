@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The specimen of a test: bodies in their domain before they are bonded, from a packing or a particle file, as circles
-// or meshed into polygons.
+// The specimen of a test before it is bonded: bodies in their domain, from a packing or a particle file. The bodies are
+// circles, or polygons meshed from circles or read from the file.
 // Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
@@ -17,39 +17,48 @@
 
 namespace crackle {
 
+/// Kind of bodies. Polygons from a file count as delaunay if all are triangles.
+enum class SpecimenKind : std::uint8_t { circles, delaunay, voronoi };
+constexpr auto list_names(SpecimenKind) { return in_order("circles", "delaunay", "voronoi"); }
+
+/// A specimen that is not bonded yet: its scene, and how it was made.
 struct Specimen {
-    Scene scene;       ///< bodies, materials, domain; all velocities 0, no gravity, no controls
-    std::string kind;  ///< "circles", "delaunay" or "voronoi" (polygons from a file: delaunay if all are triangles)
+    Scene scene;  ///< bodies, materials, domain; all velocities 0, no gravity, no controls
+    SpecimenKind kind = SpecimenKind::circles;
     bool polygons = false;
-    double mesh_thick = 0.0;           ///< m, mesh.thick given or derived, where meshed here
+    /// mesh.thick as given or derived, m; 0 if the specimen was not meshed from circles.
+    double mesh_thick = 0.0;
     double mesh_gap = 0.0;             ///< m, gap between neighbouring polygons; 0 for circles
-    Shape shape;                       ///< what was cut from the packing
-    double width = 0.0, height = 0.0;  ///< m, of the shape; of the whole packing those of the domain
-    double area = 0.0;                 ///< m2, of the shape
-    double particle = 0.0;             ///< m, mean size: of a cell the root of its area, of a circle its diameter
-    std::vector<std::pair<std::string, double>> packing;  ///< its figures by name; empty for a particle file
-    double mean_radius = 0.0;                             ///< m, of the circles (of the centres, where meshed)
-    std::int64_t segments = 0;                            ///< edges of all polygons
-    std::int64_t centres = 0;            ///< circles the polygons were meshed from; 0 if not meshed here
-    std::vector<SpecimenTrace> traces;   ///< by number
-    std::vector<MineralShare> minerals;  ///< in the case's order; empty of a rock of one material
-    int platen_material = 0;             ///< index into scene.materials: [material]'s
-    /// Ids of the bodies on the side faces: circles that overlap the wall, polygons with an edge on the face; or of
-    /// those in the shape's regions.
+    Shape shape;                       ///< the shape that was cut from the packing
+    double width = 0.0, height = 0.0;  ///< m, of the tested shape; for the whole packing, of the domain
+    double area = 0.0;                 ///< m2, of the tested shape
+    double particle = 0.0;             ///< m, mean size: square root of a cell's area, or diameter of a circle
+    std::vector<std::pair<std::string, double>>
+        packing;                        ///< quantities that describe the packing, by name; empty for a particle file
+    double mean_radius = 0.0;           ///< m, of the circles, or of those from which polygons were meshed
+    std::int64_t segments = 0;          ///< number of edges of all polygons
+    std::int64_t centres = 0;           ///< number of circles from which polygons were meshed; 0 if none were meshed
+    std::vector<SpecimenTrace> traces;  ///< ordered by index
+    /// Minerals in the order in which the case lists them; empty for a rock with a single material.
+    std::vector<MineralShare> minerals;
+    int platen_material = 0;  ///< index of [material] in scene.materials
+    /// Ids of the bodies at the left and right faces: circles that overlap the wall, or polygons with an edge on the
+    /// face. For kinds of test that define regions, the bodies in Shape::left and Shape::right.
     std::vector<int> left_ids, right_ids;
-    std::vector<std::string> notices;  ///< what a user should know
+    std::vector<std::string> notices;  ///< remarks for the user
 };
 
-/// Names under which hooks.made() gets the circles, which polygons were meshed from where there are any; the polygons.
+/// Names passed to hooks.made(): for the circles, including those from which polygons are meshed, and for the polygons.
 inline constexpr const char* circles_file = "specimen_circles.dat";
 inline constexpr const char* polygons_file = "specimen_polygons.dat";
 
-/// The circles alone, of a case with [packing]: from hooks.keep_packing where it is given.
-/// @throws InputError for what cannot be packed, naming the case's key; TestInterrupted
+/// The circles of a case with [packing], obtained through hooks.keep_packing if set.
+/// @throws InputError that names the case's key if the circles cannot be packed; TestInterrupted
 Packing packing_of(const TestCase& test, const TestHooks& hooks);
 
-/// Makes or reads the specimen that the case describes.
-/// @throws InputError for what cannot be read, packed, meshed or tested, naming the case's key; TestInterrupted.
+/// Creates or reads the specimen that the case describes.
+/// @throws InputError that names the case's key if the specimen cannot be read, packed, meshed or tested;
+/// TestInterrupted
 Specimen make_specimen(const TestCase& test, const TestHooks& hooks);
 
 }  // namespace crackle

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// In which directions a specimen cracked: of each broken bonded point the direction of its share of the face (square to
-// the contact normal when it broke) with the length of that share (frames/crack_faces.hpp).
+// Directions of the cracks in a specimen. Each broken bonded point contributes the part of the face that belongs to it
+// (frames/crack_faces.hpp). Its direction is perpendicular to the contact normal at breakage, its weight the length.
 // Tested by tests/specimens/measures/crack_rose_test.cpp.
 #pragma once
 
@@ -12,12 +12,12 @@
 
 namespace crackle {
 
-/// By the kind of break, up to the peak and after; lengths in m, degrees from the horizontal.
+/// Rose diagrams by failure mode, up to the peak and after it; lengths in m, angles in degrees from the horizontal.
 struct CrackRoses {
     Rose tension_to_peak, shear_to_peak, tension_after, shear_after;
 };
 
-/// @param time_of_peak s; not a number: all are counted as up to it. Cracks of a platen's bonds are left out.
+/// @param time_of_peak  s; if NaN, all cracks count as before the peak. Broken bonds of platens are left out.
 CrackRoses find_crack_roses(const World& world, const TestSetup& setup, const ContactHistory& history,
                             double time_of_peak);
 

@@ -14,9 +14,9 @@ namespace {
 using Rows = std::span<const CurveRow>;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-constexpr double first_share = 0.01;  // of the bonds broken at the peak
-constexpr double counted_to = 0.8;    // of the peak stress
-constexpr double quiet_to = 0.25;     // from the confining pressure to the peak: no rock cracks below
+constexpr double first_share = 0.01;  // fraction of the bonds broken at the peak
+constexpr double counted_to = 0.8;    // relative to the peak stress
+constexpr double quiet_to = 0.25;     // from the confining pressure (0) to the peak (1); assumed free of cracks
 constexpr double deviations_of_noise = 3.0;
 constexpr std::size_t fewest_quiet_rows = 10;
 
@@ -31,7 +31,7 @@ double first_percent(Rows rising) {
         ->axial_stress;
 }
 
-/// The breaks of each row at the largest stress so far: what drops on the way breaks nothing new at less.
+/// Number of breakages by largest stress so far: breakages after a stress drop are assigned to the stress before it.
 std::vector<Burst> bursts_of(Rows rising) {
     std::vector<Burst> bursts;
     std::int64_t before = 0;
@@ -44,7 +44,8 @@ std::vector<Burst> bursts_of(Rows rising) {
     return bursts;
 }
 
-/// @param rows up to crack damage  @param strain not elastic, of a row
+/// Stress at which the inelastic strain leaves its initial scatter. @param rows  up to crack damage
+/// @param strain  returns the inelastic strain of a row
 template <class Strain>
 double departure(Rows rows, double quiet_stress, Strain&& strain) {
     double sum = 0.0, squares = 0.0;
@@ -54,13 +55,13 @@ double departure(Rows rows, double quiet_stress, Strain&& strain) {
     const double mean = sum / static_cast<double>(quiet);
     for (const CurveRow& row : rows.first(quiet)) squares += (strain(row) - mean) * (strain(row) - mean);
     const double band = deviations_of_noise * std::sqrt(squares / static_cast<double>(quiet - 1));
-    // Cracks open, so that the area is larger than the elastic one.
+    // Cracks open, so the area becomes larger than the elastic one.
     std::size_t last = rows.size();
     while (last > quiet && strain(rows[last - 1]) < mean - band) --last;
     return last < rows.size() ? rows[last].axial_stress : none;
 }
 
-/// @param rows up to crack damage
+/// Stress at which the lateral strain is farthest from the chord. @param rows  up to crack damage
 double farthest_from_chord(Rows rows) {
     const CurveRow &first = rows.front(), &last = rows.back();
     const double slope = (last.lateral_strain - first.lateral_strain) / (last.axial_stress - first.axial_stress);

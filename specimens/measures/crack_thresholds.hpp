@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Crack initiation and crack damage of a compressed specimen: the stresses at which cracks begin, and at which they
-// begin to join (Brace, Paulding & Scholz, J. Geophys. Res. 71, 1966; Martin & Chandler, IJRMMS 31, 1994).
+// Crack initiation and crack damage stresses of a compressed specimen, at which cracks start to form and start to
+// coalesce (Brace, Paulding & Scholz, J. Geophys. Res. 71, 1966; Martin & Chandler, IJRMMS 31, 1994).
 //
-// Damage is the axial stress at the largest area strain ε_A = ε_axial - ε_lateral (in two dimensions what volume strain
-// is to a core), up to the peak. Initiation has no such mark, so it is read in four ways:
-//   first percent   the stress at which 1 % of the bonds broken at the peak are broken (PFC's custom)
-//   break of counts where the cumulative number of broken bonds over stress changes its slope, from 0 to 0.8 of the
-//                   peak (statistics/broken_stick.hpp); the headline, with its interval
-//   crack strain    where ε_A less its elastic part, (1-ν)(σ-p)/E with the exact E and ν, leaves the band of three
-//   standard
-//                   deviations about what it was below a quarter of the peak, for good up to crack damage
-//   lateral strain  where the lateral strain lies farthest from the chord from the start to crack damage over stress
-//                   (Nicksiar & Martin, Rock Mech. Rock Eng. 45, 2012)
-// What one cannot be read from is not a number: counts of fewer than ten bursts, strains of a specimen without side
-// particles. Stresses in N/m, in area units Pa.
+// Crack damage is the axial stress at the largest area strain ε_A = ε_axial - ε_lateral (the 2D counterpart of
+// volumetric strain), up to the peak. Crack initiation has no such distinct feature, so it is determined in four ways:
+//   first percent     the stress at which 1 % of the bonds broken at the peak have broken (usual in PFC)
+//   break of counts   the stress at which the slope of the number of broken bonds against stress changes, between 0 and
+//                     0.8 of the peak (statistics/broken_stick.hpp); this is the main value, with a 95 % interval
+//   crack strain      the stress at which ε_A minus its elastic part, (1-ν)(σ-p)/E with the exact E and ν, leaves a
+//                     band of three standard deviations about its mean below a quarter of the peak, and stays outside
+//                     until crack damage
+//   lateral strain    the stress at which the curve of lateral strain against stress is farthest from the chord between
+//                     the start and crack damage (Nicksiar & Martin, Rock Mech. Rock Eng. 45, 2012)
+// A value that cannot be determined is NaN: with fewer than ten bursts of breakages, or without side particles.
+// Stresses are in N/m, or Pa in area units.
 // Tested by tests/specimens/measures/crack_thresholds_test.cpp.
 #pragma once
 
@@ -25,21 +25,23 @@
 
 namespace crackle {
 
+/// Stresses at which cracks begin and damage begins; N/m.
 struct CrackThresholds {
     double first_percent = std::numeric_limits<double>::quiet_NaN();
-    double count_break = std::numeric_limits<double>::quiet_NaN();  ///< 95 % interval: low to high
+    double count_break = std::numeric_limits<double>::quiet_NaN();  ///< low and high bound its 95 % interval
     double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
     double crack_strain = std::numeric_limits<double>::quiet_NaN();
     double lateral_strain = std::numeric_limits<double>::quiet_NaN();
     double damage = std::numeric_limits<double>::quiet_NaN();
-    double damage_strain = std::numeric_limits<double>::quiet_NaN();  ///< axial
+    double damage_strain = std::numeric_limits<double>::quiet_NaN();  ///< axial strain at crack damage
 
-    /// Largest less smallest of the four; not a number of fewer than two.
+    /// Largest minus smallest of the four initiation stresses; NaN if fewer than two are known.
     double spread() const;
 };
 
-/// @param confining_pressure of the sides, from which loading began; stresses found are axial ones
-/// @param rows of a compression  @param youngs_modulus, poissons_ratio  of the solve; not a number: no crack strain
+/// @param confining_pressure  the pressure on the sides when loading begins; the resulting stresses are axial stresses
+/// @param rows  of a compression test @param youngs_modulus, poissons_ratio  of the linear solution; if NaN,
+/// crack_strain is not determined
 CrackThresholds find_crack_thresholds(std::span<const CurveRow> rows, std::int64_t peak_row, double youngs_modulus,
                                       double poissons_ratio, double confining_pressure = 0.0);
 

@@ -8,11 +8,11 @@
 namespace crackle {
 namespace {
 
-constexpr double initial_window = 1.0 / 20.0;                   // of the strain at peak
-constexpr double half_window_from = 0.4, half_window_to = 0.6;  // of the peak stress
-constexpr double straight_window = 0.3;                         // of the peak stress
-constexpr int window_places = 100;                              // over the peak stress
-constexpr double fall_window_from = 0.9, fall_window_to = 0.6;  // of the peak stress
+constexpr double initial_window = 1.0 / 20.0;                   // relative to the strain at peak
+constexpr double half_window_from = 0.4, half_window_to = 0.6;  // relative to the peak stress
+constexpr double straight_window = 0.3;                         // relative to the peak stress
+constexpr int window_places = 100;                              // number of window positions per peak stress
+constexpr double fall_window_from = 0.9, fall_window_to = 0.6;  // relative to the peak stress
 
 /// Least-squares slope of y over x, both measured from their means.
 double slope(std::span<const CurveRow> rows, double CurveRow::*x, double CurveRow::*y) {
@@ -48,7 +48,7 @@ Tangent tangent(std::span<const CurveRow> rows, bool compression) {
     return t;
 }
 
-/// Root of the mean square that a straight line leaves of the stress over the strain.
+/// Root mean square deviation of the stress from a straight-line fit over the strain.
 double misfit(std::span<const CurveRow> rows) {
     const double modulus = slope(rows, &CurveRow::axial_strain, &CurveRow::axial_stress);
     double mean = 0.0, square = 0.0;
@@ -61,7 +61,7 @@ double misfit(std::span<const CurveRow> rows) {
     return std::sqrt(square / static_cast<double>(rows.size()));
 }
 
-/// From the row where the stress first reaches a share of the peak to the one where it first reaches another.
+/// The rows from where the stress first reaches from_share·peak to where it first reaches to_share·peak.
 std::span<const CurveRow> between(std::span<const CurveRow> rising, double from_share, double to_share) {
     const double peak = rising.back().axial_stress;
     const auto reaches = [&](double share) {
@@ -144,7 +144,7 @@ Tangent tangent_beyond_peak(std::span<const CurveRow> rows, std::int64_t peak_ro
     Tangent fall = tangent(
         falling.subspan(static_cast<std::size_t>(from - falling.begin()), static_cast<std::size_t>(to - from + 1)),
         compression);
-    // A stress that drops, rises above the peak again and falls much later has no slope of its fall.
+    // If the stress drops, exceeds the peak again and falls much later, the slope is meaningless.
     if (!(fall.modulus < 0.0)) fall.modulus = std::numeric_limits<double>::quiet_NaN();
     return fall;
 }

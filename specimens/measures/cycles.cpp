@@ -8,7 +8,7 @@
 namespace crackle {
 namespace {
 
-/// @param rows of the cycle, with the one that ends it if it has been ended
+/// @param rows  of the cycle, including the row that ends it if there is one
 LoadingCycle cycle_of(std::span<const CurveRow> rows, bool ended, bool compression) {
     const CurveRow& turn = rows.front();
     const CurveRow& low = *std::ranges::min_element(rows, {}, &CurveRow::axial_strain);
@@ -29,7 +29,7 @@ LoadingCycle cycle_of(std::span<const CurveRow> rows, bool ended, bool compressi
                });
     c.loop = ended ? 0.0 : std::numeric_limits<double>::quiet_NaN();
     for (std::size_t k = 1; k < rows.size(); ++k) {
-        // The last piece goes only to where the loop closes.
+        // The last piece is cut off where the loop closes.
         const CurveRow &a = rows[k - 1], &b = rows[k];
         if (a.axial_strain == b.axial_strain) continue;
         const double to = std::min(b.axial_strain, turn.axial_strain);

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Unloading and loading again, in the rows of a curve.
+// Unloading and reloading cycles in the rows of a curve.
 //
-// A cycle begins at a row from which the strain falls and ends at the first row that lies beyond that one's strain, or
-// where the strain falls again: cycles of equal amplitude turn at the same strain or a little before. Of each, from its
-// beginning to its lowest strain (Martin & Chandler, Int. J. Rock Mech. Min. Sci. 31, 1994):
-//     modulus            (stress - stress at the lowest strain)/(strain - lowest strain)
-//     Poisson's ratio    the same difference of lateral strain over that of axial strain, widening positive
-//     permanent strain   lowest strain - stress there/modulus: what would be left without stress
-//     loss               work put in and not given back: the loop's area times what the specimen's section and length
-//                        make of it
-// Damage is 1 - modulus/E, E that of the linear solution of the unbroken specimen. Where no bond has broken by the end
-// of the cycle it is 0: the platens' stresses hold the dashpots and the inertia of turning round, which are no damage.
-// Where nothing has slid or come to touch either, the specimen still is that of the linear solution: its modulus is E
-// and no strain is permanent. What turning round makes of the others is stated: half of what the two platens' stresses
-// differ by where the cycle begins, and where it is lowest, over the difference of stress. Tested by
-// tests/specimens/measures/cycles_test.cpp.
+// A cycle starts at a row from which the strain decreases. It ends at the first row beyond that strain, or where the
+// strain decreases again: cycles of equal amplitude reverse at the same strain or slightly before. The values of a
+// cycle refer to its start and to its lowest strain (Martin & Chandler, Int. J. Rock Mech. Min. Sci. 31, 1994):
+//       modulus            (stress - stress at the lowest strain)/(strain - lowest strain)
+//       Poisson's ratio    the same difference of lateral strain divided by that of axial strain, widening positive
+//       permanent strain   lowest strain - stress there/modulus: the strain that would remain at zero stress
+//       loss               work that is not recovered: the loop's area times the specimen's section and length
+// Damage is 1 - modulus/E, where E is the modulus of the intact specimen by the linear solution. If no bond has broken
+// by the end of the cycle, damage is set to 0: at the reversal the platens' stresses include dashpot and inertia
+// forces, which are not damage. If also nothing has slid or come into contact, the specimen is still that of the linear
+// solution. Then the modulus is E and the permanent strain is 0. For other cycles the inertia error is stated. It is
+// half the difference between the stresses of the two platens, at the start and at the lowest strain, divided by the
+// stress difference.
+// Tested by tests/specimens/measures/cycles_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -25,27 +25,28 @@
 
 namespace crackle {
 
+/// One cycle of unloading and reloading.
 struct LoadingCycle {
-    double strain = 0.0, stress = 0.0;          ///< where unloading begins; N/m
-    double low_strain = 0.0, low_stress = 0.0;  ///< where it ends
+    double strain = 0.0, stress = 0.0;          ///< where unloading starts; N/m
+    double low_strain = 0.0, low_stress = 0.0;  ///< at the lowest strain
     double modulus = 0.0;                       // N/m
     double poissons_ratio = 0.0;
     double permanent_strain = 0.0;
-    double loop = 0.0;           ///< N/m; not a number of a cycle that the curve does not end
-    double modulus_error = 0.0;  ///< relative, by what the platens differ at both ends
-    bool unbroken = false;       ///< no bond has broken by its end
-    bool linear = false;         ///< and none has slid, no point slides or touches that did not
+    double loop = 0.0;           ///< N/m; area of the hysteresis loop; NaN if the curve ends within the cycle
+    double modulus_error = 0.0;  ///< relative; from the difference between the stresses of the two platens
+    bool unbroken = false;       ///< whether no bond has broken by the end of the cycle
+    bool linear = false;         ///< whether, in addition, no bond has slid and no point has started to slide or touch
 };
 
-/// In their order; positive in the sense of the test.
+/// The cycles in order; strains and stresses are positive in the direction of loading.
 std::vector<LoadingCycle> find_cycles(std::span<const CurveRow> rows, bool compression);
 
-/// The rows that lie farther than all before them: the curve without its cycles.
+/// The rows whose strain exceeds that of all rows before them: the curve without its cycles.
 struct FirstLoading {
     std::vector<CurveRow> rows;
-    std::int64_t peak_row = -1;  ///< among them
+    std::int64_t peak_row = -1;  ///< index of the peak in these rows
 };
-/// @param peak_row in `rows`, one of those that lie farther; -1: none
+/// @param peak_row  index in `rows`, of a row with a new largest strain; -1: no peak
 FirstLoading first_loading(std::span<const CurveRow> rows, std::int64_t peak_row);
 
 }  // namespace crackle

@@ -13,14 +13,14 @@
 namespace crackle {
 namespace {
 
-constexpr double least_particles = 2.0;  // mean particles that a fragment of the law has at least
+constexpr double least_particles = 2.0;  // smallest area of a fragment included in the fit, in mean particle areas
 
 double diameter(double area) { return std::sqrt(4.0 * area / std::numbers::pi); }
 
 }  // namespace
 
 FragmentSizes measure_fragments(const World& world, const TestSetup& setup, const Frame& frame) {
-    std::vector<double> areas;  // m², by number
+    std::vector<double> areas;  // m², by fragment index
     const std::vector<std::int32_t> number = find_fragments(world, setup, frame);
     for (BodyIndex b = 0; b < number.size(); ++b) {
         if (number[b] < 0) continue;

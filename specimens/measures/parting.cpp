@@ -9,7 +9,7 @@ namespace {
 
 struct CrackSum {
     std::int64_t bonds = 0, of_platen = 0;
-    double height = 0.0;  // m, sum
+    double height = 0.0;  // m, sum over the bonds
 };
 
 }  // namespace
@@ -19,7 +19,7 @@ std::optional<Parting> find_parting(const TestSetup& setup, const ContactHistory
     boost::disjoint_sets_with_storage<> cracked(setup.start.size());
     const auto point_of = [&](const Crack& crack) { return setup.bonds[crack.bond]; };
     for (const Crack& crack : history.cracks) cracked.union_set(point_of(crack).body_i, point_of(crack).body_j);
-    std::map<std::size_t, CrackSum> sums;  // ordered, so that of two alike the choice is always the same
+    std::map<std::size_t, CrackSum> sums;  // ordered, so that ties are resolved reproducibly
     for (const Crack& crack : history.cracks) {
         const ContactPoint point = point_of(crack);
         CrackSum& sum = sums[cracked.find_set(point.body_i)];
@@ -37,7 +37,9 @@ std::optional<Parting> find_parting(const TestSetup& setup, const ContactHistory
     parting.of_platen = largest->of_platen;
     parting.height = largest->height / static_cast<double>(largest->bonds) - setup.low_end;
     const bool in_grip = parting.height < setup.grip || parting.height > setup.height - setup.grip;
-    parting.place = 2 * parting.of_platen >= parting.bonds ? "platen" : in_grip ? "grip" : "gauge";
+    parting.place = 2 * parting.of_platen >= parting.bonds ? PartingPlace::platen
+                    : in_grip                              ? PartingPlace::grip
+                                                           : PartingPlace::gauge;
     return parting;
 }
 

@@ -1,27 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a specimen parted: whether its strength is the rock's or that of what holds it.
+// Where a specimen broke apart, which shows whether its strength is that of the rock or of the platens' bonds.
 // Tested by tests/specimens/measures/parting_test.cpp.
 #pragma once
 
 #include <cstdint>
 #include <optional>
-#include <string>
 
+#include "solver/base/names.hpp"
 #include "specimens/observers/contact_history.hpp"
 #include "specimens/setup/setup.hpp"
 
 namespace crackle {
 
-/// The largest crack: broken bonds that share particles, by their number.
+/// Part of the specimen in which the largest crack lies.
+enum class PartingPlace : std::uint8_t { platen, grip, gauge };
+constexpr auto list_names(PartingPlace) { return in_order("platen", "grip", "gauge"); }
+
+/// The crack with the most broken bonds; a crack is a group of broken bonds connected through common particles.
 struct Parting {
-    std::string place;           ///< "platen", "grip" or "gauge"
-    double height = 0.0;         ///< m, mean height of its bonds at the start, above the lower end of the specimen
-    std::int64_t bonds = 0;      ///< bonded points that broke in it
-    std::int64_t of_platen = 0;  ///< of these, between a particle and a platen
+    PartingPlace place = PartingPlace::gauge;
+    double height = 0.0;         ///< m, mean initial height of its bonds above the lower end of the specimen
+    std::int64_t bonds = 0;      ///< number of bonded points broken in this crack
+    std::int64_t of_platen = 0;  ///< number of these points that joined a particle to a platen
 };
 
-/// Place of the largest crack: `platen` where half of its bonds or more are a platen's; `grip` where it lies within
-/// TestSetup's grip depth of an end; else `gauge`. Nothing where no bond has broken.
+/// Location of the largest crack. It is `platen` if at least half of its bonds belong to a platen, and `grip` if it
+/// lies within the grip depth of an end (TestSetup::grip). Otherwise it is `gauge`. Empty if no bond has broken.
 std::optional<Parting> find_parting(const TestSetup& setup, const ContactHistory& history);
 
 }  // namespace crackle

@@ -9,8 +9,8 @@
 namespace crackle {
 namespace {
 
-constexpr double end_share = 0.1;   // of the strain, that the residual stress is the mean of
-constexpr double peak_share = 0.1;  // of the strain at peak, on either side, that the slope is taken over
+constexpr double end_share = 0.1;   // final fraction of the strain over which the residual stress is averaged
+constexpr double peak_share = 0.1;  // half width of the range for the slope, relative to the strain at the peak
 
 }  // namespace
 

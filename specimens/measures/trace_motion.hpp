@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What joints have come to: share failed, opening and slip, by trace. Means are over the length of faces.
+// Motion of joints, by trace: failed length, opening and slip. Means are weighted by face length.
 // Tested by tests/specimens/setup/trace_faces_test.cpp.
 #pragma once
 
@@ -7,42 +7,36 @@
 #include <span>
 #include <vector>
 
+#include "solver/base/fields.hpp"
 #include "specimens/observers/contact_history.hpp"
 #include "specimens/setup/setup.hpp"
 
 namespace crackle {
 
+/// Relative motion of the two sides of a trace.
 struct TraceMotion {
     std::int64_t faces = 0;
-    double length = 0.0;                               // m, of the faces together
-    double bonded = 0.0, failed = 0.0;                 // m, of those with bonds at first; of these without any left
-    double opening = 0.0, slip = 0.0;                  // m, means, trace_faces.hpp
-    double largest_opening = 0.0, largest_slip = 0.0;  // m, of one face; of slips the largest in size, with its sign
+    double length = 0.0;                // m, total length of the faces
+    double bonded = 0.0, failed = 0.0;  // m, length of the initially bonded faces, and of those that lost all bonds
+    double opening = 0.0, slip = 0.0;   // m, means over the faces; defined in trace_faces.hpp
+    double largest_opening = 0.0, largest_slip = 0.0;  // m, of a single face; the slip of largest magnitude is signed
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("faces", s.faces);
-        visit("length", s.length);
-        visit("bonded", s.bonded);
-        visit("failed", s.failed);
-        visit("opening", s.opening);
-        visit("slip", s.slip);
-        visit("largest_opening", s.largest_opening);
-        visit("largest_slip", s.largest_slip);
-    }
+    CRACKLE_FIELDS(faces, length, bonded, failed, opening, slip, largest_opening, largest_slip);
 
-    /// Both together.
+    /// Adds the values of another trace.
     void add(const TraceMotion& other);
 };
 
-/// Where the bodies of TestSetup::trace_faces are: all that is kept of every row that may be the peak.
+/// Current positions of the bodies in TestSetup::trace_faces. They are stored for every row that may be the peak.
 std::vector<FacePlaces> places_of_faces(const World& world, const TestSetup& setup);
 
-/// By number of trace. @param places of faces at the moment @param cracks until then
+/// Motion of each trace.
+/// @param places  the positions of the faces' bodies at that time
+/// @param cracks  the cracks formed up to that time
 std::vector<TraceMotion> trace_motions(const TestSetup& setup, std::span<const FacePlaces> places,
                                        std::span<const Crack> cracks);
 
-/// Those of the cracks that are on traces.
+/// Number of cracks that lie on traces.
 std::int64_t breaks_on_traces(const TestSetup& setup, std::span<const Crack> cracks);
 
 }  // namespace crackle

@@ -17,49 +17,55 @@ namespace crackle {
 namespace {
 
 constexpr double fewest_across = 20.0;
-constexpr double first_drop = 0.01;                                       // of the largest stress so far
-constexpr double centre_share = 0.5, jaw_share = 0.8, jaw_energy = 0.25;  // of the radius; of the energy
-constexpr double largest_slant = 20.0, split_share = 0.5;                 // degrees; of the diameter, or the ligament
-constexpr double midspan_share = 0.25;                                    // of the height
-constexpr double gap_share = 0.25, gap_energy = 2.0 / 3.0;                // of the height; of the energy
+constexpr double first_drop = 0.01;  // relative to the largest stress before the drop
+constexpr double centre_share = 0.5, jaw_share = 0.8,
+                 jaw_energy = 0.25;  // the first two are relative to the radius, the third to the energy
+constexpr double largest_slant = 20.0, split_share = 0.5;  // degrees; fraction of the diameter or height
+constexpr double midspan_share = 0.25;                     // relative to the height
 
-/// What must hold, and the sentence of one that does not, {} what was found.
+constexpr double gap_share = 0.25, gap_energy = 2.0 / 3.0;  // fraction of the height; fraction of the energy
+
+/// A condition, and the sentence that reports its violation; {} stands for the value found.
 struct Claim {
     const char *holds, *broken;
 };
 constexpr Claim wide_enough{"the specimen is at least 20 particles wide",
                             "the specimen is {} wide; at least 20 are needed"};
-constexpr Claim away_from_platens{"the largest crack is not a platen's",
-                                  "the largest crack is a platen's, not the specimen's: {}"};
-constexpr Claim between_grips{"the specimen parted between its grips",
-                              "the specimen did not part between its grips: {}"};
+constexpr Claim away_from_platens{"the largest crack is not along a platen",
+                                  "the largest crack is along a platen, not within the specimen: {}"};
+constexpr Claim between_grips{"the specimen broke between its grips",
+                              "the specimen did not break between its grips: {}"};
 constexpr Claim from_the_middle{
-    "before the first drop of 1 % the breaks' energy lies at less than 0.5 R from the centre along the load",
-    "before the first drop of 1 % the breaks lie too far from the centre along the load: {}; less than 0.5 R is "
-    "needed"};
-constexpr Claim not_at_the_jaws{"breaks beyond 0.8 R have less than a quarter of that energy",
-                                "breaks beyond 0.8 R, at the jaws, have {} of the energy before the first drop of 1 %; "
-                                "less than a quarter is needed"};
+    "before the stress first drops by 1 %, the mean distance of bond breaks from the centre along the load axis, "
+    "weighted by energy, is less than 0.5 R",
+    "before the stress first drops by 1 %, bond breaks lie too far from the centre along the load axis: their "
+    "energy-weighted mean distance is {}; less than 0.5 R is needed"};
+constexpr Claim not_at_the_jaws{
+    "before the stress first drops by 1 %, bond breaks beyond 0.8 R from the centre release less than a quarter of the "
+    "energy of all breaks",
+    "before the stress first drops by 1 %, bond breaks beyond 0.8 R from the centre, near the jaws, release {} of the "
+    "energy of all breaks; less than a quarter is needed"};
 constexpr Claim split_disc{
-    "the largest crack lies within 20 degrees of the load axis and spans half the diameter",
-    "the largest crack does not split the disc: {}; at most 20 degrees from the load axis and half the diameter are "
-    "needed"};
+    "the largest crack is at most 20 degrees from the load axis and spans at least half the diameter",
+    "the largest crack does not split the disc: {}; it must be at most 20 degrees from the load axis and span at least "
+    "half the diameter"};
 constexpr Claim crack_at_midspan{
-    "the largest crack lies at midspan, within a quarter of the height or two particles, and spans half of what is "
-    "left above the notch",
-    "the largest crack does not run from midspan: {}; within a quarter of the height or two particles of it and half "
-    "of the height left are needed"};
-constexpr Claim sheared_gap{"two thirds of the breaks' energy come from within a quarter of the height of the gap",
-                            "only {} of the breaks' energy come from within a quarter of the height of the gap; two "
-                            "thirds are needed"};
+    "the largest crack lies within a quarter of the height, or two particles, of midspan and spans at least half of "
+    "the height above any notch",
+    "the largest crack does not run up from midspan: {}; it must lie within a quarter of the height, or two particles, "
+    "of midspan and span at least half of the height above any notch"};
+constexpr Claim sheared_gap{
+    "bond breaks within a quarter of the height from the gap release at least two thirds of the energy of all breaks",
+    "bond breaks within a quarter of the height from the gap release only {} of the energy of all breaks; at least two "
+    "thirds are needed"};
 
 struct BreakPlace {
     double x = 0.0, y = 0.0, energy = 0.0, time = 0.0;
-    std::size_t crack = 0;  // which it is of
+    std::size_t crack = 0;  // index of the crack
 };
 
-/// Breaks within the specimen, where its bodies were bonded, and of which crack each is: breaks that lie within a mean
-/// particle of each other.
+/// Breakages within the specimen, at the positions where the bodies were bonded, each with the index of its crack. A
+/// crack consists of breakages within one mean particle size of each other.
 std::vector<BreakPlace> places_of(const TestSetup& setup, const ContactHistory& history) {
     std::vector<BreakPlace> places;
     for (const Crack& crack : history.cracks) {
@@ -78,10 +84,10 @@ std::vector<BreakPlace> places_of(const TestSetup& setup, const ContactHistory& 
     return places;
 }
 
-/// Of the crack with most breaks.
+/// The crack with the most breaks.
 struct LargestCrack {
     std::size_t breaks = 0;
-    double slant = 0.0;                                                 // degrees, of its longest axis from y
+    double slant = 0.0;                                                 // degrees, between its longest axis and y
     double low = std::numeric_limits<double>::infinity(), high = -low;  // m, its extent along y
     double middle = 0.0;                                                // m, mean x
 };
@@ -117,7 +123,8 @@ LargestCrack largest_of(const std::vector<BreakPlace>& places) {
     return largest;
 }
 
-/// s, of the row where the stress first lies below its largest by more than a share; infinite: never.
+/// Time of the first row in which the stress is below its largest value by more than the fraction first_drop, s;
+/// infinite if there is no such row.
 double time_of_first_drop(std::span<const CurveRow> rows) {
     double largest = 0.0;
     for (const CurveRow& row : rows) {
@@ -138,10 +145,10 @@ std::vector<Verdict> on_platens(const TestSetup& setup, const ContactHistory& hi
     Verdict place{setup.compression ? away_from_platens.holds : between_grips.holds, std::nullopt,
                   "no bond has broken"};
     if (const auto parting = find_parting(setup, history)) {
-        place.holds = setup.compression ? parting->place != "platen" : parting->place == "gauge";
-        place.found = fmt::format("{} at a {}", counted(parting->bonds, "bond"), parting->place);
-        if (parting->place == "gauge")
-            place.found = fmt::format("{} within the gauge length", counted(parting->bonds, "bond"));
+        const bool in_gauge = parting->place == PartingPlace::gauge;
+        place.holds = setup.compression ? parting->place != PartingPlace::platen : in_gauge;
+        place.found = counted(parting->bonds, "bond") +
+                      (in_gauge ? " within the gauge length" : fmt::format(" at a {}", name_of(parting->place)));
     }
     verdicts.push_back(place);
     return verdicts;
@@ -161,11 +168,11 @@ std::vector<Verdict> on_disc(const TestSetup& setup, std::span<const CurveRow> r
         moment += place.energy * away;
         if (away > jaw_share) of_jaws += place.energy;
     }
-    Verdict middle{from_the_middle.holds, std::nullopt, "no bond broke before it"};
-    Verdict jaws{not_at_the_jaws.holds, std::nullopt, "no bond broke before it"};
+    Verdict middle{from_the_middle.holds, std::nullopt, "no bond broke before this drop"};
+    Verdict jaws{not_at_the_jaws.holds, std::nullopt, "no bond broke before this drop"};
     if (energy > 0.0) {
         middle.holds = moment / energy < centre_share;
-        middle.found = fmt::format("{:.2f} R, of {} breaks", moment / energy, before);
+        middle.found = fmt::format("{:.2f} R for {} breaks", moment / energy, before);
         jaws.holds = of_jaws / energy < jaw_energy;
         jaws.found = fmt::format("{:.0f} %", 100.0 * of_jaws / energy);
     }
@@ -175,7 +182,8 @@ std::vector<Verdict> on_disc(const TestSetup& setup, std::span<const CurveRow> r
 Verdict splits(const TestSetup& setup, const LargestCrack& crack) {
     const double spans = (crack.high - crack.low) / setup.width;
     return {split_disc.holds, crack.slant <= largest_slant && spans >= split_share,
-            fmt::format("{:.0f} degrees, {:.2f} of the diameter, {} breaks", crack.slant, spans, crack.breaks)};
+            fmt::format("{:.0f} degrees from the load axis, {:.2f} of the diameter, {} breaks", crack.slant, spans,
+                        crack.breaks)};
 }
 
 Verdict from_midspan(const TestSetup& setup, const LargestCrack& crack) {
@@ -183,7 +191,8 @@ Verdict from_midspan(const TestSetup& setup, const LargestCrack& crack) {
     const double away = std::abs(crack.middle - setup.middle);
     const double spans = (crack.high - crack.low) / (setup.height - setup.notch);
     return {crack_at_midspan.holds, away <= std::max(midspan_share * setup.height, 2.0 * size) && spans >= split_share,
-            fmt::format("{:.3g} m from midspan, {:.2f} of the height left, {} breaks", away, spans, crack.breaks)};
+            fmt::format("{:.3g} m from midspan, {:.2f} of the height above any notch, {} breaks", away, spans,
+                        crack.breaks)};
 }
 
 Verdict along_gap(const TestSetup& setup, const std::vector<BreakPlace>& places) {
@@ -211,13 +220,14 @@ std::string broken_claim(const std::string& claim, const std::string& found) {
 
 std::vector<Verdict> verdicts_on(const TestSetup& setup, std::span<const CurveRow> rows, const ContactHistory& history,
                                  bool failed) {
-    if (setup.uniaxial) return on_platens(setup, history);
+    const ValidFailure asked = test_kind(setup.kind).valid_failure;
+    if (asked == ValidFailure::between_platens) return on_platens(setup, history);
     const std::vector<BreakPlace> places = places_of(setup, history);
-    if (setup.kind == "direct_shear") return {along_gap(setup, places)};
+    if (asked == ValidFailure::along_gap) return {along_gap(setup, places)};
+    const bool disc = asked == ValidFailure::splits_disc;
     std::vector<Verdict> verdicts;
-    if (setup.kind == "brazilian") verdicts = on_disc(setup, rows, places);
-    Verdict last =
-        setup.kind == "brazilian" ? splits(setup, largest_of(places)) : from_midspan(setup, largest_of(places));
+    if (disc) verdicts = on_disc(setup, rows, places);
+    Verdict last = disc ? splits(setup, largest_of(places)) : from_midspan(setup, largest_of(places));
     if (!failed) {
         last.holds.reset();
         last.found = "the specimen has not failed";

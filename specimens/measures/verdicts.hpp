@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether a test is one of what it is meant to be, from where and when its bonds broke. A number is never left out for
-// it; it stands beside the number.
+// Judges from where and when bonds broke whether a test is valid for its purpose. The results of an invalid test are
+// still reported, together with the verdict.
 //
-//   compression, biaxial  the largest crack is not a platen's; the specimen is twenty particles wide
-//   tension               the specimen parted between its grips
-//   brazilian             before the first drop of the stress by 1 % the energy-weighted mean of the breaks' distance
-//   from
-//                         the centre along the load is below 0.5 R, and those beyond 0.8 R have less than a quarter of
-//                         the energy (not the mean place: two crushed jaws average to the centre); at the end the
-//                         largest crack lies within 20 degrees of the load axis and spans half the diameter
-//   bending, scb          the largest crack runs from midspan, within a quarter of the height or two particles, and
-//   spans
-//                         half of what the notch has left
-//   direct_shear          two thirds of the energy of breaks come from within a quarter of the height of the gap
-// Of kinds that are not between platens a crack is what breaks make that lie within a mean particle of each other.
+//   compression, biaxial   the largest crack is not along a platen; the specimen is at least twenty particles wide
+//   tension                the specimen broke between its grips
+//   brazilian              before the stress first drops by 1 %, the mean distance of bond breaks from the centre along
+//                          the load axis, weighted by energy, is less than 0.5 R, and breaks beyond 0.8 R release less
+//                          than a quarter of the energy (the mean position is unsuitable: two crushed jaws average to
+//                          the centre); at the end the largest crack is at most 20 degrees from the load axis and spans
+//                          at least half the diameter
+//   bending, scb           the largest crack lies within a quarter of the height, or two particles, of midspan
+//                          and spans at least half of the height above any notch
+//   direct_shear           bond breaks within a quarter of the height from the gap release at least two thirds of the
+//                          energy
+// In kinds of test without platens, bond breaks within one mean particle size of each other count as one crack.
 // Tested by tests/specimens/measures/verdicts_test.cpp.
 #pragma once
 
@@ -28,16 +28,18 @@
 
 namespace crackle {
 
+/// A condition of a valid test.
 struct Verdict {
-    std::string claim;          ///< what must hold
-    std::optional<bool> holds;  ///< absent: not known (yet)
-    std::string found;          ///< the numbers behind it, or why there are none
+    std::string claim;          ///< condition for validity
+    std::optional<bool> holds;  ///< empty: not known (yet)
+    std::string found;          ///< the values on which it is based, or why there are none
 };
 
-/// A claim that does not hold, as a sentence with what was found. @param claim, found  of a Verdict, or of summary.json
+/// A sentence stating that a claim does not hold, with the values found. @param claim, found  from a Verdict, or from
+/// summary.json
 std::string broken_claim(const std::string& claim, const std::string& found);
 
-/// @param failed whether the peak is known
+/// @param failed  whether the peak is final
 std::vector<Verdict> verdicts_on(const TestSetup& setup, std::span<const CurveRow> rows, const ContactHistory& history,
                                  bool failed);
 

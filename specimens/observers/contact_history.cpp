@@ -8,6 +8,7 @@
 
 #include "solver/geometry/geometry.hpp"
 #include "solver/world/point_order.hpp"
+#include "solver/world/world.hpp"
 
 namespace crackle {
 
@@ -29,7 +30,7 @@ void note_break(const TestSetup& setup, const BreakEvent& event, ContactHistory&
 
 namespace {
 
-/// LooseContact::joint_force.
+/// Computes LooseContact::joint_force for a point.
 template <PointKind K>
 double joint_force(const World& world, PointIndex k) {
     if (world.points.state[k].law < world.settings.first_joint_law()) return std::numeric_limits<double>::quiet_NaN();
@@ -53,7 +54,8 @@ void look_at_contacts(const World& world, ContactHistory& history) {
                                         joint_force<K>(world, k)});
         }
         const auto found = now.contacts.begin() + static_cast<std::ptrdiff_t>(first);
-        if (K == PointKind::element_outline) std::sort(found, now.contacts.end(), less);  // listed in two runs
+        if (K == PointKind::element_outline)
+            std::sort(found, now.contacts.end(), less);  // points of this kind come from two sorted lists
         auto known = history.loose.contacts.cbegin() + history.loose.kind_begin[number];
         const auto known_end = history.loose.contacts.cbegin() + history.loose.kind_begin[number + 1];
         for (auto contact = found; contact != now.contacts.end(); ++contact) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What frames record of the past: which bonded points have broken and when, and since when bodies touch without a bond.
+// History needed for frames: which bonded points broke and when, and since when bodies have touched without a bond.
 //
-// Breaks are known to the step. Contacts are looked for in the rows of the curve, of which a test has at least 2000,
-// written or not: one is as old as the row that saw it first, and one that opens and closes between two rows stays the
-// same contact. A step does nothing for it.
+// The step of each break is known exactly. Contacts are only updated at curve rows, of which a test has at least 2000,
+// whether they are written to curve.csv or not. The age of a contact counts from the row in which it was first seen. A
+// contact that opens and closes between two rows counts as uninterrupted. Steps between rows cost nothing.
 #pragma once
 
 #include <array>
@@ -11,6 +11,7 @@
 #include <limits>
 #include <vector>
 
+#include "solver/base/fields.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/setup/setup.hpp"
 
@@ -19,69 +20,50 @@ namespace crackle {
 /// A bonded point that has broken.
 struct Crack {
     double time = 0.0;         // s
-    double energy = 0.0;       // J, taken by the break
-    double strength = 0.0;     // N, as BreakEvent's
-    double orientation = 0.0;  // rad, of the contact normal at the break, in (-π/2, π/2]
-    PointIndex bond = 0;       // into TestSetup::bonds
+    double energy = 0.0;       // J, energy dissipated by the break
+    double strength = 0.0;     // N, as in BreakEvent
+    double orientation = 0.0;  // rad, direction of the contact normal when the bond broke, in (-π/2, π/2]
+    PointIndex bond = 0;       // index into TestSetup::bonds
     bool shear_mode = false;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("time", s.time);
-        visit("energy", s.energy);
-        visit("strength", s.strength);
-        visit("orientation", s.orientation);
-        visit("bond", s.bond);
-        visit("shear_mode", s.shear_mode);
-    }
+    CRACKLE_FIELDS(time, energy, strength, orientation, bond, shear_mode);
 };
 
-/// A point that touches and is not, or no longer, bonded.
+/// A contact point that touches and was never bonded, or whose bond has broken.
 struct LooseContact {
     ContactPoint point;
-    double shear_force = 0.0;  // N, elastic, when last looked at
-    double since = 0.0;        // s, of the row that saw it first
-    /// N, elastic, when last looked at, across a joint, where overlap without force and stiffness are the point's own;
-    /// elsewhere not a number: the places of the bodies say it.
+    double shear_force = 0.0;  // N, elastic part, at the last update
+    double since = 0.0;        // s, time of the row in which it was first seen
+    /// Elastic normal force, N, at the last update, for a point across a joint, which has its own stiffness and
+    /// force-free overlap. NaN elsewhere, because the positions of the bodies then determine the force.
     double joint_force = std::numeric_limits<double>::quiet_NaN();
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("point", s.point);
-        visit("shear_force", s.shear_force);
-        visit("since", s.since);
-        visit("joint_force", s.joint_force);
-    }
+    CRACKLE_FIELDS(point, shear_force, since, joint_force);
 };
 
+/// Unbonded contact points that touch.
 struct LooseContacts {
-    std::vector<LooseContact> contacts;  ///< by kind and in the order of keys (point_order.hpp)
+    std::vector<LooseContact> contacts;  ///< sorted by kind and key (point_order.hpp)
     std::array<PointIndex, point_kinds + 1> kind_begin{};
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("contacts", s.contacts);
-        visit("kind_begin", s.kind_begin);
-    }
+    CRACKLE_FIELDS(contacts, kind_begin);
 };
 
+/// History of the contacts in a test.
 struct ContactHistory {
-    std::vector<Crack> cracks;  ///< as they came
-    LooseContacts loose;        ///< at the last look
+    std::vector<Crack> cracks;  ///< in the order in which the bonds broke
+    LooseContacts loose;        ///< at the last update
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("cracks", s.cracks);
-        visit("loose", s.loose);
-    }
+    CRACKLE_FIELDS(cracks, loose);
 };
 
-/// Notes a break.
+/// Records a break.
 void note_break(const TestSetup& setup, const BreakEvent& event, ContactHistory& history);
-/// Notes what touches without a bond now. Needs compute_forces(). Linear in listed points.
+/// Records the points that currently touch without a bond. Requires compute_forces(). Takes time linear in the listed
+/// points.
 void look_at_contacts(const World& world, ContactHistory& history);
 
-/// Where a point stands in TestSetup::bonds; their number if it was not bonded when loading began.
+/// Index of a point in TestSetup::bonds; the size of that list if the point was not bonded at the start of loading.
 PointIndex bond_of(const TestSetup& setup, PointKind kind, const ContactPoint& point);
 
 }  // namespace crackle

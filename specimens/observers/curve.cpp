@@ -13,14 +13,15 @@ namespace crackle {
 
 namespace {
 
-// Of the mean back-tension: surfaces that just touch overlap by the rounding of their places, up to 1e-11 of a bond's.
+// Smallest force at which a point counts as sliding, relative to the mean back-tension. Surfaces that just touch
+// overlap by round-off of their positions, up to 1e-11 of a bond's overlap.
 constexpr double least_sliding_force = 1e-9;
 
 }  // namespace
 
 namespace {
 
-/// Of the specimen alone.
+/// Forces of the specimen on its platens, without those of the membrane.
 PartForces specimen_forces(const World& world, const TestSetup& setup) {
     PartForces forces = forces_on_parts(world, setup);
     if (setup.confined()) {
@@ -53,7 +54,8 @@ CurveRow observe_row(const World& world, const TestSetup& setup) {
     row.time = world.stepping.time;
     row.step = world.stepping.steps;
     row.bonds_slid = world.bonds.broken_after_sliding;
-    const double strength = setup.coulomb_bonds ? setup.mean_tensile_strength : setup.mean_back_tension;
+    const double strength =
+        setup.bond_facts().strengths_are_given ? setup.mean_tensile_strength : setup.mean_back_tension;
     for (std::size_t k = 0; k < world.points.size(); ++k) {
         constexpr int bond_that_slid = point_bonded | point_slid;
         const std::uint16_t flags = world.points.state[k].flags;
@@ -77,66 +79,88 @@ CurveRow observe_row(const World& world, const TestSetup& setup) {
 const std::vector<CurveColumn>& curve_columns() {
     using Row = const CurveRow&;
     static const std::vector<CurveColumn> columns{
-        {{"axial_strain", "-", "positive in the sense of the test",
-          "displacement of the upper platen over the initial height"},
+        {{"axial_strain", "-",
+          "displacement of the upper platen divided by the initial height, positive in the direction of loading",
+          "in tests without platens, displacement of the driving part divided by `strain_length` of summary.json"},
          [](Row r) { return r.axial_strain; },
          false},
-        {{"axial_stress", "N/m", "mean of both platens, positive in the sense of the test"},
+        {{"axial_stress", "N/m", "mean of stress_top and stress_bottom, positive in the direction of loading"},
          [](Row r) { return r.axial_stress; },
          false},
-        {{"stress_top", "N/m", "upper platen, positive in the sense of the test",
-          "force of the specimen on it, dashpots included, over the initial width"},
+        {{"stress_top", "N/m", "stress on the upper platen, positive in the direction of loading",
+          "force of the specimen on the platen, dashpots included, divided by the initial width; in tests without "
+          "platens, force on the driving part divided by `stress_section` of summary.json"},
          [](Row r) { return r.stress_top; },
          false},
-        {{"stress_bottom", "N/m", "lower platen, positive in the sense of the test"},
+        {{"stress_bottom", "N/m",
+          "stress on the lower platen (in tests without platens, on the supports), positive in the direction of "
+          "loading"},
          [](Row r) { return r.stress_bottom; },
          false},
-        {{"lateral_strain", "-", "positive when the specimen widens",
-          "growth of the distance between the mean x of the right and of the left side particles over its initial "
-          "value; side particles are those at a side face, in the middle half of the height; nan without any"},
+        {{"lateral_strain", "-",
+          "change in the distance between the left and right side particles, divided by its initial value; positive if "
+          "the specimen widens",
+          "the distance is that between the mean x of the left side particles and the mean x of the right ones. Side "
+          "particles lie at a side face in the middle half of the height; nan if a side has none. In direct shear "
+          "tests, the column is the rise of the upper half box divided by the height"},
          [](Row r) { return r.lateral_strain; },
          false},
-        {{"bonds_broken", "", "bonded points broken so far"},
+        {{"bonds_broken", "", "number of bonded contact points that have broken"},
          [](Row r) { return static_cast<double>(r.bonds_broken); },
          true},
-        {{"kinetic_energy", "J", "", "of all bodies, with the mean of the velocities half a step before and after"},
+        {{"kinetic_energy", "J", "kinetic energy of all bodies",
+          "from the mean of the velocities half a step before and half a step after"},
          [](Row r) { return r.kinetic_energy; },
          false},
-        {{"strain_energy", "J", "of all contact points, from the bonded state"},
+        {{"strain_energy", "J", "strain energy of all contact points, relative to the bonded state"},
          [](Row r) { return r.strain_energy; },
          false},
-        {{"time", "s since loading began", "", "of the row"}, [](Row r) { return r.time; }, false},
-        {{"step", "steps since loading began", "", "of the row"},
+        {{"time", "s since loading began", "", "time of the row"}, [](Row r) { return r.time; }, false},
+        {{"step", "steps since loading began", "", "time step of the row"},
          [](Row r) { return static_cast<double>(r.step); },
          true},
-        {{"interfaces_lost", "", "pairs of bodies whose last bond has broken so far"},
+        {{"interfaces_lost", "", "number of bonded pairs of bodies whose last bond has broken"},
          [](Row r) { return static_cast<double>(r.interfaces_lost); },
          true},
-        {{"points_sliding", "", "contact points at the Coulomb limit in this step",
-          "with a shear force above 1e-9 of the mean back-tension, so that surfaces that just touch do not count"},
+        {{"points_sliding", "", "number of contact points at the Coulomb limit in this step",
+          "points whose shear force is at most 1e-9 of the mean back-tension (mean tensile strength for coulomb bonds) "
+          "are not counted, because their surfaces barely touch"},
          [](Row r) { return static_cast<double>(r.points_sliding); },
          true},
-        {{"dashpot_loss", "J", "so far"}, [](Row r) { return r.dashpot_loss; }, false},
-        {{"friction_loss", "J", "so far"}, [](Row r) { return r.friction_loss; }, false},
-        {{"fracture_loss", "J", "so far", "taken by broken bonds"}, [](Row r) { return r.fracture_loss; }, false},
-        {{"platen_work", "J", "done on the specimen so far"}, [](Row r) { return r.platen_work; }, false},
-        {{"energy_error", "J", "kinetic + strain - both at the start of loading + losses - work",
-          "what the account of energy leaves open; under the guide's law what the law itself takes or makes, "
-          "energy_lost_to_contact_law of summary.json, counts among the losses"},
+        {{"dashpot_loss", "J", "energy dissipated in dashpots since loading began"},
+         [](Row r) { return r.dashpot_loss; },
+         false},
+        {{"friction_loss", "J", "energy dissipated by sliding since loading began"},
+         [](Row r) { return r.friction_loss; },
+         false},
+        {{"fracture_loss", "J", "energy dissipated by broken bonds since loading began"},
+         [](Row r) { return r.fracture_loss; },
+         false},
+        {{"platen_work", "J", "work done by the platens on the specimen since loading began"},
+         [](Row r) { return r.platen_work; },
+         false},
+        {{"energy_error", "J",
+          "imbalance of the energy account: kinetic and strain energy minus their values when loading began, plus "
+          "losses, minus work",
+          "with the DEMseg guide's contact law, the energy that the law itself loses or creates "
+          "(energy_lost_to_contact_law in summary.json) is included in the losses"},
          [](Row r) { return r.energy_error; },
          false},
-        {{"gauge_strain", "-", "positive in the sense of the test",
-          "axial, between the bonded particles within half a mean particle of the ends of the gauge length, which is "
-          "the height without the grips, or without the outer tenths where there are none; nan where an end has none"},
+        {{"gauge_strain", "-", "axial strain of the gauge length, positive in the direction of loading",
+          "it is measured between the bonded particles within half a mean particle size of the two ends of the gauge "
+          "length. The gauge length is the height without the grips, or without the outer tenths if there are no "
+          "grips; nan if an end has no particles"},
          [](Row r) { return r.gauge_strain; },
          false},
-        {{"bonds_slid", "", "bonded points that have been at their Coulomb limit so far, broken ones among them",
-          "each has its row in slips.csv, where that is asked for"},
+        {{"bonds_slid", "",
+          "number of bonded contact points that have reached their Coulomb limit, including broken ones",
+          "each of them has a row in slips.csv, if that file is written"},
          [](Row r) { return static_cast<double>(r.bonds_slid); },
          true},
         {{"confinement_work", "J",
-          "done by the membrane, the walls, or the normal force of direct shear, on the specimen so far",
-          "of such tests"},
+          "work done on the specimen since loading began by the membrane, the walls or the normal force of a direct "
+          "shear test",
+          "only in confined and direct shear tests"},
          [](Row r) { return r.confinement_work; },
          false,
          true},

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stress-strain curve: what is measured in a step, and how curve.csv shows it.
+// The stress-strain curve: the values measured in a step, and their format in curve.csv.
 //
-// Stress = force of the specimen on a platen (dashpots included) over the initial width, axial strain = displacement of
-// the upper platen over the initial height; both positive in the sense of the test (compression in compression, tension
-// in tension). Lateral strain = change of the distance between the mean x of the right and of the left side particles
-// over its initial value, positive when the specimen widens. Strictly 2D: stress in N/m.
+// Stress is the force of the specimen on a platen (dashpots included), divided by the initial width. Axial strain is
+// the displacement of the upper platen divided by the initial height. Both are positive in the direction of loading:
+// compressive in compression, tensile in tension. Lateral strain is the change in distance between the mean x of the
+// left and right side particles, divided by its initial value; positive when the specimen widens. Strictly 2D: stress
+// in N/m.
 // Tested by tests/recount/recount_test.py.
 #pragma once
 
@@ -12,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/fields.hpp"
 #include "solver/base/quantity.hpp"
 #include "solver/world/world.hpp"
 
@@ -19,6 +21,7 @@ namespace crackle {
 
 struct TestSetup;
 
+/// One row of curve.csv.
 struct CurveRow {
     double axial_strain = 0.0;
     double axial_stress = 0.0;   // N/m, mean of the two platens
@@ -39,52 +42,36 @@ struct CurveRow {
     double energy_error = 0.0;   // J
     double gauge_strain = 0.0;
     std::int64_t bonds_slid = 0;
-    double confinement_work = 0.0;     ///< J, of membrane, walls or normal force; a column of such tests
-    std::int64_t contacts_gained = 0;  ///< points touching without a bond; kept for the summary, not a column
+    double confinement_work =
+        0.0;  ///< J, work of membrane, walls or normal force; a column only in tests that have these
+    std::int64_t contacts_gained =
+        0;  ///< points that touch without a bond; kept for the summary, not written as a column
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("axial_strain", s.axial_strain);
-        visit("axial_stress", s.axial_stress);
-        visit("stress_top", s.stress_top);
-        visit("stress_bottom", s.stress_bottom);
-        visit("lateral_strain", s.lateral_strain);
-        visit("bonds_broken", s.bonds_broken);
-        visit("kinetic_energy", s.kinetic_energy);
-        visit("strain_energy", s.strain_energy);
-        visit("time", s.time);
-        visit("step", s.step);
-        visit("interfaces_lost", s.interfaces_lost);
-        visit("points_sliding", s.points_sliding);
-        visit("dashpot_loss", s.dashpot_loss);
-        visit("friction_loss", s.friction_loss);
-        visit("fracture_loss", s.fracture_loss);
-        visit("platen_work", s.platen_work);
-        visit("energy_error", s.energy_error);
-        visit("gauge_strain", s.gauge_strain);
-        visit("bonds_slid", s.bonds_slid);
-        visit("confinement_work", s.confinement_work);
-        visit("contacts_gained", s.contacts_gained);
-    }
+    CRACKLE_FIELDS(axial_strain, axial_stress, stress_top, stress_bottom, lateral_strain, bonds_broken, kinetic_energy,
+                   strain_energy, time, step, interfaces_lost, points_sliding, dashpot_loss, friction_loss,
+                   fracture_loss, platen_work, energy_error, gauge_strain, bonds_slid, confinement_work,
+                   contacts_gained);
 };
 
-/// Needs compute_forces() to have been called. What a membrane presses on a platen is not the specimen's force.
+/// Row for the current step. Requires compute_forces(). The force of a membrane on a platen is not counted as part of
+/// the specimen's force.
 CurveRow observe_row(const World& world, const TestSetup& setup);
 
-/// N/m, mean of the two platens', positive in the sense of the test; needs compute_forces().
+/// Mean stress of the two platens, N/m, positive in the direction of loading; requires compute_forces().
 double axial_stress(const World& world, const TestSetup& setup);
 
+/// A column of curve.csv.
 struct CurveColumn {
     Quantity what;
     double (*value)(const CurveRow&);
-    bool whole;            ///< a count
-    bool pressed = false;  ///< of tests with a membrane or a normal force only
+    bool whole;            ///< whether it is a count
+    bool pressed = false;  ///< whether the column exists only in tests with a membrane or a normal force
 };
-/// In the order of the file.
+/// The columns in file order.
 const std::vector<CurveColumn>& curve_columns();
 
-std::string curve_header(bool pressed);  ///< with line end
-/// Numbers read back to the same bits; with line end.
+std::string curve_header(bool pressed);  ///< header line, including the line end
+/// Line for a row, including the line end. Reading its numbers back gives identical bits.
 std::string curve_line(const CurveRow& row, bool pressed);
 
 }  // namespace crackle

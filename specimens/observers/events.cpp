@@ -19,12 +19,12 @@ std::vector<EventColumn> columns_of_tests() {
     std::vector<EventColumn> columns;
     for (const BreakColumn& column : break_columns())
         columns.push_back({column.what, [&column](Event e, double, std::int32_t) { return column.text(e); }});
-    EventColumn strain{{"axial_strain", "-", "positive in the sense of the test"},
+    EventColumn strain{{"axial_strain", "-", "axial strain at the break, positive in the direction of loading"},
                        [](Event, double value, std::int32_t) { return fmt::format("{}", value); }};
     columns.insert(columns.begin() + columns_before_strain, std::move(strain));
     columns.push_back({{"trace", "",
-                        "number of the trace of joints on which it broke, in `traces` of summary.json, from 0; -1 "
-                        "through the rock; of jointed specimens"},
+                        "zero-based index, in `traces` of summary.json, of the joint trace on which the bond broke; -1 "
+                        "if it broke in the rock. Only for jointed specimens"},
                        [](Event, double, std::int32_t trace) { return fmt::format("{}", trace); },
                        true});
     return columns;
@@ -41,20 +41,26 @@ const std::vector<SlipColumn>& slip_columns() {
     using Event = const SlipEvent&;
     static const auto written = [](const auto& value) { return fmt::format("{}", value); };
     static const std::vector<SlipColumn> columns{
-        {{"time", "s since loading began", "", "when the limit was first reached"},
+        {{"time", "s since loading began", "", "time at which the bond first reached its Coulomb limit"},
          [](Event s, double) { return written(s.time); }},
-        {{"step", "steps since loading began", "", "likewise"}, [](Event s, double) { return written(s.step); }},
-        {{"axial_strain", "-", "positive in the sense of the test"},
+        {{"step", "steps since loading began", "", "time step in which the bond first reached its Coulomb limit"},
+         [](Event s, double) { return written(s.step); }},
+        {{"axial_strain", "-", "axial strain at that step, positive in the direction of loading"},
          [](Event, double strain) { return written(strain); }},
-        {{"x", "m", "of the contact point, rightwards"}, [](Event s, double) { return written(s.position.x); }},
-        {{"y", "m", "of the contact point, upwards"}, [](Event s, double) { return written(s.position.y); }},
+        {{"x", "m", "x coordinate of the contact point, positive to the right"},
+         [](Event s, double) { return written(s.position.x); }},
+        {{"y", "m", "y coordinate of the contact point, positive upwards"},
+         [](Event s, double) { return written(s.position.y); }},
         {{"body_i", "", "id of one body"}, [](Event s, double) { return written(s.body_i); }},
-        {{"body_j", "", "id of the other"}, [](Event s, double) { return written(s.body_j); }},
-        {{"orientation", "rad", "direction of the contact normal, counter-clockwise from x, in (-π/2, π/2]"},
+        {{"body_j", "", "id of the other body"}, [](Event s, double) { return written(s.body_j); }},
+        {{"orientation", "rad", "direction of the contact normal, counter-clockwise from the x axis, in (-π/2, π/2]"},
          [](Event s, double) { return written(s.orientation); }},
-        {{"normal_force", "N", "elastic, positive pushes apart, from the bonded state"},
+        {{"normal_force", "N",
+          "elastic normal force relative to the bonded state, positive if it pushes the bodies apart"},
          [](Event s, double) { return written(s.normal_force); }},
-        {{"shear_force", "N", "elastic, on body_i along the normal from i to j turned by +90°: the limit, signed"},
+        {{"shear_force", "N",
+          "elastic shear force on body_i, equal in magnitude to the Coulomb limit; positive along the normal from "
+          "body_i to body_j turned by +90°"},
          [](Event s, double) { return written(s.shear_force); }},
     };
     return columns;

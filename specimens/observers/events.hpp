@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// events.csv: one row a broken bond (the acoustic-emission-like record), in the order in which bonds break.
+// events.csv: one row per broken bond, in the order in which bonds break; similar to a record of acoustic emission.
 // Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
@@ -14,27 +14,31 @@
 
 namespace crackle {
 
-/// A column of every break (solver/measure/breaks.hpp), or one that a test adds.
+/// A column of events.csv: either a column of every record of breaks (solver/measure/breaks.hpp), or one that tests
+/// add.
 struct EventColumn {
     Quantity what;
     std::function<std::string(const BreakEvent&, double axial_strain, std::int32_t trace)> text;
-    bool jointed = false;  ///< only of specimens with traces of joints
+    bool jointed = false;  ///< whether the column exists only for specimens with joint traces
 };
-/// In the order of the file.
+/// The columns in file order.
 const std::vector<EventColumn>& event_columns();
 
-/// slips.csv: one row the first slip of a bond, likewise.
+/// A column of slips.csv, which has one row for the first slip of each bond.
 struct SlipColumn {
     Quantity what;
     std::string (*text)(const SlipEvent&, double axial_strain);
 };
+/// The columns in file order.
 const std::vector<SlipColumn>& slip_columns();
+/// Header line, including the line end.
 std::string slips_header();
+/// Line for a slip, including the line end. @param axial_strain  the axial strain at the slip
 std::string slip_line(const SlipEvent& event, double axial_strain);
 
-/// @param jointed whether the specimen has traces of joints
-std::string events_header(bool jointed);  ///< with line end
-/// @param trace number of that on which it broke, -1 of none; nothing of a specimen without traces
+/// @param jointed  whether the specimen has joint traces
+std::string events_header(bool jointed);  ///< header line, including the line end
+/// @param trace  index of the trace on which the bond broke, -1 if on no trace; empty if the specimen has no traces
 std::string event_line(const BreakEvent& event, double axial_strain, std::optional<std::int32_t> trace);
 
 }  // namespace crackle

@@ -6,7 +6,7 @@
 namespace crackle {
 namespace {
 
-/// Whether the stress has stayed below the share of the largest for long enough, this row included.
+/// Whether the stress, including this row, has stayed below `share` of the largest stress for long enough.
 bool lasts(StressDrop& below, const FailureTracker& f, double share, std::int64_t row, double travel, double stress) {
     if (stress >= share * f.largest_stress) {
         below = {};

@@ -1,73 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The peak of a test, which is the specimen's strength, its largest stress, and when it has failed.
+// Determines the peak of a test (the specimen's strength), the largest stress, and when the specimen has failed.
 //
-// The peak is the first maximum that a drop follows: the stress stays below a share of the largest so far (the peak
-// less strength_drop) for a tenth of the strain there, and for ten rows (of at least 2000 over the largest strain):
-// where loading has hardly begun a tenth of the strain is nothing, and the first rows of a specimen that its platens
-// only just touch go up and down. What comes after may be larger: columns of rubble carry again once they are wedged.
-// Until a drop has followed, the peak is the largest stress so far. The test ends when the stress stays below another
-// share of its largest (half, settable) in the same way; then the specimen has failed, whatever the drop asked for.
+// The peak is the first maximum that is followed by a lasting drop. In a drop the stress is below the fraction 1 -
+// strength_drop of its largest value up to then. A drop is lasting if it extends over a tenth of the strain at that
+// maximum, and over at least ten rows (of at least 2000 up to the largest strain). Rows are counted as well because,
+// shortly after loading begins, a tenth of the strain is tiny and stresses may fluctuate if the platens only just touch
+// the specimen.
+//
+// Later stresses may be larger: rubble carries load again once it is wedged. Until a drop has followed, the peak is the
+// largest stress up to the current row; then it is final (`failed`). The test ends (`collapsed`) when the stress stays
+// below another fraction of its largest value (half by default) in the same way. This does not depend on the drop
+// required for the peak.
 #pragma once
 
 #include <cstdint>
 #include <limits>
 
+#include "solver/base/fields.hpp"
+
 namespace crackle {
 
-/// Stress below a share of a maximum, and since when.
+/// A period in which the stress is below a fraction of a maximum.
 struct StressDrop {
-    double since = std::numeric_limits<double>::quiet_NaN();  ///< travel; not a number: not below
-    std::int64_t row = -1;                                    ///< that began it
+    double since = std::numeric_limits<double>::quiet_NaN();  ///< travel at its start; NaN if the stress is not below
+    std::int64_t row = -1;                                    ///< row in which it started
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("since", s.since);
-        visit("row", s.row);
-    }
+    CRACKLE_FIELDS(since, row);
 };
 
-/// Finds peak, largest stress and failure in the rows of a curve, one after the other. Stress and strain positive in
-/// the sense of the test.
+/// Finds the peak, the largest stress and failure while rows of a curve are added one by one. Stress and strain are
+/// positive in the direction of loading.
 struct FailureTracker {
-    double strength_drop = 0.1;  ///< share of the peak
-    double share_of_peak = 0.5;  ///< of the largest stress: the test ends below
+    double strength_drop = 0.1;  ///< relative to the peak
+    double share_of_peak = 0.5;  ///< fraction of the largest stress below which the test ends
     double peak_stress = 0.0;    // N/m
     double peak_strain = 0.0;
-    std::int64_t peak_row = -1;   ///< -1: no stress yet
-    double largest_stress = 0.0;  // N/m, so far
+    std::int64_t peak_row = -1;   ///< row of the peak; -1 if there is no stress yet
+    double largest_stress = 0.0;  // N/m, up to the last row added
     double strain_at_largest = 0.0;
     double travel_at_largest = 0.0;
     std::int64_t largest_row = -1;
     StressDrop drop, collapse;
-    bool failed = false;     ///< the peak is known: a drop has followed it, or the test ends
-    bool collapsed = false;  ///< the test ends
+    bool failed = false;     ///< whether the peak is final: a drop has followed it, or the test ends
+    bool collapsed = false;  ///< whether the test ends
 
-    /// Adds the next row. @param travel strain gone through back and forth, by which a drop lasts: the strain itself
-    /// where the platen does not turn round @return whether it is a new peak
+    /// Adds the next row. @param travel  strain travelled back and forth, by which the length of a drop is measured;
+    /// equal to the strain if the platen never reverses @return whether the row is a new peak
     bool update(std::int64_t row, double strain, double travel, double stress);
+    /// Same, for a platen that never reverses.
     bool update(std::int64_t row, double strain, double stress) { return update(row, strain, strain, stress); }
 
+    /// Whether the largest stress of the test came after its peak.
     bool larger_after_peak() const { return largest_row > peak_row; }
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("strength_drop", s.strength_drop);
-        visit("share_of_peak", s.share_of_peak);
-        visit("peak_stress", s.peak_stress);
-        visit("peak_strain", s.peak_strain);
-        visit("peak_row", s.peak_row);
-        visit("largest_stress", s.largest_stress);
-        visit("strain_at_largest", s.strain_at_largest);
-        visit("travel_at_largest", s.travel_at_largest);
-        visit("largest_row", s.largest_row);
-        visit("drop", s.drop);
-        visit("collapse", s.collapse);
-        visit("failed", s.failed);
-        visit("collapsed", s.collapsed);
-    }
+    CRACKLE_FIELDS(strength_drop, share_of_peak, peak_stress, peak_strain, peak_row, largest_stress, strain_at_largest,
+                   travel_at_largest, largest_row, drop, collapse, failed, collapsed);
 };
 
-/// Strain that the stress must stay below, as a share of the strain at the maximum.
+/// Travel over which the stress must stay below the limit, relative to the strain at the maximum.
 inline constexpr double failure_strain_share = 0.1;
 inline constexpr std::int64_t failure_rows = 10;
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 
 namespace crackle {
 namespace {
@@ -15,37 +14,38 @@ struct PhaseName {
     const char* meaning;
 };
 
-// In the order of Phase.
+// Names and meanings, in the order of the enumerators of Phase.
 constexpr std::array<PhaseName, phase_count> phase_names{{
-    {"broad_phase", "rebuilds: pairs of bodies that come near each other"},
-    {"listing", "rebuilds: their contact points, with what the old list remembers"},
-    {"step_bound", "bound on the stable step, at rebuilds and new contacts"},
-    {"force", "contact points: geometry and force, by blocks"},
-    {"gather", "the blocks' forces added to their bodies"},
-    {"bookkeeping", "breaks, losses, driven bodies"},
-    {"integrate", "kick and drift"},
-    {"observe", "curve rows, breaks, peak"},
-    {"write", "files; waiting for frames, which another thread draws"},
-    {"check", "health of the run"},
-    {"rate", "platen speed, loading by tolerance"},
+    {"broad_phase", "finding pairs of nearby bodies, when the neighbour list is rebuilt"},
+    {"listing", "listing their contact points and carrying over values from the old list"},
+    {"step_bound", "bounding the stable time step, at rebuilds and new contacts"},
+    {"force", "geometry and forces of contact points; one call per block of points"},
+    {"gather", "adding the forces of each block to its bodies"},
+    {"bookkeeping", "recording bond breakage, losses and the work of driven bodies"},
+    {"integrate", "updating velocities and positions (kick and drift)"},
+    {"observe", "recording curve rows, bond breakage and the peak"},
+    {"write", "writing files and waiting for frames that another thread draws"},
+    {"check", "checking that the run is valid"},
+    {"rate", "adapting the platen speed to the error tolerance"},
 }};
 
 }  // namespace
 
-nlohmann::ordered_json profile_report(const Profile& profile, std::int64_t particles, std::int64_t steps,
-                                      double step_seconds) {
+ProfileFigures profile_report(const Profile& profile, std::int64_t particles, std::int64_t steps, double step_seconds) {
     const double sampled = profile.geometry_sampled.seconds;
-    // The samples are no part of a run without a profile.
+    // Timing samples are only taken in a profiled run, so their cost is subtracted.
     const double total = step_seconds - sampled;
     const double particle_steps = static_cast<double>(particles) * static_cast<double>(steps);
-    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    const auto point_steps = static_cast<double>(profile.point_steps);
+    ProfileFigures report{total,
+                          steps,
+                          profile.force_passes,
+                          point_steps / particle_steps,
+                          1e9 * profile.of(Phase::force).seconds / std::max(1.0, point_steps),
+                          {}};
+    std::vector<PhaseFigures>& rows = report.phases.begin_table();
     const auto add = [&](const char* name, const char* meaning, double seconds, std::int64_t calls) {
-        rows.push_back({{"phase", name},
-                        {"seconds", seconds},
-                        {"share", seconds / total},
-                        {"calls", calls},
-                        {"ns_per_particle_step", 1e9 * seconds / particle_steps},
-                        {"meaning", meaning}});
+        rows.push_back({name, seconds, seconds / total, calls, 1e9 * seconds / particle_steps, meaning});
     };
     double named = 0.0;
     for (std::size_t p = 0; p < phase_count; ++p) {
@@ -54,32 +54,24 @@ nlohmann::ordered_json profile_report(const Profile& profile, std::int64_t parti
         named += spent.seconds;
         if (static_cast<Phase>(p) != Phase::force) continue;
         const auto samples = static_cast<double>(profile.geometry_sampled.calls);
-        add("  narrow_phase", "of that the geometry alone, sampled",
+        add("  narrow_phase", "part of `force` spent on geometry, estimated by sampling",
             samples > 0.0 ? sampled / samples * static_cast<double>(profile.force_passes) : 0.0,
             profile.geometry_sampled.calls);
     }
-    add("rest", "between the phases", total - named, 0);
-    return {{"step_seconds", total},
-            {"steps", steps},
-            {"force_passes", profile.force_passes},
-            {"points_per_particle", static_cast<double>(profile.point_steps) / particle_steps},
-            {"force_ns_per_point", 1e9 * profile.of(Phase::force).seconds /
-                                       static_cast<double>(std::max<std::int64_t>(1, profile.point_steps))},
-            {"phases", rows}};
+    add("rest", "time outside these phases", total - named, 0);
+    return report;
 }
 
-std::string profile_table(const nlohmann::ordered_json& report) {
+std::string profile_table(const ProfileFigures& report) {
     std::string text = fmt::format(
-        "  where the time went: {:.3g} s of stepping, {} steps, {:.3g} listed contact points a particle, {:.3g} ns a "
-        "point\n  {:<16}{:>10}{:>8}{:>10}{:>14}\n",
-        report["step_seconds"].get<double>(), report["steps"].get<std::int64_t>(),
-        report["points_per_particle"].get<double>(), report["force_ns_per_point"].get<double>(), "phase", "seconds",
-        "share", "calls", "ns/particle");
-    for (const auto& row : report["phases"]) {
-        text += fmt::format("  {:<16}{:>10.4f}{:>7.1f}%{:>10}{:>14.2f}  {}\n", row["phase"].get<std::string>(),
-                            row["seconds"].get<double>(), 100.0 * row["share"].get<double>(),
-                            row["calls"].get<std::int64_t>(), row["ns_per_particle_step"].get<double>(),
-                            row["meaning"].get<std::string>());
+        "  where the time went: {:.3g} s in the stepping loop, {} steps, {:.3g} listed contact points per particle, "
+        "{:.3g} ns per point\n  {:<16}{:>10}{:>8}{:>10}{:>14}\n",
+        report.step_seconds.or_nan(), report.steps.value_or(0), report.points_per_particle.or_nan(),
+        report.force_ns_per_point.or_nan(), "phase", "seconds", "share", "calls", "ns/particle");
+    for (const PhaseFigures& row : *report.phases) {
+        text += fmt::format("  {:<16}{:>10.4f}{:>7.1f}%{:>10}{:>14.2f}  {}\n", row.phase.value_or(""),
+                            row.seconds.or_nan(), 100.0 * row.share.or_nan(), row.calls.value_or(0),
+                            row.ns_per_particle_step.or_nan(), row.meaning.value_or(""));
     }
     return text;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// See the header. Frictionless discs jam at one density (about 0.84 of the plane, less beside walls), and from there on
-// the mean overlap grows with the pressure almost in proportion; the void ratio falls linearly. Both laws give the next
-// pressure.
+// Implementation of compression.hpp. Frictionless discs jam at a well-defined density: they then fill about 0.84 of the
+// plane, less beside walls. Above it, the mean overlap grows almost in proportion to the pressure, and the void ratio
+// falls linearly. These two relations give the next pressure.
 
 #include "specimens/packing/compression.hpp"
 
@@ -18,32 +18,35 @@
 namespace crackle {
 namespace {
 
-// The equilibrium of the finished packing (asked: 1e-5), and how well it meets its target (asked: 1e-3).
+// Limits for the imbalance of the finished packing (1e-5 is required) and for the relative error of its target (1e-3 is
+// required).
 constexpr double final_imbalance = 2e-7;
 constexpr double final_target_error = 1e-4, accepted_target_error = 5e-4;
-// On the way, the pressure is corrected at these imbalances already.
+// Imbalances at which the pressure is corrected before the discs are brought to their final equilibrium.
 constexpr double early_imbalance[] = {3e-2, 3e-3};
 constexpr double working_imbalance = 1e-3;
 constexpr int final_corrections = 12;
 
-// Discs fill this share of the box when they are quenched: above jamming for any sizes and walls we know of. If not, or
-// if the overlap is still below the target's, the box is narrowed by steps.
+// Fraction of the box that discs fill when they are quenched; above jamming for all known sizes and walls. If the discs
+// do not jam, or if the overlap is still below the target, the box is narrowed in steps.
 constexpr double quench_fill = 0.86;
 constexpr double narrowing = 0.995;
 constexpr int narrowings = 200;
-constexpr double quenched_overlap_share = 3e-3;  // of the mean radius, at least
+constexpr double quenched_overlap_share = 3e-3;  // smallest overlap, relative to the mean radius
 constexpr double quench_imbalance = 0.1;
 constexpr int quench_passes = 20'000, relax_passes = 400'000;
 
 constexpr double wanted_anisotropy = 0.003;
-constexpr double needed_anisotropy = 0.006;  // beyond it, and up to 0.01, only the last corrections may carry it
+// Anisotropies above this value, up to 0.01, are accepted only in the last corrections.
+constexpr double needed_anisotropy = 0.006;
 constexpr int exchange_rounds = 12;
 
-// Gap in mean overlaps between a floating disc and what it leant on.
+// Gap left between a floating disc and the discs that it touched, in mean overlaps.
 constexpr double floating_gap = 1e-3;
 constexpr int floating_sweeps = 2000;
-// One floating disc in about 20,000 has no room for that gap. Below so many discs the draw is given up then, as it was
-// in published packings; of larger ones hardly any draw would pass.
+// About one floating disc in 20,000 has no room for the gap. In packings with fewer discs than put_back_from, the
+// attempt is discarded, as was done for the published packings. In larger packings, hardly any attempt would pass, so
+// the disc is put back.
 constexpr std::size_t put_back_from = drag_from;
 
 class Compressor {
@@ -52,7 +55,8 @@ class Compressor {
                CompressionCallback progress)
         : assembly_(assembly), target_(target), height_to_width_(height_to_width), progress_(std::move(progress)) {}
 
-    /// @return false if the discs could not be brought to carry load.
+    /// Relaxes the discs in a fixed box, which is narrowed until they jam.
+    /// @return false if the discs could not be made to carry load
     bool quench() {
         const double at_least =
             std::max(quenched_overlap_share * assembly_.mean_radius(), target_.mean_overlap.value_or(0.0));
@@ -69,7 +73,7 @@ class Compressor {
         return false;
     }
 
-    /// Brings target, isotropy and equilibrium together. @return whether they were met.
+    /// Reaches target, isotropy and equilibrium together. @return whether all three were reached
     bool finish(bool free_box) {
         load_.freedom = BoxFreedom::shape_kept;
         first_pressure();
@@ -111,7 +115,7 @@ class Compressor {
     double smallest_overlap() const { return smallest_overlap_share * assembly_.mean_radius(); }
     double largest_overlap() const { return largest_overlap_share * assembly_.mean_radius(); }
 
-    /// Relative.
+    /// Relative deviation from the target.
     double target_error() const {
         if (target_.mean_overlap) return scale() * sums_.mean_platen_overlap() / *target_.mean_overlap - 1.0;
         return void_ratio() / *target_.void_ratio - 1.0;
@@ -135,8 +139,8 @@ class Compressor {
         set_pressure(load_.pressure / (1.0 + target_error()));
     }
 
-    /// Newton's method on the void ratio, its slope from the last two states, or from the first one alone: all
-    /// overlaps, as a share of the distance of two centres, are a strain of the box.
+    /// Newton's method for the void ratio. The slope comes from the last two states, or is estimated from the first
+    /// one. The estimate takes the mean overlap, divided by the centre distance, as the strain of the box.
     void correct_by_void_ratio() {
         const double overlap = sums_.mean_overlap(), pressure = load_.pressure, now = void_ratio();
         const double guess = -(1.0 + now) * overlap / assembly_.mean_radius() / pressure;
@@ -148,7 +152,8 @@ class Compressor {
         last_void_ratio_ = now;
         const double lowest = pressure * smallest_overlap() / overlap, highest = pressure * largest_overlap() / overlap;
         const double next = pressure + (*target_.void_ratio - now) / slope;
-        // A wish beyond the end of the range is granted twice as the end itself; then the target is out of reach.
+        // In two successive corrections, a pressure outside the possible range is clamped; in the third, the target
+        // counts as out of reach.
         beyond_range_ = next < lowest || next > highest ? beyond_range_ + 1 : 0;
         if (beyond_range_ > 2) refuse_void_ratio(lowest, highest);
         set_pressure(std::clamp(next, lowest, highest));
@@ -162,9 +167,9 @@ class Compressor {
         };
         const double loosest = reached(lowest), densest = reached(highest);
         throw InputError(
-            fmt::format("void_ratio: found {}, expected {:.4f} to {:.4f}, which is what these sizes reach with this "
-                        "seed: looser packings carry "
-                        "no load without friction, denser ones overlap by more than a tenth of the mean radius",
+            fmt::format("void_ratio: found {}, expected {:.4f} to {:.4f}, the range of these sizes with this seed. "
+                        "Looser packings carry no load without friction; denser ones overlap by more than a tenth of "
+                        "the mean radius",
                         *target_.void_ratio, densest, loosest));
     }
 
@@ -178,14 +183,15 @@ class Compressor {
         }
     }
 
-    /// Moves discs that carry nothing out of touch with those that do: what is left of a contact there is not load but
-    /// the tolerance of the equilibrium, and would be bonded later.
+    /// Moves discs that carry no load away from those that do. Their remaining overlaps result only from the tolerance
+    /// of the equilibrium, but they would be bonded later.
     bool settle_floating() {
         const std::vector<Disc> in_equilibrium = assembly_.discs;
         std::vector<bool> floating = find_floating(assembly_, sums_);
         const double gap = floating_gap * sums_.mean_overlap();
         for (;;) {
             for (int sweep = 0; sweep < floating_sweeps; ++sweep) {
+                if (progress_) progress_("moving circles that carry no load", sums_.residual());
                 bool moved = false;
                 for (std::uint32_t i = 0; i < floating.size(); ++i) {
                     if (floating[i]) moved |= push_away(i, gap);
@@ -198,8 +204,9 @@ class Compressor {
         }
     }
 
-    /// Floating discs that still touch have no room to be moved to: they go back to their equilibrium, where they carry
-    /// what little they do, and count as floating no more. @return whether there were any.
+    /// Handles floating discs that still touch others because they have no room to move. Such a disc returns to its
+    /// position in equilibrium with its small load, and no longer counts as floating.
+    /// @return whether there were any such discs
     bool put_back_caged(std::vector<bool>& floating, const std::vector<Disc>& in_equilibrium) {
         std::vector<std::uint32_t> caged;
         for (std::uint32_t i = 0; i < floating.size(); ++i) {
@@ -266,7 +273,7 @@ DiscAssembly scatter(const std::vector<double>& radii, double height_to_width, i
     std::vector<Disc> discs;
     discs.reserve(radii.size());
     for (const double radius : radii) {
-        // A box narrower than a circle leaves no choice: the middle.
+        // In a box narrower than a circle, only the middle is possible.
         const double free_x = std::max(0.0, width - 2.0 * radius), free_y = std::max(0.0, height - 2.0 * radius);
         const double x = 0.5 * width + (uniform_number(generator) - 0.5) * free_x;
         const double y = 0.5 * height + (uniform_number(generator) - 0.5) * free_y;
@@ -284,7 +291,7 @@ Compression compress(const std::vector<double>& radii, double height_to_width, c
     assembly.sort_spatially();
     Compressor compressor(assembly, target, height_to_width, progress);
     if (!compressor.quench()) return result;
-    // Everybody has found their place: renumber along it, and keep only near neighbours in the list.
+    // The discs are near their final positions, so they are sorted, and the list keeps only close neighbours.
     assembly.sort_spatially();
     assembly.skin = 0.1 * assembly.mean_radius();
     result.converged = compressor.finish(free_box);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One draw of a packing: circles at random places, quenched in a box slightly too small, and the box then opened to the
-// pressure at which the target is met, with its shape kept and the stress made isotropic.
+// One attempt at making a packing. Circles at random positions are quenched in a box that is slightly too small. The
+// box is then expanded at constant shape until the target is met, and the stress is made isotropic.
 // Tested by tests/specimens/packing/packing_test.cpp.
 #pragma once
 
@@ -14,32 +14,32 @@
 
 namespace crackle {
 
-/// One of the two.
+/// Target of a compression; exactly one of the two values is set.
 struct CompressionTarget {
-    std::optional<double> mean_overlap;  ///< m, without the side walls
+    std::optional<double> mean_overlap;  ///< m, over all contacts except those of the side walls
     std::optional<double> void_ratio;
-    /// m: the finished packing will be scaled as a whole to this width, and mean_overlap is meant after that. 0: it
-    /// will not.
+    /// Width to which the finished packing will be scaled, m; mean_overlap refers to the scaled packing. 0: no scaling.
     double final_width = 0.0;
 };
 
-/// Mean overlaps as shares of the mean radius between which packings are made. Below, the equilibrium would drown in
-/// the round-off of the positions; above, discs are no longer bodies that touch.
+/// Limits of the mean overlap, relative to the mean radius. Below the lower limit, round-off errors of positions exceed
+/// the overlaps. Above the upper limit, discs interpenetrate rather than touch.
 inline constexpr double smallest_overlap_share = 1e-5, largest_overlap_share = 0.1;
 
-/// Reports what is being done, and the imbalance reached.
+/// Called with the current stage and imbalance.
 using CompressionCallback = std::function<void(const std::string& stage, double imbalance)>;
 
+/// A packing in equilibrium, with its deviations from the request.
 struct Compression {
     DiscAssembly assembly;
     AssemblySums sums;
-    double aspect_error =
-        0.0;  ///< height / width / asked - 1; not 0 only where exchanging radii could not make it isotropic
-    bool converged = false;  ///< equilibrium and target; else the draw is of no use
+    double aspect_error = 0.0;  ///< height / width / requested aspect - 1; nonzero only if exchanging radii could not
+                                ///< make the stress isotropic
+    bool converged = false;     ///< equilibrium and target were reached; otherwise the attempt is discarded
 };
 
-/// @param free_box the shape may change where the stress cannot be made isotropic otherwise.
-/// @throws InputError for a void ratio out of reach, naming the reachable range.
+/// Makes one attempt. @param free_box  whether the shape may change if the stress cannot be made isotropic otherwise
+/// @throws InputError if the void ratio cannot be reached; the message gives the reachable range
 Compression compress(const std::vector<double>& radii, double height_to_width, const CompressionTarget& target,
                      bool free_box, int threads, std::mt19937_64& generator, const CompressionCallback& progress);
 

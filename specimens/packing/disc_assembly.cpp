@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Neighbour list and force sum of the packer's discs. See the header.
+// Neighbour list and force sums for the packer's discs; see disc_assembly.hpp.
 
 #include "specimens/packing/disc_assembly.hpp"
 
@@ -15,7 +15,7 @@
 namespace crackle {
 namespace {
 
-/// Over the box; a disc pressed beyond a wall belongs to the cell at the wall. @param cell at least this wide, m
+/// Cell grid over the box; a disc beyond a wall belongs to the cell at that wall. @param cell  smallest cell width, m
 CellGrid grid_of(double width, double height, double cell, const std::vector<Disc>& discs) {
     CellLayout layout;
     layout.columns = std::max<std::size_t>(1, static_cast<std::size_t>(width / cell));
@@ -78,7 +78,8 @@ double DiscAssembly::move(const std::function<void(std::size_t begin, std::size_
 }
 
 bool DiscAssembly::list_outdated(double largest_moved_square) const {
-    // In shares of the box a uniform strain moves nothing; what it does to a pair is bounded by their listed distance.
+    // A uniform strain does not change relative positions in the box. It changes a pair's distance by at most the
+    // strain times the largest listed distance.
     const double squeeze = std::max({0.0, 1.0 - width / listed_width_, 1.0 - height / listed_height_});
     const double reach = 2.0 * largest_radius_ + skin;
     return 2.0 * std::sqrt(largest_moved_square) + squeeze * reach >= skin;
@@ -90,7 +91,7 @@ void DiscAssembly::build_list() {
     listed_at_.resize(count);
     listed_width_ = width;
     listed_height_ = height;
-    // Each block of discs finds its own neighbours; then the lists are laid end to end.
+    // Each block of discs finds its own neighbours; the lists are then concatenated.
     list_begin_.resize(count + 1);
     const std::size_t blocks = (count + assembly_block - 1) / assembly_block;
     found_.resize(blocks);
@@ -116,7 +117,7 @@ void DiscAssembly::build_list() {
     std::vector<std::uint32_t> block_begin(blocks + 1, 0);
     for (std::size_t block = 0; block < blocks; ++block)
         block_begin[block + 1] = block_begin[block] + static_cast<std::uint32_t>(found_[block].size());
-    // Whole lanes are read.
+    // Entries are read as whole SIMD vectors, so the arrays are padded.
     neighbours_.resize(block_begin.back() + most_lanes - 1);
     owners_.resize(neighbours_.size());
     list_begin_[0] = 0;

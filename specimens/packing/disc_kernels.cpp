@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces of a block of the packer's discs, compiled once for each instruction set. See disc_assembly.hpp.
+// Forces on a block of the packer's discs, compiled once per instruction set. See disc_assembly.hpp.
 // Tested by tests/specimens/packing/packing_test.cpp.
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace crackle {
 namespace {
 
-/// From entry lane_count - n on: a mask of the first n lanes.
+/// Loading lane_count entries from position lane_count - n gives a mask for the first n lanes.
 constexpr auto first_lanes = [] {
     std::array<LaneBit, std::size_t{2} * lane_count> bits{};
     std::fill_n(bits.begin(), lane_count, LaneBit{-1});
@@ -22,7 +22,7 @@ constexpr auto first_lanes = [] {
 
 }  // namespace
 
-/// Over pairs as listed, so over each from both sides.
+/// Sums over listed pairs; each pair occurs twice, once for each disc.
 struct DiscAssembly::PairSums {
     Pair virial{};
     double overlap = 0.0;
@@ -52,7 +52,7 @@ void DiscAssembly::measure_pairs<InstructionSet::CRACKLE_SET>(std::size_t begin,
             load_as<LaneBits>(first_lanes.data() + lane_count - std::min<std::size_t>(end - first, lane_count));
         const LaneBits touching = (square < reach * reach) & here;
         const Lanes overlap = lanes_of(bits_of(reach - distance) & touching);
-        // Coincident centres have no direction: no force, the neighbours part them.
+        // Discs with coincident centres have no direction and therefore exert no force; their neighbours separate them.
         const Lanes pull = lanes_of(bits_of(overlap / distance) & (distance > 0.0));
         const Lanes pull_x = pull * dx, pull_y = pull * dy;
         PairPush* const push = pushes + (first - begin);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A contact with branch d, normal n, tangent t and force f adds to the Hessian of the enthalpy the block
 //
-//   n nᵀ - (f/|d|) t tᵀ      (stiffness 1; the second term is the force turning with the contact)
+//   n nᵀ - (f/|d|) t tᵀ      (stiffness 1; the second term stems from the rotation of the force with the contact)
 //
-// between its two discs; the same block applied to d couples them to the box scale. See the header.
+// between its two discs. The same block applied to d couples the discs to the scale of the box. See isotropy.hpp.
 
 #include "specimens/packing/isotropy.hpp"
 
@@ -19,13 +19,17 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-// A contact with less than this share of the mean overlap carries nothing: the equilibrium is not sharper.
+// A contact with less than this fraction of the mean overlap counts as carrying no load, because the equilibrium is not
+// more accurate.
 constexpr double carrying_share = 1e-4;
-// Own stiffness of floating discs, in units of a contact's: makes the matrix regular, and moves no other disc.
+// Stiffness given to floating discs, relative to a contact's. It makes the matrix regular and does not affect other
+// discs.
 constexpr double floating_stiffness = 0.05;
-// Added to all diagonals where a disc is about to buckle (matrix not positive definite); grows until it is.
+// Shift added to all diagonal entries if a disc is about to buckle (the matrix is not positive definite). It is
+// increased until the matrix is positive definite.
 constexpr double first_shift = 1e-5, largest_shift = 1.0, shift_growth = 10.0;
-// Exchanged radii differ by at most so many mean overlaps: a few forces change by about their own size.
+// Largest difference between swapped radii, in mean overlaps. With this limit, a few forces change by about their own
+// size.
 constexpr double largest_exchange = 1.5;
 
 struct PairContact {
@@ -36,8 +40,8 @@ struct PairContact {
 
 struct WallContact {
     std::uint32_t i;
-    int axis;     // 0: a side wall, acts along x
-    double sign;  // of the disc's coordinate in the distance: +1 at left and bottom
+    int axis;     // axis of the contact normal; 0 is x, for contacts with side walls
+    double sign;  // derivative of the wall distance with respect to the disc's coordinate: +1 at left and bottom
     double distance, overlap;
 };
 
@@ -62,7 +66,8 @@ void visit_contacts(const DiscAssembly& assembly, const OnPair& on_pair, const O
     }
 }
 
-/// Hessian of the discs, their coupling to ε_x and ε_y, and the Hessian of the strains.
+/// Hessian with respect to the disc positions, their coupling to ε_x and ε_y, and Hessian with respect to these
+/// strains.
 struct System {
     Matrix stiffness;  // lower triangle
     Eigen::MatrixXd coupling;
@@ -112,7 +117,7 @@ System assemble(const DiscAssembly& assembly, const BoxLoad& load, const std::ve
     return system;
 }
 
-/// H⁻¹ applied to (of_discs, of_scale); H is bordered by the one unknown of the box, its scale. The border is
+/// H⁻¹ applied to (of_discs, of_scale). The box adds a single row and column to H, for its scale; this unknown is
 /// eliminated.
 struct Response {
     Eigen::VectorXd of_discs;
@@ -172,7 +177,8 @@ std::vector<bool> find_floating(const DiscAssembly& assembly, const AssemblySums
 std::vector<double> anisotropy_gradient(const DiscAssembly& assembly, const BoxLoad& load, const AssemblySums& sums) {
     const std::vector<bool> floating = find_floating(assembly, sums);
     const System system = assemble(assembly, load, floating);
-    // A virial is minus the derivative of U by its strain, so its derivatives are minus those of the Hessian.
+    // A virial is minus the derivative of U with respect to its strain. Its derivatives are therefore minus the entries
+    // of the Hessian.
     const Response response =
         respond(system, system.coupling.col(1) - system.coupling.col(0), system.box(1, 1) - system.box(0, 0));
     if (!response.found) return {};
@@ -215,11 +221,12 @@ int exchange_radii(DiscAssembly& assembly, const BoxLoad& load, const AssemblySu
 
     struct Exchange {
         std::uint32_t small, large;
-        double change;  // of T
+        double change;  // resulting change of T
     };
     std::vector<Exchange> exchanges;
     const double wanted = sums.virial_y - sums.virial_x, limit = largest_exchange * sums.mean_overlap();
-    // Disjoint pairs: runs of sizes within the limit, each disc of a run's lower half with one of its upper half.
+    // Forms disjoint pairs: within each run of similar sizes, a disc of the lower half is paired with a disc of the
+    // upper half.
     for (std::size_t first = 0; first < by_size.size();) {
         std::size_t end = first + 1;
         while (end < by_size.size() && radius(by_size[end]) - radius(by_size[first]) <= limit) ++end;
@@ -231,7 +238,8 @@ int exchange_radii(DiscAssembly& assembly, const BoxLoad& load, const AssemblySu
         }
         first = end;
     }
-    // The most effective first: fewest circles disturbed. One that would overshoot by more than it helps is left out.
+    // The most effective swaps come first, so that as few circles as possible are disturbed. Swaps that would overshoot
+    // by more than they help are skipped.
     std::sort(exchanges.begin(), exchanges.end(), [](const Exchange& a, const Exchange& b) {
         return std::abs(a.change) != std::abs(b.change) ? std::abs(a.change) > std::abs(b.change) : a.small < b.small;
     });

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Isotropic stress in a box of given shape. A few hundred random circles, compressed in a box that keeps its shape,
-// carry about 5 % more stress in one direction than in the other, by chance. Straining the box would cure that at the
-// price of its shape (by near a hundredth: such packings are soft in shear). Here circles of nearly equal size trade
-// places instead: an exchange of radii that differ by about a mean overlap changes a few forces and leaves the sizes,
-// the box and the network as they were.
+// Makes the stress isotropic in a box of given shape. A few hundred random circles compressed in a box of fixed shape
+// carry, by chance, about 5 % more stress in one direction than in the other. Straining the box would remove the
+// difference but change its shape by almost one percent, since such packings are soft in shear. Instead, circles of
+// nearly equal size swap places. Swapping radii that differ by about a mean overlap changes a few forces but keeps the
+// size distribution, the box and the contact network.
 //
-// Which exchanges help is read off the linear response: with z the positions and the box scale, H the Hessian of the
-// enthalpy and g its gradient,
+// The linear response shows which swaps help. Let z be the positions and the box scale, H the Hessian of the enthalpy
+// and g its gradient:
 //
 //   dT/dr_i = ∂T/∂r_i - (H⁻¹ ∂T/∂z)·∂g/∂r_i,      T = virial_x - virial_y
 //
-// one sparse factorisation (LDLᵀ) for all circles.
+// This requires one sparse factorisation (LDLᵀ) for all circles.
 // Tested by tests/specimens/packing/packing_test.cpp.
 #pragma once
 
@@ -20,20 +20,19 @@
 
 namespace crackle {
 
-/// (σx - σy)/(σx + σy) of an assembly.
+/// Relative difference of the stresses, (σx - σy)/(σx + σy).
 double stress_anisotropy(const AssemblySums& sums);
 
-/// Discs that carry no load: fewer than three contacts of more than a ten-thousandth of the mean overlap, once those
-/// without load are left out.
+/// For each disc, whether it is floating, that is, carries no load. Discs with fewer than three carrying contacts are
+/// removed repeatedly; a contact carries load if its overlap exceeds a ten-thousandth of the mean.
 std::vector<bool> find_floating(const DiscAssembly& assembly, const AssemblySums& sums);
 
-/// dT/dr_i [m] of an assembly in equilibrium under a pressure that keeps the box's shape; 0 for floating discs. Empty
-/// if the stiffness matrix cannot be factorised.
+/// dT/dr_i [m] for each disc of an assembly in equilibrium under a pressure at constant box shape; 0 for floating
+/// discs. Empty if the stiffness matrix cannot be factorised.
 std::vector<double> anisotropy_gradient(const DiscAssembly& assembly, const BoxLoad& load, const AssemblySums& sums);
 
-/// Exchanges radii so that T changes by -(virial_x - virial_y), to first order. The assembly has to be relaxed
-/// afterwards.
-/// @return exchanges made; 0 where the sizes allow none.
+/// Swaps radii so that, to first order, T becomes zero. The assembly must be relaxed afterwards.
+/// @return number of swaps; 0 if the sizes allow none
 int exchange_radii(DiscAssembly& assembly, const BoxLoad& load, const AssemblySums& sums);
 
 }  // namespace crackle

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a request to a scene: checks the request, chooses the count for a box, draws packings until one meets it.
+// Makes a packing: checks the request, chooses the number of circles for a box, and draws packings until one is
+// accepted.
 
 #include "specimens/packing/packing.hpp"
 
@@ -18,13 +19,14 @@ namespace crackle {
 namespace {
 
 constexpr int max_attempts = 12;
-// Where the count for a box is first looked for, from packings of 304 and 5,000 circles, radii 1 to 2: walls cost room
-// in proportion to their length. The packing drawn then shows what the sizes at hand really fill.
+// Initial estimate of the fraction of a box that circles fill, from packings of 304 and 5,000 circles with radii from 1
+// to 2. Walls reduce it in proportion to their length. The first packing then gives the actual value for the requested
+// sizes.
 constexpr double fill_without_walls = 0.849, fill_lost_beside_walls = 0.2;
 constexpr int size_samples = 20'000;
 
 struct SizeMoments {
-    double mean = 0.0, mean_square = 0.0;  // m, m2
+    double mean = 0.0, mean_square = 0.0;  // mean radius, m, and mean square, m2
     double largest = 0.0;
 };
 
@@ -57,10 +59,11 @@ void check(const PackingRequest& request) {
                                      request.count ? "a count and a width or height" : "neither"));
     }
     if (!request.count && request.height_to_width) {
-        throw InputError("height_to_width: found beside width and height, expected only with a count; remove it");
+        throw InputError(
+            "height_to_width: found with width and height, but it has an effect only with a count; remove it");
     }
     if (request.mean_overlap.has_value() == request.void_ratio.has_value()) {
-        throw InputError(fmt::format("target of the packing: found {}, expected one of mean_overlap and void_ratio",
+        throw InputError(fmt::format("target of the packing: found {}, expected either mean_overlap or void_ratio",
                                      request.mean_overlap ? "both" : "none"));
     }
     if (request.count && (*request.count < min_packing_circles || *request.count > max_packing_circles)) {
@@ -73,7 +76,7 @@ void check(const PackingRequest& request) {
         const double smallest = smallest_overlap_share * size.mean, largest = largest_overlap_share * size.mean;
         if (*request.mean_overlap < smallest || *request.mean_overlap > largest) {
             throw InputError(
-                fmt::format("mean_overlap: found {} m, expected {:.3g} to {:.3g} m (of the mean radius {:.3g} m)",
+                fmt::format("mean_overlap: found {} m, expected {:.3g} to {:.3g} m (the mean radius is {:.3g} m)",
                             *request.mean_overlap, smallest, largest, size.mean));
         }
     }
@@ -94,18 +97,19 @@ std::mt19937_64 stream(std::uint64_t seed, int attempt) {
     return std::mt19937_64(sequence);
 }
 
-/// Circles that fill a share of the box; never fewer than a packing needs.
+/// Number of circles that fill a given fraction of the box.
+/// @throws InputError if it is outside the limits for a packing
 std::size_t count_for_box(const PackingRequest& request, double mean_square, double fill) {
     const double count = std::round(fill * *request.width * *request.height / (std::numbers::pi * mean_square));
     if (count < static_cast<double>(min_packing_circles) || count > static_cast<double>(max_packing_circles)) {
         throw InputError(fmt::format(
-            "width, height: found {} x {} m, which takes about {:.0f} circles of these sizes, expected {} to {}",
+            "width, height: found {} x {} m, which needs about {:.0f} circles of these sizes, expected {} to {}",
             *request.width, *request.height, count, min_packing_circles, max_packing_circles));
     }
     return static_cast<std::size_t>(count);
 }
 
-/// How far a draw is from what was asked, in units of what is allowed: at most 1 is good.
+/// Deviation of an attempt from the request, divided by the allowed deviation; at most 1 if accepted.
 double shortfall(const Compression& draw, double radius_scale) {
     return std::max({std::abs(stress_anisotropy(draw.sums)) / max_anisotropy,
                      std::abs(draw.aspect_error) / max_aspect_error,
@@ -173,8 +177,7 @@ Packing make_packing(const PackingRequest& request, const PackingCallback& progr
     }
     if (!best) {
         throw InputError(fmt::format(
-            "packing: found no equilibrium in {} draws; expected sizes and a target that discs can carry load "
-            "with; try more circles, another seed, or a larger mean overlap",
+            "packing: found no equilibrium in {} attempts; try more circles, another seed, or a larger mean overlap",
             attempts));
     }
 

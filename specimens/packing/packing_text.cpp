@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Layout: a line with the XXH3 (64 bits) of what follows, a JSON object.
+// Text form of a packing: one line with the XXH3 hash (64 bits) of the rest, then a JSON object.
 #include "specimens/packing/packing_text.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -13,8 +14,31 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double smallest_length = 1e-30, largest_length = 1e30;  // m
+
 std::string first_line(std::string_view rest) {
     return fmt::format("crackle packing {:016x}\n", XXH3_64bits(rest.data(), rest.size()));
+}
+
+bool is_length(const Json& value) { return value.is_number() && value >= smallest_length && value <= largest_length; }
+
+/// Whether the object has all entries that packing_text() writes, with values that fit a box. A text with a correct
+/// hash may still fail.
+bool is_packing(const Json& json) {
+    if (!json.is_object()) return false;
+    for (const char* key : {"width", "height", "radius_scale"})
+        if (!json.contains(key) || !is_length(json[key])) return false;
+    for (const char* key : {"size_distance", "aspect_error"})
+        if (!json.contains(key) || !json[key].is_number()) return false;
+    if (!json.contains("attempts") || !json["attempts"].is_number_integer()) return false;
+    if (!json.contains("box_met") || !json["box_met"].is_boolean()) return false;
+    if (!json.contains("circles") || !json["circles"].is_array() || json["circles"].empty()) return false;
+    const double width = json["width"], height = json["height"];
+    return std::ranges::all_of(json["circles"], [&](const Json& circle) {
+        if (!circle.is_array() || circle.size() != 3) return false;
+        if (!circle[0].is_number() || !circle[1].is_number() || !is_length(circle[2])) return false;
+        return circle[0] >= 0.0 && circle[0] <= width && circle[1] >= 0.0 && circle[1] <= height;
+    });
 }
 
 }  // namespace
@@ -41,7 +65,8 @@ std::optional<Packing> packing_of_text(const std::string& text, const Material& 
     if (line == std::string::npos) return std::nullopt;
     const std::string_view rest = std::string_view(text).substr(line + 1);
     if (std::string_view(text).substr(0, line + 1) != first_line(rest)) return std::nullopt;
-    const Json json = Json::parse(rest, nullptr, false);  // whole by its hash: as it was written
+    const Json json = Json::parse(rest, nullptr, false);
+    if (!is_packing(json)) return std::nullopt;
     std::vector<CircleElement> circles;
     for (const Json& circle : json.at("circles"))
         circles.push_back({.centre = {circle.at(0), circle.at(1)}, .radius = circle.at(2), .angle = 0.0});

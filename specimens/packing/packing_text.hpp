@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A packing as one text, and back from it to the same bits: tests that start from the same circles pack them once.
+// Converts a packing to text and back without loss, so that tests with the same circles can share one packing.
 // Tested by tests/specimens/packing/packing_text_test.cpp.
 #pragma once
 
@@ -10,11 +10,13 @@
 
 namespace crackle {
 
-/// What follows neither from the circles nor from the material, and the circles.
+/// Text with the circles, and with those parts of the report that follow neither from the circles nor from the
+/// material.
 std::string packing_text(const Packing& packing);
 
-/// @param material, threads  of the scene; the report's stresses follow from them
-/// @return nothing if the text is not, byte for byte, one that packing_text() made
+/// Restores a packing.
+/// @param material, threads  as in PackingRequest; the stresses in the report follow from the material
+/// @return empty if the text is not, byte for byte, an output of packing_text()
 std::optional<Packing> packing_of_text(const std::string& text, const Material& material, int threads);
 
 }  // namespace crackle

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// FIRE 2.0 (J. Guénolé et al., Comput. Mater. Sci. 175, 109584, 2020): semi-implicit Euler; the velocity is turned
-// towards the force while the power F·v is positive, and dropped with half a step back when it is not. Drag: the same
-// Euler step with the velocity shrunk by γ times the step. The box strains are coordinates like the positions (Q = c·ε,
-// with c² = 8 Σr² so that a unit of Q is about as stiff as a contact); positions follow the box.
+// FIRE 2.0 (J. Guénolé et al., Comput. Mater. Sci. 175, 109584, 2020) uses semi-implicit Euler steps. While the power
+// F·v is positive, the velocity is turned towards the force. Otherwise, positions move back by half a step and the
+// velocity is set to zero. The drag method takes the same Euler step with the velocity multiplied by 1 - γ·step. The
+// box strains are coordinates like the positions (Q = c·ε, where c² = 8 Σr² makes a unit of Q about as stiff as a
+// contact). Positions move with the box.
 
 #include <algorithm>
 #include <cmath>
@@ -14,27 +15,32 @@
 namespace crackle {
 namespace {
 
-// Stiffness is 1 and masses are about 1, so these are in units of a contact's sqrt(m/k). A disc with six contacts
-// oscillates at up to about 2.4, stable to a step of 0.8; less leaves room for large discs among many small ones.
+// Stiffness is 1 and masses are about 1, so time steps are in units of a contact's sqrt(m/k). A disc with six contacts
+// oscillates at an angular frequency of up to about 2.4, which is stable for steps up to 0.8. A smaller step leaves a
+// margin for large discs among many small ones.
 constexpr double first_step = 0.1, largest_step = 0.5, smallest_step = 0.002;
 constexpr double step_growth = 1.1, step_cut = 0.5;
-constexpr double first_turn = 0.2, turn_decay = 0.99;  // α of the papers
+constexpr double first_turn = 0.2, turn_decay = 0.99;  // α in the papers
 constexpr int passes_before_growth = 10;
-constexpr int passes_between_reports = 200;
+// Number of force computations between two progress reports, and number of discs computed in all of them together:
+// about a tenth of a second.
+constexpr int most_passes_between_reports = 200;
+constexpr std::size_t discs_between_reports = 1'000'000;
 
-// Drag γ times the longer side in mean diameters. Waves of that length are damped critically at γ = 2ω; with this one
-// 20,000 and 50,000 discs took fewest passes (half as many as with three times or twice the drag).
+// Drag coefficient γ multiplied by the longer side of the box in mean diameters. Waves of that length are critically
+// damped at γ = 2ω. With this value, packings of 20,000 and 50,000 discs took the fewest force computations (half as
+// many as with two or three times the drag).
 constexpr double drag_times_length = 2.0;
-// Then FIRE takes over; 50,000 discs take 5,800 at most.
+// Number of force computations after which FIRE replaces the drag method; 50,000 discs take at most 5,800.
 constexpr int drag_passes = 100'000;
 
-// Mean overlap below this share of the mean radius in a fixed box: the discs have parted, or will.
+// Mean overlap, relative to the mean radius, below which discs in a fixed box have separated or are about to.
 constexpr double loose_overlap = 1e-9;
 
-/// What a pass does to the velocities: v ← (1 - turn)(keep·v + step·a) + turn·|v|·a/|a|, and to the places before.
+/// Velocity update of one step: v ← (1 - turn)(keep·v + step·a) + turn·|v|·a/|a|.
 struct Kick {
     double step, turn, keep;
-    double back = 0.0;  // places go back by so much of the former velocity
+    double back = 0.0;  // positions first move back by this multiple of the old velocity
 };
 
 struct Dynamics {
@@ -47,7 +53,7 @@ struct Dynamics {
     Dynamics(DiscAssembly& discs, const BoxLoad& box_load) : assembly(discs), load(box_load) {
         double squares = 0.0;
         motion.velocity.resize(assembly.discs.size());
-        // Larger discs have more neighbours: a mass in proportion keeps their frequencies down.
+        // Larger discs have more neighbours. Their mass grows with the radius, which limits their frequencies.
         for (const Disc& disc : assembly.discs) {
             motion.inverse_mass.push_back(1.0 / (0.5 + 0.5 * disc.radius / assembly.mean_radius()));
             squares += disc.radius * disc.radius;
@@ -69,7 +75,7 @@ struct Dynamics {
         return {both, both};
     }
 
-    /// @return see DiscAssembly::move()
+    /// Takes one step. @return as in DiscAssembly::move()
     double advance(const AssemblySums& sums, const Vec2& on_box, const Kick& kick) {
         const double step = kick.step, turn = kick.turn, keep = kick.keep, back = kick.back;
         const double pull_square = sums.pull_square + dot(on_box, on_box);
@@ -97,7 +103,7 @@ struct Dynamics {
     }
 };
 
-/// Adapts step and turn to the power.
+/// Adapts the time step and the turning factor to the power.
 struct Fire {
     double step = first_step, turn = first_turn;
     int downhill = 0;
@@ -140,6 +146,8 @@ RelaxationResult relax(DiscAssembly& assembly, const BoxLoad& load, double toler
     Fire fire;
     const double drag = drag_times_length * 2.0 * assembly.mean_radius() / std::max(assembly.width, assembly.height);
     const bool drags = assembly.discs.size() >= drag_from && load.freedom != BoxFreedom::fixed;
+    const int passes_between_reports =
+        std::clamp(static_cast<int>(discs_between_reports / assembly.discs.size()), 1, most_passes_between_reports);
     RelaxationResult result;
     std::optional<double> moved_square;
     for (int pass = 0; pass < max_passes; ++pass) {

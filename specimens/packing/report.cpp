@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Measures a packing from its scene alone, so that the figures are those of what was written and not of what was meant.
+// Measures a packing from its scene alone, so that the report describes the result rather than the request.
 // Tested by tests/specimens/packing/packing_test.cpp.
 
 #include <fmt/format.h>
@@ -43,7 +43,7 @@ PackingReport measure_packing(const Scene& scene, const SizeDistribution& sizes)
     report.mean_overlap = sums.mean_platen_overlap();
 
     const double stiffness = scene.materials.at(0).normal_stiffness;
-    double wall_force[4] = {0.0, 0.0, 0.0, 0.0};  // with stiffness 1, m
+    double wall_force[4] = {0.0, 0.0, 0.0, 0.0};  // m, at stiffness 1
     for (std::size_t i = 0; i < assembly.discs.size(); ++i) {
         const Disc& disc = assembly.discs[i];
         bool touched = false;
@@ -55,7 +55,7 @@ PackingReport measure_packing(const Scene& scene, const SizeDistribution& sizes)
             touched = true;
             if (*j > i) ++report.circle_contacts;
         }
-        const double distance[4] = {disc.x, report.width - disc.x, disc.y, report.height - disc.y};  // by Wall
+        const double distance[4] = {disc.x, report.width - disc.x, disc.y, report.height - disc.y};  // indexed by Wall
         for (int wall = 0; wall < 4; ++wall) {
             if (distance[wall] >= disc.radius) continue;
             touched = true;
@@ -84,20 +84,20 @@ PackingReport measure_packing(const Scene& scene, const SizeDistribution& sizes)
 std::vector<std::string> packing_notices(const PackingReport& r) {
     std::vector<std::string> notices;
     if (!r.isotropic) {
-        notices.push_back(fmt::format(
-            "the stresses of the packing differ: |sx - sy|/(sx + sy) = {:.2g}, above {}; more circles, or a box less "
-            "than a few of them narrow, would meet it",
-            r.anisotropy, max_anisotropy));
+        notices.push_back(
+            fmt::format("the stresses of the packing differ: |sx - sy|/(sx + sy) = {:.2g}, above {}; use more circles, "
+                        "or a box that is wider than a few of them",
+                        r.anisotropy, max_anisotropy));
     }
     if (std::abs(r.aspect_error) > max_aspect_error) {
         notices.push_back(fmt::format(
-            "the box misses the asked height over width by {:.2g} of it; more circles would meet it", r.aspect_error));
+            "the ratio of height to width of the box differs from the requested one by {:.2g} %; use more circles",
+            100.0 * r.aspect_error));
     }
     if (std::abs(r.radius_scale - 1.0) > max_radius_scaling) {
-        notices.push_back(
-            fmt::format("radii were multiplied by {:.4f} to fill the box, beyond {} of the asked sizes; more circles "
-                        "would meet them",
-                        r.radius_scale, max_radius_scaling));
+        notices.push_back(fmt::format(
+            "radii were multiplied by {:.4f} to fill the box, by more than {} of the requested sizes; use more circles",
+            r.radius_scale, max_radius_scaling));
     }
     return notices;
 }

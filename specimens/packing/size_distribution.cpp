@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quantiles and cumulative curves in closed form, so that a sample is one formula a circle. See the header for the
-// model.
+// Quantiles and cumulative distributions in closed form, so that each circle needs one evaluation.
+// size_distribution.hpp describes the distributions.
 
 #include "specimens/packing/size_distribution.hpp"
 
@@ -34,13 +34,14 @@ bool positive(double value) { return value > 0.0 && std::isfinite(value); }
     throw InputError(fmt::format("{}: found {}, expected {}", key, found, expected));
 }
 
-/// Inverse of Φ; ±infinity has no circle, so the ends stay where doubles still distinguish shares.
+/// Inverse of the standard normal distribution Φ. Probabilities are limited to values that doubles distinguish from 0
+/// and 1, so the result is finite.
 double normal_quantile(double probability) {
     const double share = std::clamp(probability, std::numeric_limits<double>::min(), 1.0 - 0x1p-53);
     return correctly_rounded::normal_quantile(share);
 }
 
-/// Shares of the untruncated distribution below its two cut-offs.
+/// Fractions of the untruncated distribution below the two truncation limits.
 struct CutOff {
     double below_min, below_max;
 };
@@ -53,8 +54,9 @@ CutOff cut_off(const LognormalRadii& sizes) {
             sizes.radius_max > 0.0 ? share(sizes.radius_max) : 1.0};
 }
 
-/// Number of circles between the lower end of a sieve interval and `size`, for a unit of mass density: slope is the
-/// mass share per ln(size); N = slope/2·(a⁻² - size⁻²).
+/// Number of circles between the lower end a of a sieve interval and `size`, for unit mass per area:
+///     N = slope/2·(a⁻² - size⁻²)
+/// where slope is the increase of the mass fraction per unit of ln(size).
 double number_in_interval(const SievePoint& a, const SievePoint& b, double size) {
     const double slope = (b.passing_by_mass - a.passing_by_mass) / correctly_rounded::log(b.size / a.size);
     return 0.5 * slope * (1.0 / (a.size * a.size) - 1.0 / (size * size));
@@ -92,34 +94,36 @@ double sieve_share_below(const SieveCurve& curve, double radius) {
     return number / total_number(curve);
 }
 
-// Sizes: squares of these are numbers, and ratios of neighbouring ones have a logarithm.
+// Limits for sieve sizes. Within them, squares are representable and ratios of adjacent sizes have a nonzero logarithm.
 constexpr double least_sieve = 1e-30, largest_sieve = 1e30, least_growth = 1e-9;
 
 void validate_sieve(const SieveCurve& curve) {
     if (curve.points.size() < 2)
-        throw InputError("sieve curve: found fewer than two points, expected at least the sizes with shares 0 and 1");
+        throw InputError(
+            "sieve curve: found fewer than two points, expected at least the sizes with fractions 0 and 1");
     for (std::size_t k = 0; k < curve.points.size(); ++k) {
         const SievePoint& point = curve.points[k];
         const std::string where = fmt::format("sieve curve: point {}", k + 1);
         if (!(point.size >= least_sieve && point.size <= largest_sieve))
             refuse(where + ": size", point.size, "a diameter > 0 in m");
         if (!(point.passing_by_mass >= 0.0 && point.passing_by_mass <= 1.0)) {
-            refuse(where + ": passing_by_mass", point.passing_by_mass, "a share from 0 to 1");
+            refuse(where + ": passing_by_mass", point.passing_by_mass, "a fraction from 0 to 1");
         }
         if (k == 0) continue;
         if (!(point.size > (1.0 + least_growth) * curve.points[k - 1].size))
             refuse(where + ": size", point.size, "sizes that increase from row to row");
         if (point.passing_by_mass < curve.points[k - 1].passing_by_mass) {
-            refuse(where + ": passing_by_mass", point.passing_by_mass, "shares that do not decrease from row to row");
+            refuse(where + ": passing_by_mass", point.passing_by_mass,
+                   "fractions that do not decrease from row to row");
         }
     }
     if (curve.points.front().passing_by_mass != 0.0) {
         refuse("sieve curve: first passing_by_mass", curve.points.front().passing_by_mass,
-               "0: the curve begins at the size below which there is nothing");
+               "0: the curve begins at the size below which there are no circles");
     }
     if (curve.points.back().passing_by_mass != 1.0) {
         refuse("sieve curve: last passing_by_mass", curve.points.back().passing_by_mass,
-               "1: the curve ends at the size that everything passes");
+               "1: the curve ends at a sieve size that all circles pass");
     }
 }
 
@@ -149,9 +153,9 @@ void validate(const SizeDistribution& sizes) {
                               }
                               const CutOff cut = cut_off(lognormal);
                               if (cut.below_max - cut.below_min < 1e-3) {
-                                  refuse("radius_min to radius_max: share of the lognormal distribution",
+                                  refuse("radius_min to radius_max: fraction of the lognormal distribution",
                                          cut.below_max - cut.below_min,
-                                         "at least 0.001; move the cut-offs to where the distribution is");
+                                         "at least 0.001; choose cut-offs that contain more of the distribution");
                               }
                           },
                           [](const SieveCurve& curve) { validate_sieve(curve); }},
@@ -207,7 +211,7 @@ double kolmogorov_distance(const SizeDistribution& sizes, std::vector<double> ra
     for (std::size_t k = 0; k < radii.size();) {
         std::size_t end = k;
         while (end < radii.size() && radii[end] == radii[k]) ++end;
-        // Just below and at a value; a distribution of one size jumps there itself.
+        // Both sides of each value are evaluated, because the distribution of a single size has a step there.
         const double below = share_below(sizes, std::nextafter(radii[k], 0.0)), at = share_below(sizes, radii[k]);
         distance = std::max({distance, std::abs(below - static_cast<double>(k) / count),
                              std::abs(at - static_cast<double>(end) / count)});
@@ -218,7 +222,7 @@ double kolmogorov_distance(const SizeDistribution& sizes, std::vector<double> ra
 
 SieveCurve read_sieve_curve(const std::filesystem::path& path) {
     constexpr const char* expected_heading = "the column names size,passing_by_mass";
-    const std::string text = read_text(path);
+    const std::string text = read_text(path, most_bytes_of_table);
     refuse_foreign(path.string(), text, fmt::format("a table with {}", expected_heading));
     TableReader reader(path.string(), text, TableReader::Form::table);
     reader.read_heading(expected_heading);

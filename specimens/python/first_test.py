@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A first test: the guide's circles, pulled until they break.
+"""A first test: the DEMseg guide's example rock, made of circles, is pulled until it breaks.
 
   PYTHONPATH=build/release/python /usr/bin/python3 specimens/python/first_test.py
 
-What must come out stands below.
+The expected output is at the end of this file.
 """
 import crackle
 

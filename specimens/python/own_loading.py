@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Loading by a rule of one's own: a saw-tooth, each tooth higher than the last, until the specimen is through.
+"""Custom loading: the strain follows a saw-tooth, with four teeth of growing height.
 
   PYTHONPATH=build/release/python /usr/bin/python3 specimens/python/own_loading.py
 
-The modulus of each unloading shows the damage. The platen slows down before it turns, over a stress wave's way through
-the specimen: a speed that jumps sends a shock. What must come out stands below.
+The modulus of each unloading shows the damage. The platen's speed changes gradually, because a jump would send a shock
+wave through the specimen. The expected output is at the end of this file.
 """
 import crackle
 
@@ -12,7 +12,7 @@ CASE = {"include": "specimens/guide_rock/circles_compression.toml",
         "packing": {"count": 150},
         "loading": {"axial_strain_rate": 0.0005, "rate_tolerance": None, "max_axial_strain": 0.02},
         "output": {"curve_rows": 2000, "frames": 1}}
-TOOTH = 5e-4  # of strain, each higher by so much
+TOOTH = 5e-4  # strain, by which each tooth is higher than the one before
 
 
 class SawTooth:
@@ -24,15 +24,15 @@ class SawTooth:
             self.speed = state.platen_speed
         row = state.row()
         strain, stress = row["axial_strain"], row["axial_stress"]
-        if self.sense > 0.0 and strain >= self.top:  # the top of a tooth: go back
+        if self.sense > 0.0 and strain >= self.top:  # top of a tooth: unload
             self.sense, self.start = -1.0, (strain, stress)
-        elif self.sense < 0.0 and stress <= 0.3 * self.start[1]:  # its foot: on to the next
+        elif self.sense < 0.0 and stress <= 0.3 * self.start[1]:  # foot of a tooth: load to the next top
             self.slopes.append(((self.start[1] - stress) / (self.start[0] - strain), strain))
             self.sense, self.top = 1.0, self.top + TOOTH
             if len(self.slopes) == 4:
                 state.stop()
         wanted = self.sense * self.speed
-        state.platen_speed += 0.05 * (wanted - state.platen_speed)  # smoothly
+        state.platen_speed += 0.05 * (wanted - state.platen_speed)  # change the speed gradually
 
 
 if __name__ == "__main__":

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A measure of one's own: the fabric tensor of the bonds over strain.
+"""A custom measure: the fabric tensor of the bonds as a function of strain.
 
   PYTHONPATH=build/release/python /usr/bin/python3 specimens/python/own_observer.py
 
-F = (1/N) sum n n over the normals n of the N bonds that hold; its anisotropy, 2 (F1 - F2), is 0 where normals have no
-preferred direction and 2 where all have one (Satake, in: Deformation and Failure of Granular Materials, 1982). In
-tension bonds along the pull break first, and the fabric turns away from it. What must come out stands below.
+F = (1/N) sum n n over the normals n of the N intact bonds. Its anisotropy, 2 (F1 - F2), is 0 if the normals have no
+preferred direction and 2 if all are parallel (Satake, in: Deformation and Failure of Granular Materials, 1982). In
+tension, bonds along the direction of loading break first, and the major axis turns away from it. The expected output is
+at the end of this file.
 """
 import numpy
 

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A figure for a paper with matplotlib: curve, breaks and the broken specimen, a journal's column wide.
+"""A figure for a paper with matplotlib: curve, breaks and the broken specimen, as wide as a journal's column.
 
   PYTHONPATH=build/release/python /usr/bin/python3 specimens/python/paper_figure.py
 
-Writes paper_figure.pdf. Figures without matplotlib: result.figure("curve", "specimen"), crackle.plot.
+Writes paper_figure.pdf. For figures without matplotlib, see result.figure("curve", "specimen") and crackle.plot.
 """
 import matplotlib
 
@@ -34,7 +34,7 @@ if __name__ == "__main__":
     left.set_ylim(0)
 
     moved = []
-    for k, outline in enumerate(cells.outline):  # platens are chains without an outline of their own to fill
+    for k, outline in enumerate(cells.outline):  # platens are open chains, which have no area to fill
         if not cells.platen[k]:
             moved.append([(x + end.ux[k], y + end.uy[k]) for x, y in outline])
     right.add_collection(PolyCollection(moved, facecolors="0.85", edgecolors="k", linewidths=0.2))

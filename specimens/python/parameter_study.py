@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A parameter study in ten lines: what friction does to the strength in compression.
+"""A parameter study in ten lines: the effect of friction on the compressive strength.
 
   PYTHONPATH=build/release/python /usr/bin/python3 specimens/python/parameter_study.py
 
-For many packings and processors there is crackle.campaign. What must come out stands below.
+For many packings and processors, use crackle.campaign. The expected output is at the end of this file.
 """
 import crackle
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which drawn cell a body's contact belongs to.
+// Finds the cell to which a contact of a body belongs.
 // Tested by tests/tools/commands/view_test.cpp.
 #pragma once
 
@@ -12,8 +12,10 @@
 
 namespace crackle {
 
+/// Finds the cells of a body by the body's id.
 class CellFinder {
   public:
+    /// @param cells  cells of a recording, at their positions in the first frame
     explicit CellFinder(const std::vector<RecordedCell>& cells) {
         for (const RecordedCell& cell : cells) {
             of_id_.emplace(cell.id, static_cast<std::int32_t>(places_.size()));
@@ -21,7 +23,8 @@ class CellFinder {
         }
     }
 
-    /// A body's cell; of a clump the circle that lay nearest to `place` in the first frame. @return -1: no such body
+    /// Index of a body's cell; for a clump, that of the circle nearest to `place` in the first frame.
+    /// @return -1 if there is no such body
     std::int32_t find(int id, Vec2 place) const {
         double nearest = std::numeric_limits<double>::infinity();
         std::int32_t found = -1;
@@ -36,6 +39,7 @@ class CellFinder {
         return found;
     }
 
+    /// Whether a body is a circle or a clump of circles; false for an unknown one.
     bool is_circle(int id) const {
         const auto entry = of_id_.find(id);
         return entry != of_id_.end() && places_[static_cast<std::size_t>(entry->second)].radius > 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stress-strain curve of a table of results as points, and what it has at a strain.
+// Converts the stress-strain curve of a results table to a list of points, and finds the stress at a given strain.
 // Tested by tests/specimens/recordings/curve_points_test.cpp.
 #pragma once
 
@@ -11,12 +11,12 @@
 
 namespace crackle {
 
-using CurvePoints = std::vector<std::pair<double, double>>;  ///< strain, stress
+using CurvePoints = std::vector<std::pair<double, double>>;  ///< pairs of strain and stress
 
-/// Rows that have both; none where the table lacks axial_strain or axial_stress.
+/// Points of the rows that have both values; empty if the table has no column axial_strain or axial_stress.
 CurvePoints strain_and_stress(const NumberTable& table);
 
-/// Where a curve first comes to a strain, between its points; not a number where it never does.
+/// Stress where a curve first reaches a strain, linearly interpolated; NaN if it never does.
 double stress_at(std::span<const std::pair<double, double>> curve, double strain);
 
 }  // namespace crackle

@@ -22,14 +22,16 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t largest_step = std::numeric_limits<std::int64_t>::max();
 
-/// When a step was done. The time step may have been lowered on the way, so that one factor would not do.
+/// Converts step numbers to times. A single factor is not enough, because the time step may have been reduced during
+/// the run.
 class StepTimes {
   public:
     explicit StepTimes(const std::vector<DeckFrameFile::Head>& frames) : frames_(frames) {}
 
     bool known() const { return frames_.size() > 1; }
 
-    /// Beyond the frames as between the two nearest; the step itself where the times are not known.
+    /// Time of a step. Outside the range of the frames, it is extrapolated from the two nearest frames. If the times
+    /// are unknown, the step number itself is returned.
     double at(std::int64_t step) const {
         if (!known()) return static_cast<double>(step);
         const auto later = [&](const DeckFrameFile::Head& head) { return head.step < step; };
@@ -46,7 +48,7 @@ class StepTimes {
     const std::vector<DeckFrameFile::Head>& frames_;
 };
 
-/// Calls `read(reader)` for each complete row.
+/// Calls `read(reader)` for each complete row of a file.
 template <class Read>
 void read_rows(const fs::path& file, const Read& read) {
     if (!is_there(file)) return;
@@ -64,14 +66,14 @@ void read_rows(const fs::path& file, const Read& read) {
     }
 }
 
-/// The row's step, which follows that of the row before.
+/// Reads the step number of a row, which must be larger than that of the previous row.
 std::int64_t read_step(DeckReader& words, std::int64_t& last) {
     const std::int64_t step = words.integer("step", 0, largest_step);
     if (step <= last) words.refuse("step", fmt::format("one after step {}", last));
     return last = step;
 }
 
-/// The curve of the body whose number is read next.
+/// Reads the id of a body and returns the curve of that body.
 template <class Curve>
 Curve& curve_of_body(DeckReader& words, std::vector<Curve>& all) {
     const int id = static_cast<int>(words.integer("body", 1, std::numeric_limits<int>::max()));
@@ -82,7 +84,7 @@ Curve& curve_of_body(DeckReader& words, std::vector<Curve>& all) {
     return all.back();
 }
 
-/// Rows of several bodies, those of a step one after the other.
+/// Reads rows of several bodies. Rows of the same step are consecutive.
 template <class Curve, class Read>
 std::vector<Curve> read_bodies(const fs::path& file, const StepTimes& times, const Read& read) {
     std::vector<Curve> all;

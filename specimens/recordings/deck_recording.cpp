@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The outputs of a deck run as a recording: frames of output.dat, cont.dat and cont2.dat, and curves (deck_curves.hpp).
+// Reads the output of a deck's run as a recording: frames from output.dat, cont.dat and cont2.dat, and curves
+// (deck_curves.hpp).
 //
-// They hold places and forces only. Velocities are those between two frames; a chain is taken to turn by less than half
-// a turn from one to the next. Stress of a body: σ = -1/A Σ f ⊗ (x - x_c), symmetrised, dashpots included, compression
-// positive; f the forces on it, A its area (of a clump the sum of its circles, as for its mass).
+// These files contain only positions and forces. Velocities are computed from consecutive frames; a chain is assumed to
+// rotate by less than half a turn between them. The stress of a body is σ = -1/A Σ f ⊗ (x - x_c), symmetrised,
+// compression positive. Here f are the forces on the body, including dashpots, and A is its area. For a clump, A is the
+// sum of its circles' areas, as in the computation of its mass.
 //
-// Bonds are the contacts that have a back-tension in the first frame. Which of them one of a later frame is follows
-// from its bodies, its back-tension, which stays as it is until the bond breaks, and its place: equal ones of a face
-// lie apart. Tested by tests/tools/commands/view_test.cpp.
+// Bonds are the contacts with a back-tension in the first frame. A bond is recognised in a later frame by its bodies,
+// its back-tension and its position. The back-tension is constant until the bond breaks. Points of a face with equal
+// back-tension are far apart.
+// Tested by tests/tools/commands/view_test.cpp.
 
 #include <fmt/format.h>
 
@@ -49,7 +52,8 @@ std::vector<Chain> joined(const std::vector<DeckSegment>& segments) {
     }
     for (Chain& chain : chains) {
         const Vec2 first = chain.points.front(), last = chain.points.back();
-        chain.closed = chain.points.size() > 3 && first.x == last.x && first.y == last.y;  // both of one corner
+        // The last point repeats the first.
+        chain.closed = chain.points.size() > 3 && first.x == last.x && first.y == last.y;
         if (chain.closed) chain.points.pop_back();
     }
     return chains;
@@ -60,7 +64,7 @@ double direction(const Chain& chain) {
     return correctly_rounded::atan2(first.y, first.x);
 }
 
-/// Shoelace formula. m2
+/// Area by the shoelace formula, m2.
 double area_of(const RecordedCell& cell) {
     if (cell.radius > 0.0) return std::numbers::pi * cell.radius * cell.radius;
     if (cell.open) return 0.0;
@@ -75,9 +79,10 @@ struct Place {
     double angle = 0.0;
 };
 
-constexpr double same_tension = 1e-9;  // of itself, by which a back-tension that was read from a text may differ
+constexpr double same_tension = 1e-9;  // relative tolerance for comparing back-tensions read from text
 
-/// Reads the frames of one run; remembers places, for velocities and whole turns: 24 bytes a cell and frame.
+/// Reads the frames of one run. Positions are kept to compute velocities and to count full turns: 24 bytes per cell and
+/// frame.
 class DeckMotion {
   public:
     DeckMotion(const fs::path& folder, std::size_t most_frames)
@@ -107,11 +112,11 @@ class DeckMotion {
         read_bonds(recording);
         read_breaks(folder / "events.csv", recording.results.events);
         recording.curves = read_deck_curves(folder, frames_.heads());
-        frames_.require_unchanged();  // rows of the run whose frames these are
+        frames_.require_unchanged();  // rows must belong to the same run as the frames
     }
 
     RecordedFrame read(std::size_t k) {
-        // Velocities are those since the frame before; of the first frame those that follow it.
+        // Velocities are mean values since the previous frame or, for the first frame, until the next one.
         const std::size_t earlier = k == 0 ? 0 : k - 1,
                           later = k == 0 ? std::min<std::size_t>(1, chosen_.size() - 1) : k;
         unwind(later);
@@ -134,8 +139,9 @@ class DeckMotion {
   private:
     double time(std::size_t k) const { return frames_.heads()[chosen_[k]].time; }
 
-    /// Fills places_ up to chosen frame k. Angles of chains, which are known but for whole turns, are taken near those
-    /// of the output before, chosen or not: between chosen ones a body may turn by more than half a turn.
+    /// Fills places_ up to chosen frame k. Angles of chains are known only modulo a full turn. The value nearest to the
+    /// angle in the previous output is used, whether or not that output is a chosen frame. Between chosen frames, a
+    /// body may therefore rotate by more than half a turn.
     void unwind(std::size_t k) {
         constexpr double turn = 2.0 * std::numbers::pi;
         while (places_.size() <= k) {
@@ -168,7 +174,7 @@ class DeckMotion {
         if (ids != ids_) {
             const DeckFrameFile::Head& head = frames_.heads()[output];
             throw InputError(fmt::format(
-                "output.dat:{}: found other bodies in the frame of step {} than in the first one; the outputs of "
+                "output.dat:{}: found other bodies in the frame of step {} than in the first frame; the output of "
                 "different runs cannot be shown as one",
                 head.line, head.step));
         }
@@ -198,7 +204,8 @@ class DeckMotion {
         return cell;
     }
 
-    /// Of either order of the two bodies: it may change where a run went on from its text files.
+    /// The ids of the two bodies in ascending order. Their order in the file may change when a run is resumed from text
+    /// files.
     static std::pair<int, int> pair_of(const DeckContact& contact) { return std::minmax(contact.id, contact.other); }
 
     void read_bonds(Recording& recording) {
@@ -226,7 +233,8 @@ class DeckMotion {
         }
     }
 
-    /// The bond that a contact is, of those not found yet; none where it is not one of the first frame.
+    /// Index of the bond to which a contact belongs, among bonds not found yet; empty if the contact was not bonded in
+    /// the first frame.
     std::optional<std::size_t> bond_of(const DeckContact& contact, const std::vector<Place>& now,
                                        const std::vector<bool>& found) const {
         const auto candidates = bonds_of_.find(pair_of(contact));
@@ -245,7 +253,7 @@ class DeckMotion {
         return nearest;
     }
 
-    /// Where the first of its cells has taken the place of a bond.
+    /// Current position of a bond that moves with the first of its cells.
     Vec2 carried(const RecordedBond& bond, const std::vector<Place>& now) const {
         const Place &cell = now[static_cast<std::size_t>(bond.i)],
                     &start = places_[0][static_cast<std::size_t>(bond.i)];
@@ -260,7 +268,7 @@ class DeckMotion {
         struct Stress {
             double xx = 0.0, yy = 0.0, xy = 0.0;
         };
-        std::unordered_map<int, Stress> stress_of;  // times the area
+        std::unordered_map<int, Stress> stress_of;  // stress of each body multiplied by its area
         const auto load = [&](std::int32_t cell, Vec2 place, Vec2 force) {
             if (cell < 0) return;
             const auto at = static_cast<std::size_t>(cell);
@@ -303,14 +311,15 @@ class DeckMotion {
 
     DeckFrames frames_;
     std::vector<std::size_t> chosen_;
-    std::vector<int> ids_;  // of cells
+    std::vector<int> ids_;  // ids of cells
     std::unordered_map<int, double> area_of_body_;
     CellFinder finder_{{}};
     std::vector<RecordedBond> bonds_;
-    std::vector<double> tensions_;                                      // of bonds
-    std::map<std::pair<int, int>, std::vector<std::size_t>> bonds_of_;  // by the ids of their bodies
-    std::vector<Place> last_;                                           // of the output that was unwound last
-    std::vector<std::vector<Place>> places_;  // by chosen frame, as far as they have been asked for
+    std::vector<double> tensions_;  // back-tension of each bond
+    // Indices of bonds, by the ids of their two bodies.
+    std::map<std::pair<int, int>, std::vector<std::size_t>> bonds_of_;
+    std::vector<Place> last_;                 // positions in the last output that was read
+    std::vector<std::vector<Place>> places_;  // positions in each chosen frame, computed as needed
 };
 
 }  // namespace

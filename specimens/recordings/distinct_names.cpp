@@ -11,18 +11,17 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// An empty name distinguishes nothing.
+/// Whether all names are distinct and none is empty.
 bool distinct(Names names) {
     std::sort(names.begin(), names.end());
     return (names.empty() || !names.front().empty()) && std::adjacent_find(names.begin(), names.end()) == names.end();
 }
 
-std::string title_of(const Recording& recording) { return recording.results.summary.word("title"); }
+std::string title_of(const Recording& recording) { return recording.results.summary.about.title.value_or(""); }
 
 std::string with_seed(const std::string& name, const Recording& recording) {
-    const TestSummary& summary = recording.results.summary;
-    if (name.empty() || !summary.number("seed")) return "";
-    return fmt::format("{}, seed {}", name, summary.text_of("seed"));
+    const auto& seed = recording.results.summary.numerics.seed;
+    return name.empty() || !seed ? "" : fmt::format("{}, seed {}", name, *seed);
 }
 
 std::string end_of_path(const std::filesystem::path& path, std::ptrdiff_t parts) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Names by which recordings on one page or in one figure are told apart: of their folders, if these differ.
+// Names that distinguish recordings on one page or in one plot. Folder names are used if they differ.
 // Tested by tests/tools/page/report_reading_test.cpp.
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace crackle {
 
-/// A name for each, no two alike. The first of these that distinguishes all: folder or file; title; title with the
-/// packing's seed; folder with its seed; the end of the path, as long as needed; folder with a number.
+/// A distinct name for each recording. The first naming scheme that distinguishes all of them is used: folder or file;
+/// title; title with seed; folder with seed; end of the path; folder with a number. Seeds are those of the packings.
 std::vector<std::string> distinct_names(const std::vector<Recording>& recordings);
 
 }  // namespace crackle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A particle file (in_gm.dat and its like) as a recording of one frame.
+// Reads a particle file (in_gm.dat or similar) as a recording of one frame.
 // Tested by tests/tools/commands/view_test.cpp.
 
 #include "solver/demseg/deck_reader.hpp"

@@ -17,7 +17,8 @@
 namespace crackle {
 
 Vec2 centroid(const std::vector<Vec2>& corners, bool open) {
-    const Vec2 origin = corners.front();  // sums about a corner: a small cell far from the origin keeps its digits
+    // Sums are relative to a corner, so that small cells far from the origin keep their precision.
+    const Vec2 origin = corners.front();
     Vec2 by_area, by_length;
     double twice_area = 0.0, length = 0.0;
     for (std::size_t k = 0; k + 1 < corners.size() + (open ? 0 : 1); ++k) {
@@ -35,7 +36,7 @@ Vec2 centroid(const std::vector<Vec2>& corners, bool open) {
 std::vector<std::size_t> chosen_frames(std::size_t count, std::size_t most, const std::vector<std::size_t>& kept) {
     std::set<std::size_t> chosen(kept.begin(), kept.end());
     if (count > 0) chosen.insert({0, count - 1});
-    // Evenly from the first to the last.
+    // Frames evenly spaced from the first to the last.
     const std::size_t even = std::min(count, most > kept.size() ? most - kept.size() : 0);
     for (std::size_t k = 0; k < even; ++k) chosen.insert(even < 2 ? 0 : k * (count - 1) / (even - 1));
     return {chosen.begin(), chosen.end()};
@@ -45,7 +46,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether a file begins as those that `crackle run` writes, whatever it is called now.
+/// Whether a file, whatever its name, starts like an output file of `crackle run`.
 bool has_rows_of_a_run(const fs::path& file) {
     constexpr std::string_view head = "# step ";
     std::ifstream in(file, std::ios::binary);
@@ -85,10 +86,10 @@ Recording read_recording(const fs::path& given, std::size_t most_frames, std::ui
     if (fs::exists(path / "summary.json")) return read_test_recording(path, most_frames);
     if (fs::exists(path / "output.dat")) return read_deck_recording(path, most_frames);
     if (fs::exists(path / "in_gm.dat")) return read_particle_recording(path / "in_gm.dat", seed);
-    throw InputError(fmt::format(
-        "{}: found neither summary.json nor output.dat nor in_gm.dat, expected what `crackle test -o` or `crackle run` "
-        "leaves in a folder",
-        path.string()));
+    throw InputError(
+        fmt::format("{}: found neither summary.json nor output.dat nor in_gm.dat, expected results of `crackle test "
+                    "-o` or `crackle run` in this folder",
+                    path.string()));
 }
 
 }  // namespace crackle

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A recorded motion, whoever made it: rigid cells, what holds them together, and frame by frame where they are and what
-// acts between them. The viewer's page is made from it. A test's frames, a deck's outputs and a single particle file
-// become one; frames are read when they are asked for, since all of them may be more than fits into memory.
+// A recorded motion from any source: rigid cells, the bonds between them, and for each frame the positions and contact
+// forces. The viewer's page is made from recordings. The frames of a test, the outputs of a deck and a single particle
+// file can be read as recordings. Frames are read on request, because all of them may not fit into memory.
 //
-// m, s, rad, N, N/m, or the deck's own units. Normal forces and stresses are positive in compression.
+// Units are m, s, rad, N and N/m, or those of the deck. Normal forces and stresses are positive in compression.
 // Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
@@ -16,97 +16,105 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/names.hpp"
 #include "solver/base/vec2.hpp"
 #include "specimens/recordings/deck_curves.hpp"
 #include "specimens/recordings/test_results.hpp"
 
 namespace crackle {
 
-/// Where contacts with the walls of a deck's domain lie in place of a cell: left, right, bottom, top.
+/// Values used instead of a cell index for contacts with the left, right, bottom and top wall of a deck's domain.
 inline constexpr std::array<std::int32_t, 4> recorded_walls{-1, -2, -3, -4};
 
-/// Where a cell turns about: the centroid of a polygon's area, of an open chain's length.
+/// Point about which a cell rotates: centroid of the area of a polygon, or of the line of an open chain.
 Vec2 centroid(const std::vector<Vec2>& corners, bool open);
 
-/// One drawn cell: a polygon, an open chain, or a circle (a clump has several with its id).
+/// A cell to be drawn: a polygon, an open chain, or a circle. Each circle of a clump is a cell with the clump's id.
 struct RecordedCell {
-    int id = 0;  ///< of the body, as in the input
+    int id = 0;  ///< id of the body in the input
     int material = 1;
     double radius = 0.0;  ///< 0 for polygons and chains
-    bool open = false;    ///< an open chain: platen or wall
+    bool open = false;    ///< whether the cell is an open chain, as platens and walls are
     bool platen = false;
-    Vec2 centre;                ///< in the first frame: centroid()
-    std::vector<Vec2> outline;  ///< corners in the first frame; none for circles
+    Vec2 centre;                ///< centroid() in the first frame
+    std::vector<Vec2> outline;  ///< corners in the first frame; empty for circles
 };
 
-/// A point that held two cells together in the first frame.
+/// A point at which two cells are bonded in the first frame.
 struct RecordedBond {
-    std::int32_t i = 0, j = 0;  ///< cells
-    Vec2 place;                 ///< in the first frame
+    std::int32_t i = 0, j = 0;  ///< indices of the cells
+    Vec2 place;                 ///< position in the first frame
 };
 
-/// What one of RecordedBond does in a frame.
+/// State of a RecordedBond in a frame.
 enum class BondState : std::uint8_t { intact = 0, slid = 1, broken = 2, touching_again = 3 };
 
-/// Contact points that are not among the bonds.
+/// Contact points that are not bonds in the first frame.
 struct RecordedContacts {
-    std::vector<std::int32_t> i, j;  ///< cells, or recorded_walls
+    std::vector<std::int32_t> i, j;  ///< indices of cells, or recorded_walls
     std::vector<double> x, y, normal_force, shear_force;
 };
 
+/// Time, strain and other labels of a frame.
 struct FrameHead {
     double time = 0.0;
     std::optional<double> axial_strain, axial_stress;
     std::optional<std::int64_t> step;
-    std::vector<std::string> roles;  ///< of start, peak and end those that a test names it as
-    std::string file;                ///< for people
+    std::vector<std::string> roles;  ///< those of "start", "peak" and "end" that apply to this frame
+    std::string file;                ///< name shown to users
 };
 
-/// One moment. By cell or by bond; empty where the source does not know it, but for the motion.
+/// Values at one moment, by cell or by bond. Apart from the displacements, values that the source lacks are empty.
 struct RecordedFrame {
-    std::vector<double> ux, uy, angle;  ///< of cells since the first frame, about RecordedCell::centre
+    std::vector<double> ux, uy, angle;  ///< m, rad; displacements of RecordedCell::centre since the first frame
     std::vector<double> vx, vy, rotation_rate;
     std::vector<double> stress_xx, stress_yy, stress_xy;
-    std::vector<double> fragment;  ///< whole numbers
+    std::vector<double> fragment;  ///< index of the cell's fragment
     std::vector<double> normal_force, shear_force;
-    std::vector<double> state;  ///< BondState
+    std::vector<double> state;  ///< values of BondState
     RecordedContacts contacts;
 };
 
+/// Results of a test, a deck's run or a particle file, in the form that pages and plots need.
 struct Recording {
+    /// Source of a recording.
     enum class Kind : std::uint8_t { test, deck, particles };
 
-    std::string name;            ///< of the folder or file
-    std::filesystem::path path;  ///< of it, absolute
+    std::string name;            ///< name of the folder or file
+    std::filesystem::path path;  ///< absolute path of the folder or file
     Kind kind = Kind::particles;
-    bool drawn_by_seed = false;                  ///< its circles, of a particle file of mode 0
-    TestResults results;                         ///< of a test; of a deck its breaks alone
-    DeckCurves curves;                           ///< of a deck
+    bool drawn_by_seed =
+        false;            ///< whether the circles come from a particle file of mode 0, which generates them from a seed
+    TestResults results;  ///< results of a test; for a deck, only the breaks
+    DeckCurves curves;    ///< curves of a deck
     std::optional<std::array<double, 4>> walls;  /// x1, x2, y1, y2 of a deck's domain
-    bool mean_velocities = false;                ///< taken from the places of two frames, not the solver's own
+    bool mean_velocities = false;  ///< whether velocities are computed from positions instead of taken from the solver
     std::vector<RecordedCell> cells;
     std::vector<RecordedBond> bonds;
     std::vector<FrameHead> frames;
-    std::function<RecordedFrame(std::size_t)> frame;  ///< reads frame k of `frames`; the quickest in order
-    std::vector<std::string> notices;                 ///< on what was read, one sentence each
+    std::function<RecordedFrame(std::size_t)> frame;  ///< reads frame k of `frames`; fastest in ascending order
+    std::vector<std::string> notices;                 ///< remarks on the files read, one sentence each
 };
+constexpr auto list_names(Recording::Kind) { return in_order("test", "deck", "particles"); }
 
-/// At most `most` of `count` frames, evenly chosen; the first, the last and those of `kept` always are among them.
+/// Indices of at most `most` of `count` frames, evenly spaced. The first frame, the last one and those in `kept` are
+/// always included.
 std::vector<std::size_t> chosen_frames(std::size_t count, std::size_t most, const std::vector<std::size_t>& kept);
 
-/// @param folder  what `crackle test -o` made; frames/ may be absent
-/// @param most_frames  kept, evenly; those at start, peak and end are among them
-/// @throws InputError naming the file that is missing or wrong
+/// Reads the results of a test. @param folder  results of `crackle test -o`; frames/ may be missing
+/// @param most_frames  number of frames to keep, evenly spaced; the frames at start, peak and end are included
+/// @throws InputError that names the file that is missing or invalid
 Recording read_test_recording(const std::filesystem::path& folder, std::size_t most_frames);
-/// @param folder  with the outputs of `crackle run`; without output.dat the deck's in_gm.dat is one frame
+/// Reads the output of a deck's run.
+/// @param folder  output of `crackle run`; without output.dat, the deck's in_gm.dat is the only frame
 Recording read_deck_recording(const std::filesystem::path& folder, std::size_t most_frames);
-/// @param file  in_gm.dat of either mode (mode 0: its circles are made with `seed`)
+/// Reads a particle file. @param file  in_gm.dat in either mode; in mode 0, its circles are generated from `seed`
 Recording read_particle_recording(const std::filesystem::path& file, std::uint64_t seed);
-/// The folder of the run that a file belongs to, where it is an output of a deck or one of a test's results; else the
-/// path itself.
+/// If a file is an output of a deck or of a test, the folder of that run; otherwise the path itself.
 std::filesystem::path folder_of_run(const std::filesystem::path& path);
-/// What `path` is: a test's folder, a deck's, a file of such a run (folder_of_run()), or a particle file.
-/// @throws InputError if it is none
+/// Reads the recording at `path`: the folder of a test or a deck, a file of such a run (folder_of_run()), or a particle
+/// file.
+/// @throws InputError if there is no recording at this path
 Recording read_recording(const std::filesystem::path& path, std::size_t most_frames, std::uint64_t seed);
 
 }  // namespace crackle

@@ -23,10 +23,10 @@ void refuse_half_replaced(const fs::path& folder) {
     const fs::path whole = folder.has_filename() ? folder : folder.parent_path();
     std::string frames;
     if (!is_being_moved(whole.string() + staging_suffix, frames)) return;
-    throw InputError(fmt::format(
-        "{0}: found results of two tests: new ones were taking the place of older ones; `crackle test --resume {0}` "
-        "ends that",
-        whole.string()));
+    throw InputError(
+        fmt::format("{0}: found results of two tests, because replacing the older ones was interrupted; `crackle test "
+                    "--resume {0}` completes the replacement",
+                    whole.string()));
 }
 
 }  // namespace crackle

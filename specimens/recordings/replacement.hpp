@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How it is known that a test's results are being replaced: OUT.new, where the new ones grow, has a file that says so.
+// Marker for results that are being replaced. It is a file in OUT.new, the folder to which the new results are written.
 // Tested by tests/tools/commands/report_test.cpp.
 #pragma once
 
@@ -9,15 +9,15 @@
 namespace crackle {
 
 inline constexpr const char* staging_suffix = ".new";
-/// In OUT.new: a forced test's own, to be begun again.
+/// Name of the marker in OUT.new. It shows that the folder belongs to a test with --force and may be discarded.
 inline constexpr const char* staged_mark = "replaces-older-results";
-/// First line of the mark once the results are complete and take the old ones' place; names of their frames follow.
+/// First line of the marker once the results are complete and are being moved to OUT. The names of their frames follow.
 inline constexpr const char* moving_line = "complete, being moved";
 
-/// Lines behind the first of the mark in a folder where new results lie that are being moved; none: nothing is.
+/// Whether the results in a folder are being moved. @param frames  receives the marker's lines after the first
 bool is_being_moved(const std::filesystem::path& working, std::string& frames);
 
-/// @throws InputError if a folder holds results of which some are a new test's and some the one's before
+/// @throws InputError if a folder contains results of two tests, because replacing the earlier results was interrupted
 void refuse_half_replaced(const std::filesystem::path& folder);
 
 }  // namespace crackle

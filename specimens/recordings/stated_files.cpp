@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "solver/base/errors.hpp"
@@ -13,13 +12,10 @@
 namespace crackle {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-std::optional<FileMark> mark_from(const Json& entry) {
-    if (!entry.is_object() || !entry.contains("bytes") || !entry.contains("xxh3")) return std::nullopt;
-    if (!entry["bytes"].is_number_unsigned() || !entry["xxh3"].is_string()) return std::nullopt;
-    FileMark mark{entry["bytes"].get<std::uint64_t>(), 0};
-    const auto& digits = entry["xxh3"].get_ref<const std::string&>();
+std::optional<FileMark> mark_from(const FileFigures& entry) {
+    if (entry.bytes.value_or(-1) < 0 || !entry.xxh3) return std::nullopt;
+    FileMark mark{static_cast<std::uint64_t>(*entry.bytes), 0};
+    const std::string& digits = *entry.xxh3;
     const char* end = digits.data() + digits.size();
     const auto [stop, error] = std::from_chars(digits.data(), end, mark.hash, 16);
     if (error != std::errc() || stop != end) return std::nullopt;
@@ -32,24 +28,22 @@ bool is_plain_name(const std::string& name) {
 
 }  // namespace
 
-void state_files(TestSummary& summary, const FileMarks& files) {
-    Json stated = Json::object();
-    for (const auto& [name, mark] : files) stated[name] = {{"bytes", mark.bytes}, {"xxh3", hash_text(mark)}};
-    summary.json()["files"] = std::move(stated);
+void state_files(Summary& summary, const FileMarks& files) {
+    auto& stated = summary.files.begin_table();
+    for (const auto& [name, mark] : files) stated.emplace_back(name, FileFigures{mark.bytes, hash_text(mark)});
 }
 
-FileMarks stated_files(const TestSummary& summary, const std::string& name) {
+FileMarks stated_files(const Summary& summary, const std::string& name) {
     FileMarks files;
-    if (!summary.contains("files")) return files;
+    if (!summary.files.stated()) return files;
     const auto refuse = [&](const std::string& key) {
         throw InputError(
             fmt::format("{}: {:.60}: found no bytes and xxh3 of files, expected those that the test wrote; restore the "
                         "file, or run the test again with --force",
                         name, key));
     };
-    const Json& stated = summary.json()["files"];
-    if (!stated.is_object() || stated.empty()) refuse("files");
-    for (const auto& [file, entry] : stated.items()) {
+    if (!summary.files || summary.files->empty()) refuse("files");
+    for (const auto& [file, entry] : *summary.files) {
         const auto mark = mark_from(entry);
         if (!mark || !is_plain_name(file)) refuse("files." + file);
         files.emplace_back(file, mark.value_or(FileMark{}));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a test's summary states of the files that it belongs to: their lengths and hashes (key `files`), by which files
-// that were edited, cut or exchanged since are known.
+// Lengths and hashes of a test's files, stored in its summary (key `files`). They reveal files that were edited,
+// truncated or exchanged later.
 // Tested by tests/specimens/results/stated_files_test.cpp.
 #pragma once
 
@@ -10,23 +10,27 @@
 #include <vector>
 
 #include "solver/files/file_mark.hpp"
-#include "specimens/recordings/test_summary.hpp"
+#include "specimens/summary/summary.hpp"
 
 namespace crackle {
 
-/// Names in the test's folder.
+/// Names of files in the test's folder, with length and hash.
 using FileMarks = std::vector<std::pair<std::string, FileMark>>;
 
-void state_files(TestSummary& summary, const FileMarks& files);
+/// Puts names, lengths and hashes of files into a summary.
+void state_files(Summary& summary, const FileMarks& files);
 
-/// What a summary states; none where an earlier version wrote it, which stated nothing.
-/// @param name of the summary, for the message @throws InputError if it is none that state_files() wrote
-FileMarks stated_files(const TestSummary& summary, const std::string& name);
+/// The files recorded in a summary; empty for summaries of earlier versions, which recorded none.
+/// @param name  of the summary, for the message @throws InputError if state_files() did not write the entry
+FileMarks stated_files(const Summary& summary, const std::string& name);
 
+/// Whether a summary records a file. @param name  name of the file in the test's folder
 bool states(const FileMarks& stated, const std::string& name);
 
-/// @param file in the summary's folder @param found what is in it now
-/// @throws InputError if the summary states files, and not this one as it is
+/// Checks a file against the summary.
+/// @param file  file in the summary's folder
+/// @param found  current length and hash of the file
+/// @throws InputError if the summary records files, but not this one with the same length and hash
 void require_as_stated(const FileMarks& stated, const std::filesystem::path& file, const FileMark& found);
 
 }  // namespace crackle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The frames that a test left in frames/ (frame_painter.hpp) as a recording.
+// Reads the frames of a test in frames/ (frame_painter.hpp) as a recording.
 // Tested by tests/tools/commands/view_test.cpp.
 
 #include <fmt/format.h>
@@ -21,12 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The numbers of the pictures of the particles, ascending.
+/// Row numbers of the files particles_NNNNN.vtp, in ascending order.
 std::vector<std::int64_t> drawn_rows(const fs::path& frames) {
     std::vector<std::int64_t> rows;
-    if (!is_there(frames)) return rows;
-    for (const auto& entry : fs::directory_iterator(frames)) {
-        const std::string name = entry.path().filename().string();
+    for (const std::string& name : names_in(frames)) {
         constexpr std::string_view head = "particles_";
         if (!name.starts_with(head)) continue;
         const std::int64_t row = std::atoll(name.c_str() + head.size());
@@ -36,7 +34,7 @@ std::vector<std::int64_t> drawn_rows(const fs::path& frames) {
     return rows;
 }
 
-/// Empty where the file has no such array.
+/// Values of an array of cell data; empty if the file has no such array.
 std::vector<double> column_if_there(const fs::path& file, const PolyData& data, const char* name) {
     return data.cell_data.contains(name) ? cell_values(file, data, name) : std::vector<double>();
 }
@@ -76,8 +74,7 @@ void append_cells(const fs::path& file, const PolyData& data, std::vector<Record
     }
 }
 
-/// Where a contact acts by its line: between circles its corner that is no centre, between polygons the middle
-/// of the gap.
+/// Position of a contact on its line: for circles, the end that is not a centre; for polygons, the middle of the gap.
 Vec2 place_of(const PolyData& data, const PolyData::Cell& line, bool first_is_circle, bool second_is_circle) {
     const auto at = [&](std::size_t corner) { return data.points[line.points[corner]]; };
     if (first_is_circle) return at(1);
@@ -85,9 +82,9 @@ Vec2 place_of(const PolyData& data, const PolyData::Cell& line, bool first_is_ci
     return 0.5 * (at(0) + at(1));
 }
 
-constexpr double unbonded = 4.0;  // state of contacts that are no bonds; they stand after all bonds
+constexpr double unbonded = 4.0;  // state of contacts without a bond, which are listed after all bonds
 
-/// Reads the files of one test, frame after frame.
+/// Reads the frames of one test, one after the other.
 class TestFrames {
   public:
     TestFrames(fs::path frames, std::vector<std::int64_t> rows) : frames_(std::move(frames)), rows_(std::move(rows)) {}
@@ -196,15 +193,16 @@ class TestFrames {
         int id = 0;
     };
     std::vector<Start> start_;
-    std::optional<CellFinder> finder_;  ///< where there are contacts
+    std::optional<CellFinder> finder_;  ///< set if there are contacts
     std::size_t bonds_ = 0;
 };
 
-constexpr std::array roles{"start", "peak", "end"};
-
-/// Empty where the test had none.
-std::string named_frame(const TestResults& results, const char* role) {
-    return results.summary.word(std::string("frame_") + role);
+/// Calls `use` with the name of each role and the file of its frame; empty if the test has none.
+void each_role(const TestResults& results, const auto& use) {
+    const FrameFiles& files = results.summary.frames;
+    use("start", files.frame_start.value_or(""));
+    use("peak", files.frame_peak.value_or(""));
+    use("end", files.frame_end.value_or(""));
 }
 
 FrameHead head_of(const fs::path& folder, const TestResults& results, std::int64_t row) {
@@ -219,9 +217,9 @@ FrameHead head_of(const fs::path& folder, const TestResults& results, std::int64
     head.time = value("time");
     head.axial_strain = value("axial_strain");
     head.axial_stress = value("axial_stress");
-    for (const char* role : roles) {
-        if (named_frame(results, role) == head.file) head.roles.emplace_back(role);
-    }
+    each_role(results, [&](const char* role, const std::string& file) {
+        if (file == head.file) head.roles.emplace_back(role);
+    });
     return head;
 }
 
@@ -235,12 +233,11 @@ Recording read_test_recording(const fs::path& folder, std::size_t most_frames) {
     recording.path = fs::weakly_canonical(folder);
     const std::vector<std::int64_t> rows = drawn_rows(folder / "frames");
     if (rows.empty()) return recording;
-    for (const char* role : roles) {
-        const std::string named = named_frame(recording.results, role);
+    each_role(recording.results, [&](const char* role, const std::string& named) {
         if (!named.empty() && !is_there(folder / named))
             throw InputError(fmt::format("{:.200}: file not found, expected the frame at {} that summary.json names",
                                          (folder / named).string(), role));
-    }
+    });
 
     std::vector<FrameHead> heads;
     std::vector<std::size_t> with_role;

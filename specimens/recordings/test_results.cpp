@@ -8,20 +8,19 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <system_error>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/table_reader.hpp"
 #include "specimens/recordings/replacement.hpp"
 #include "specimens/recordings/stated_files.hpp"
+#include "specimens/summary/summary_file.hpp"
 
 namespace crackle {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string read_result(const std::filesystem::path& file) {
     if (!is_file(file)) {
@@ -30,7 +29,7 @@ std::string read_result(const std::filesystem::path& file) {
                         "`crackle test CASE.toml -o {}`",
                         file.string(), file.parent_path().string()));
     }
-    return read_file(file);
+    return read_file(file, most_bytes_of_particles);
 }
 
 constexpr const char* test_again = "write the results again with `crackle test --force`";
@@ -57,47 +56,6 @@ void require_whole_numbers(const std::filesystem::path& file, const NumberTable&
     }
 }
 
-constexpr int deepest_summary = 100;  // levels; it has three, and what walks through them does so by recursion
-
-nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
-    Json summary;
-    const auto bound_depth = [&](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
-        if (depth <= deepest_summary) return true;
-        throw InputError(
-            fmt::format("{}: found more than {} brackets within each other, expected a test's summary; "
-                        "write the results again with `crackle test --force`",
-                        file.string(), deepest_summary));
-    };
-    try {
-        const std::string text = read_result(file);
-        summary = Json::parse(without_byte_order_mark(text), bound_depth);
-    } catch (const nlohmann::json::parse_error& error) {
-        throw InputError(
-            fmt::format("{}: found broken JSON at byte {}; write the results again with `crackle test --force`",
-                        file.string(), error.byte));
-    } catch (const nlohmann::json::out_of_range&) {
-        throw InputError(fmt::format(
-            "{}: found a number beyond 1.8e308; write the results again with `crackle test --force`", file.string()));
-    }
-    const auto expect = [&](const char* key, bool right, const char* expected) {
-        if (right) return;
-        const std::string found = summary.is_object() && summary.contains(key) ? summary[key].dump() : "nothing";
-        throw InputError(fmt::format("{}: {}: found {:.40}, expected {}", file.string(), key, found, expected));
-    };
-    const auto text = [&](const char* key) {
-        return summary.is_object() && summary.contains(key) && summary[key].is_string()
-                   ? summary[key].get<std::string>()
-                   : std::string();
-    };
-    const std::string kind = text("kind");
-    expect("kind", !kind.empty(), "a kind of test, as \"compression\"");
-    expect("specimen", !text("specimen").empty(), "\"circles\", \"delaunay\" or \"voronoi\"");
-    expect("failed", summary.contains("failed") && summary["failed"].is_boolean(), "true or false");
-    expect("material_units", !summary.contains("material_units") || summary["material_units"].is_string(),
-           "\"point\" or \"area\"");
-    return summary;
-}
-
 }  // namespace
 
 NumberTable number_table(const std::filesystem::path& file, std::string_view text, std::string_view word_column,
@@ -119,7 +77,7 @@ NumberTable number_table(const std::filesystem::path& file, std::string_view tex
                 table.columns[k].push_back(static_cast<double>(word - words.begin()));
                 continue;
             }
-            // Not a number is what has no value, such as a strain without gauge; infinite is nothing.
+            // A missing value, such as a strain without a gauge, is written as nan; no value is infinite.
             const std::optional<double> value = number_of(found);
             if (!value || std::isinf(*value))
                 reader.refuse_number(found, fmt::format("a number or nan for {:.40}", table.names[k]));
@@ -143,7 +101,7 @@ bool is_report_page(const std::filesystem::path& file) {
     std::ifstream in(file);
     std::string first, second;
     const bool is_page = std::getline(in, first) && std::getline(in, second) && second == report_mark;
-    if (!in.is_open()) throw InputError(fmt::format("{}: cannot be read ({})", file.string(), std::strerror(errno)));
+    if (!in.is_open()) fail_reading(errno, fmt::format("{}: cannot be read ({})", file.string(), std::strerror(errno)));
     refuse_failed(in, file.string());
     return is_page;
 }
@@ -162,8 +120,9 @@ TestResults read_results(const std::filesystem::path& folder) {
     refuse_half_replaced(folder);
     TestResults results;
     results.name = std::filesystem::weakly_canonical(folder).filename().string();
-    results.summary = TestSummary(read_summary(folder / "summary.json"));
-    const FileMarks stated = stated_files(results.summary, (folder / "summary.json").string());
+    const std::filesystem::path summary = folder / "summary.json";
+    results.summary = read_summary(summary.string(), read_result(summary));
+    const FileMarks stated = stated_files(results.summary, summary.string());
     const auto read_stated = [&](const char* name) {
         std::string text = read_result(folder / name);
         require_as_stated(stated, folder / name, mark_of(text));

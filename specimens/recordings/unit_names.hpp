@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the units of particle files and decks are called, which do not state them: any consistent set will do. Times are
-// in s and angles in rad in all sets. Strictly 2D: forces, energies and masses are those of a slice of unit thickness.
+// Names of units for particle files and decks, which may use any consistent unit system without stating which. Times
+// are in s and angles in rad in all systems. Since models are two-dimensional, forces, energies and masses are those of
+// a slice of unit thickness.
 // Tested by tests/tools/commands/plot_decks_test.cpp.
 #pragma once
 
@@ -9,15 +10,18 @@
 
 namespace crackle {
 
+/// Names of the units of a recording.
 struct UnitNames {
     std::string length, velocity, force, energy;
-    std::string stress;     ///< force over length
-    bool prefixes = false;  ///< kN, mm: the units are those that prefixes go with
+    std::string stress;     ///< force per length
+    bool prefixes = false;  ///< whether units take prefixes, as in kN and mm
 };
 
-/// si, cgs, mm-g-s.
+/// Names of the unit systems: si, cgs, mm-g-s.
 const std::vector<std::string>& unit_sets();
-/// @param where  for the message, "view: --units" @throws InputError for another than one of these sets
+/// The units of a system.
+/// @param where  start of the message, such as "view: --units"
+/// @throws InputError if there is no unit system of this name
 UnitNames units_named(const std::string& where, const std::string& name);
 
 }  // namespace crackle

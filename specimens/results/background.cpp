@@ -34,7 +34,7 @@ void Background::add(std::function<void()> job) {
     if (!thread_.joinable()) {
         try {
             thread_ = std::thread([this] { work(); });
-        } catch (const std::system_error&) {  // no more threads for this user: the work is done all the same
+        } catch (const std::system_error&) {  // the limit on this user's threads is reached: run the job in this thread
             job();
             return;
         }
@@ -60,7 +60,7 @@ void Background::work() {
         std::exception_ptr thrown;
         try {
             job();
-        } catch (...) {  // handed on to the thread that waits, whatever it is
+        } catch (...) {  // any exception is passed on to the waiting thread
             thrown = std::current_exception();
         }
         locked.lock();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Work beside the stepping, on a thread of its own: frames are drawn and compressed there.
+// Runs work in a separate thread while the simulation steps: frames are drawn and compressed there.
 // Tested by tests/specimens/results/background_test.cpp.
 #pragma once
 
@@ -13,20 +13,22 @@
 
 namespace crackle {
 
-/// Jobs are done one after the other, in the order in which they came. What one throws is thrown to who adds the next
-/// one or waits; those that waited behind it are dropped.
+/// Runs jobs one after another, in the order in which they were added. If a job throws, the next add() or wait()
+/// rethrows the exception, and jobs still in the queue are dropped.
 class Background {
   public:
     Background() = default;
     Background(const Background&) = delete;
     Background& operator=(const Background&) = delete;
-    /// Waits for what is still to do.
+    /// Waits for the remaining jobs.
     ~Background();
 
-    /// Waits while more jobs than that have not begun, so that what a job needs is copied once there is room for it.
+    /// Waits while more than `most_waiting` jobs are in the queue, so that a job's data are copied only when there is
+    /// room.
     void make_room(std::size_t most_waiting);
+    /// Adds a job, and returns without waiting. @throws what an earlier job has thrown
     void add(std::function<void()> job);
-    /// Until nothing is left to do.
+    /// Waits until all jobs are done.
     void wait();
 
   private:
@@ -35,10 +37,10 @@ class Background {
 
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<std::function<void()>> jobs_;  // the first is being done
+    std::deque<std::function<void()>> jobs_;  // the first job is running
     std::exception_ptr error_;
     bool ending_ = false;
-    std::thread thread_;  // once there is a job
+    std::thread thread_;  // started with the first job
 };
 
 }  // namespace crackle

@@ -9,23 +9,141 @@
 #include <cereal/types/string.hpp>
 #include <cereal/types/utility.hpp>
 #include <cereal/types/vector.hpp>
-#include <istream>
 
-#include "solver/base/archive.hpp"
+#include <algorithm>
+#include <istream>
+#include <type_traits>
+
 #include "solver/base/checked_input.hpp"
 #include "solver/base/errors.hpp"
-#include "solver/base/watching_buffer.hpp"
+#include "solver/base/fields.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/read_pieces.hpp"
+#include "solver/files/watching_buffer.hpp"
 #include "solver/world/checkpoint.hpp"
+#include "solver/world/point_order.hpp"
 #include "specimens/results/sha256.hpp"
 
 namespace crackle {
 
-// Names the layout; the number is raised whenever a field below changes.
-constexpr const char* checkpoint_title = "crackle test checkpoint ";
+// Version of the layout; increase it whenever a field below changes.
 constexpr const char* checkpoint_version = "20";
 constexpr std::size_t hash_digits = 64;
+
+/// Enumerations that a checkpoint stores by name.
+template <class Kind>
+concept KeptByName = std::is_same_v<Kind, LoadingKind> || std::is_same_v<Kind, SpecimenKind>;
+
+template <class Archive, KeptByName Kind>
+void save(Archive& archive, const Kind& kind) {
+    archive(std::string(name_of(kind)));
+}
+
+template <class Archive, KeptByName Kind>
+void load(Archive& archive, Kind& kind) {
+    std::string name;
+    archive(name);
+    const auto unknown = static_cast<Kind>(table_of_names<Kind>.size());  // refused by setup_is_whole()
+    kind = from_name<Kind>(name).value_or(unknown);
+}
+
+}  // namespace crackle
+
+// Replaces cereal's default, which stores enumerations as numbers.
+template <class Archive, crackle::KeptByName Kind>
+struct cereal::specialize<Archive, Kind, cereal::specialization::non_member_load_save> {};
+
+namespace crackle {
+namespace {
+
+/// Whether a point is of a kind that can occur among a specimen's bonds and contacts.
+bool is_between_bodies(const World& world, std::size_t kind, const ContactPoint& point) {
+    return static_cast<PointKind>(kind) != PointKind::element_wall &&
+           is_point_of(world, static_cast<PointKind>(kind), point);
+}
+
+bool setup_is_whole(const TestSetup& setup, const World& world) {
+    const std::size_t n = world.bodies.size(), bonds = setup.bonds.size();
+    const auto is_body = [n](BodyIndex body) { return body < n; };
+    const auto is_part = [&](const SetupPart& part) {
+        return is_body(part.body) && part.face <= world.bodies.info(part.body).element_count;
+    };
+    const auto are_bodies = [&](const std::vector<BodyIndex>& bodies) { return std::ranges::all_of(bodies, is_body); };
+    const auto is_face = [&](const TraceFace& face) {
+        return is_body(face.i) && is_body(face.j) && face.trace >= 0 && face.trace < std::ssize(setup.traces);
+    };
+    const auto is_face_number = [&](std::int32_t face) { return face >= -1 && face < std::ssize(setup.trace_faces); };
+    if (!is_known(setup.kind) || !is_known(setup.specimen) || !is_known(setup.bond_law) || setup.axis < 0 ||
+        setup.axis > 1 || !is_body(setup.bottom) || !is_body(setup.top) || setup.parts.empty() ||
+        !std::ranges::all_of(setup.parts, is_part) || !are_bodies(setup.left) || !are_bodies(setup.right) ||
+        !are_bodies(setup.gauge_bottom) || !are_bodies(setup.gauge_top) || setup.start.size() != n ||
+        setup.bond_overlaps.size() != bonds || !(setup.bond_shares.empty() || setup.bond_shares.size() == bonds) ||
+        !(setup.bond_faces.empty() || setup.bond_faces.size() == bonds) ||
+        !std::ranges::all_of(setup.trace_faces, is_face) || !std::ranges::all_of(setup.bond_faces, is_face_number) ||
+        !are_kinds_of(setup.bond_kind_begin, bonds) || setup.bonds.parts.size() != bonds - setup.bond_kind_begin[1] ||
+        setup.particles < 0 || setup.particles > static_cast<std::int64_t>(n))
+        return false;
+    for (std::size_t number = 0; number < point_kinds; ++number) {
+        const auto kind = static_cast<PointKind>(number);
+        const auto key = [&](PointIndex bond) { return key_of(kind, setup.bonds[bond]); };
+        for (PointIndex bond = setup.bond_kind_begin[number]; bond < setup.bond_kind_begin[number + 1]; ++bond) {
+            if (!is_between_bodies(world, number, setup.bonds[bond]) ||
+                (bond > setup.bond_kind_begin[number] && !(key(bond - 1) < key(bond))))
+                return false;
+        }
+        for (PointIndex k = world.points.kind_begin[number]; k < world.points.kind_begin[number + 1]; ++k) {
+            if ((world.points.state[k].flags & point_bonded) != 0 &&
+                bond_of(setup, kind, world.points.contact[k]) == bonds)
+                return false;
+        }
+    }
+    return true;
+}
+
+bool loose_are_whole(const LooseContacts& loose, const World& world) {
+    if (!are_kinds_of(loose.kind_begin, loose.contacts.size())) return false;
+    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
+        for (PointIndex k = loose.kind_begin[kind]; k < loose.kind_begin[kind + 1]; ++k) {
+            if (!is_between_bodies(world, kind, loose.contacts[k].point)) return false;
+        }
+    }
+    return true;
+}
+
+bool frame_is_whole(const Frame& frame, const TestState& state, const TestSetup& setup, const World& world) {
+    if (frame.row < 0) return frame.row == -1;
+    const std::size_t bonds = setup.bonds.size();
+    return frame.row < std::ssize(state.rows) && frame.bodies.size() == world.bodies.size() &&
+           frame.shear_force.size() == bonds && frame.states.size() == bonds &&
+           std::ranges::all_of(frame.states, [](ContactState one) { return one <= ContactState::loose; }) &&
+           loose_are_whole(frame.loose, world) && frame.cracks <= state.history.cracks.size() &&
+           std::ranges::all_of(frame.joint_forces,
+                               [bonds](const Frame::JointForce& force) { return force.bond < bonds; });
+}
+
+bool state_is_whole(const TestState& state, const TestSetup& setup, const World& world) {
+    const std::size_t n = world.bodies.size(), bonds = setup.bonds.size();
+    const auto is_row = [&](std::int64_t row) { return row >= 0 && row < std::ssize(state.rows); };
+    const auto is_row_or_none = [&](std::int64_t row) { return row == -1 || is_row(row); };
+    const auto is_whole = [&](const OpenEvent& open) {
+        return std::ranges::all_of(open.bodies, [n](BodyIndex body) { return body < n; }) &&
+               std::ranges::is_sorted(open.bodies) &&
+               std::ranges::all_of(open.before, [&](const EarlierForce& earlier) {
+                   return is_point_of(world, earlier.kind, earlier.point);
+               });
+    };
+    const FailureTracker& failure = state.failure;
+    return is_row_or_none(failure.peak_row) && is_row_or_none(failure.largest_row) &&
+           is_row_or_none(failure.drop.row) && is_row_or_none(failure.collapse.row) &&
+           std::ranges::all_of(state.history.cracks, [bonds](const Crack& crack) { return crack.bond < bonds; }) &&
+           loose_are_whole(state.history.loose, world) && frame_is_whole(state.peak_frame, state, setup, world) &&
+           std::ranges::all_of(state.frames, [&](const FrameEntry& frame) { return is_row(frame.row); }) &&
+           state.next_frame >= 0 && state.path.unloaded >= 0 &&
+           (state.faces_at_peak.empty() || state.faces_at_peak.size() == setup.trace_faces.size()) &&
+           std::ranges::all_of(state.emission.open, is_whole);
+}
+
+}  // namespace
 
 void save_test(std::ostream& out, const std::string& case_hash, const TestSetup& setup, const TestState& state,
                const World& world) {
@@ -73,6 +191,14 @@ TestCheckpoint load_test(std::istream& in, const std::string& name) {
     archive(checkpoint.case_hash, checkpoint.setup, checkpoint.state);
     checkpoint.world = load_world(in, end, name);
     require_whole(checkpoint.world, name);
+    if (!setup_is_whole(checkpoint.setup, checkpoint.world) ||
+        !state_is_whole(checkpoint.state, checkpoint.setup, checkpoint.world)) {
+        throw InputError(
+            fmt::format("{}: found parts that do not belong together, expected a checkpoint as crackle wrote it; run "
+                        "the test again "
+                        "with --force",
+                        name));
+    }
     return checkpoint;
 }
 

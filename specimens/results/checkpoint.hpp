@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The checkpoint of a test: complete state as bytes. A resumed test ends with the bytes of an uninterrupted one.
+// The checkpoint of a test: its complete state as bytes. A resumed test produces the same bytes as an uninterrupted
+// one.
 //
-// Layout: the line "crackle test checkpoint N", cereal's binary archive of the resolved case's SHA-256, setup, state
-// and world, and the SHA-256 of all that. The hash is checked first, so that damage never reaches the archive. Written
-// as it comes and read from the file, for the whole is as large as the world.
+// Layout: the line "crackle test checkpoint N"; cereal's binary archive of the resolved case's SHA-256, setup, state
+// and world; and the SHA-256 of everything before it. The hash is checked first, so that damaged data never reach
+// cereal. The archive is written and read as a stream, because it is as large as the world.
 // Tested by tests/tools/commands/resume_test.cpp.
 #pragma once
 
@@ -15,6 +16,10 @@
 
 namespace crackle {
 
+/// The first bytes of a checkpoint; the version number follows.
+inline constexpr const char* checkpoint_title = "crackle test checkpoint ";
+
+/// All that a test needs to be resumed.
 struct TestCheckpoint {
     std::string case_hash;  ///< SHA-256 of OUT/case.toml
     TestSetup setup;
@@ -22,11 +27,12 @@ struct TestCheckpoint {
     World world;
 };
 
+/// Writes a checkpoint: title, version, hash of the case, state and world.
 void save_test(std::ostream& out, const std::string& case_hash, const TestSetup& setup, const TestState& state,
                const World& world);
 
-/// The whole stream, read twice (load_world()). @throws InputError on foreign, damaged, truncated or newer data; `name`
-/// is used in the message.
+/// Loads a checkpoint; the stream is read twice (load_world()). @throws InputError if the data are foreign, damaged,
+/// truncated or from a newer version; the message contains `name`
 TestCheckpoint load_test(std::istream& in, const std::string& name);
 
 }  // namespace crackle

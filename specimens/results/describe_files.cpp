@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
+#include <algorithm>
 #include <ostream>
 #include <string>
 
@@ -12,7 +13,7 @@
 #include "specimens/observers/curve.hpp"
 #include "specimens/observers/events.hpp"
 #include "specimens/results/output_folder.hpp"
-#include "specimens/results/summary_keys.hpp"
+#include "specimens/summary/summary_keys.hpp"
 
 namespace crackle {
 namespace {
@@ -21,7 +22,7 @@ void begin_table(std::ostream& out, const char* what) {
     fmt::print(out, "\n| {} | unit | meaning |\n| --- | --- | --- |\n", what);
 }
 
-/// In a cell of a table.
+/// Escapes text for a table cell.
 std::string in_cell(const std::string& text) {
     std::string cell;
     for (const char letter : text) {
@@ -31,10 +32,18 @@ std::string in_cell(const std::string& text) {
     return cell;
 }
 
+/// As the beginning of a sentence, unless the text begins with the name of a key.
+std::string capitalised(std::string text) {
+    const std::string word = text.substr(0, text.find_first_of(" ,.:;/("));
+    const bool is_word = std::ranges::all_of(word, [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; });
+    if (word.size() > 1 && is_word && word != "sqrt" && word != "nan") text[0] = static_cast<char>(text[0] - 'a' + 'A');
+    return text;
+}
+
 void print_row(std::ostream& out, const Quantity& q, const std::string& beside = "") {
-    std::string meaning = q.meaning;
-    if (*q.more != '\0') meaning += meaning.empty() ? q.more : std::string("; ") + q.more;
-    fmt::print(out, "| `{}`{} | {} | {} |\n", q.name, beside, q.unit, in_cell(meaning));
+    const std::string first = capitalised(q.meaning), second = capitalised(q.more);
+    const char* const between = first.empty() || second.empty() ? "" : ". ";
+    fmt::print(out, "| `{}`{} | {} | {} |\n", q.name, beside, q.unit, in_cell(first + between + second));
 }
 
 void print_table(std::ostream& out, const char* what, std::span<const Quantity> quantities) {
@@ -54,72 +63,76 @@ Printed by `crackle test --files`, from the declarations by which the files are 
 )";
 
 constexpr const char* folder_text = R"(
-A folder that holds results is refused; with `--force` the new results grow in `OUT.new` (a file `replaces-older-results` marks it) and
-take the place of the old ones once they are complete. `crackle report OUT` adds `report.html`.
+A folder that contains files of anything but a test is refused, and so is a folder that contains an input of the case. A test's folder is recognised by the
+first bytes of `case.toml` or `checkpoint`. A folder with results is also refused. With `--force`, new results are written to `OUT.new`, marked by a file
+`replaces-older-results`, and replace the old results once they are complete. New results that were interrupted and resumed by `--resume OUT.new` do the same.
+Other files are kept. While `OUT.new` contains a test that can be resumed, `--force` is refused; remove `OUT.new` first. `crackle report OUT` adds
+`report.html`. Until a file is complete, its name consists of 16 hexadecimal digits and `.crackle_tmp`. If a stopped run leaves such files,
+the next run removes them. Results are never written through a symbolic link.
 
-What a stop leaves: a signal, a full disc or a loss of power at any moment leaves the earlier results whole, or a checkpoint from which
-`--resume` goes on to the same bytes. A checkpoint gets its name when it and all that it knows of are on the disc; `curve.csv`,
-`events.csv`, `slips.csv` and `ae.csv` must still begin with what was written up to it (by their hash), or the test is not resumed. Files that are
-moved away or changed while the test runs end it with an error. `summary.json` states length and hash of these files and of the checkpoint:
-whatever reads results, and `--resume` of a finished test, refuses a file that is not the one that the test wrote.
+After a signal, a full disk or a power failure, either the earlier results are complete, or there is a checkpoint. `--resume` continues
+from the checkpoint and produces the same bytes. A checkpoint receives its name only when it and all data that it refers to are on disk. `curve.csv`, `events.csv`, `slips.csv`
+and `ae.csv` must still begin with their contents at the time of the checkpoint (checked by hash), otherwise the test is not resumed. If these files are moved or changed
+while the test runs, it ends with an error. `summary.json` states the length and hash of these files and of the checkpoint. Commands that read
+results, and `--resume` of a finished test, refuse a file that differs from the one that the test wrote.
 
-Units are those of the case, SI in what is shipped. Everything is per unit thickness: masses are in kg, forces in N, stresses and moduli are
-force over a length, N/m. «Positive in the sense of the test»: compression positive when the specimen is squeezed, tension positive when it is
-pulled. A normal force is positive when it pushes apart. Angles are in radians, counter-clockwise. Ids are those of the particle file or
-packing, whatever the internal numbering; the platens come last. Numbers read back to the same bits. The physics behind
-them: [solver/MODEL.md](../../solver/MODEL.md), [specimens/METHODS.md](../METHODS.md).
+Units are those of the case; the cases supplied use SI units. All quantities are per unit thickness: masses are in kg, forces in N, and stresses and moduli are
+forces divided by lengths, in N/m. «Positive in the direction of loading» means that compression is positive if the specimen is compressed, and tension is positive if it is
+pulled. A normal force is positive if it pushes the bodies apart. Angles are in radians, counter-clockwise. Ids are those of the particle file or
+packing, independent of the internal numbering; platens have the largest ids. Numbers that are read back have identical bits. The physics is described
+in [solver/MODEL.md](../../solver/MODEL.md) and [specimens/METHODS.md](../METHODS.md).
 )";
 
 constexpr const char* curve_text = R"(
 ## `curve.csv`
 
-One row for each of `output.curve_rows` equal parts of `loading.max_axial_strain`, the first at the start of loading, the last at the end.
-Peak, failure and moduli are judged by at least 2000 rows, whatever is written.
+One row for each of `output.curve_rows` equal parts of `loading.max_axial_strain`; the first row is at the start of loading, the last at the end of the test.
+Peak, failure and moduli are determined from at least 2000 rows, even if fewer are written. Counts, losses and work are totals since loading began.
 )";
 
 constexpr const char* events_text = R"(
 ## `events.csv`
 
-One row for each bonded point that broke, in the order in which they broke (what acoustic emission hears). Of two polygons an *interface* holds
-several bonded points, and each has its row.
+One row for each bonded contact point that broke, in the order in which they broke, similar to a record of acoustic emission. Two polygons may have several
+bonded contact points (their *interface*); each of these has its own row.
 )";
 
 constexpr const char* slips_text = R"(
 ## `slips.csv`
 
-With `output.slips = true`, one row for each back-tension bond that reached its Coulomb limit for the first time: the shear damage that no break
-shows, for such a bond slides within its limit and parts where its overlap is used up. Coulomb bonds stick until they fail.
+With `output.slips = true`, one row for each back-tension bond that reached its Coulomb limit, written when it first did so. The file shows shear damage that does not appear
+among breaks: a back-tension bond slides at its limit, and breaks only when its overlap vanishes. Coulomb bonds do not slide before they fail.
 )";
 
 constexpr const char* emission_text = R"(
 ## `ae.csv`
 
-With `output.emission = true`, one row for each acoustic event, in the order in which they ended: breaks that belong together in place and
-time, and the largest moment of their source meanwhile ([how](../METHODS.md#acoustic-emission)). Every break is in one event. Energies and moments are those of the
-model, per unit thickness; magnitudes are those of the specimen as thick as `output.out_of_plane_thickness` says.
+With `output.emission = true`, one row for each acoustic event, in the order in which the events ended. An event is a group of breaks close in
+place and time ([method](../emission/METHODS.md)); its moment is the largest moment of the source during the event. Every break belongs to exactly one event. Energies and
+moments are those of the model, per unit thickness. Magnitudes refer to a specimen of the thickness `output.out_of_plane_thickness`.
 )";
 
 constexpr const char* summary_text = R"(
 ## `summary.json`
 
-Written at the end, and when a test is interrupted. What is not defined is `null`. A key with `.` lies in the table named before it; `*` stands for any
-name, `[]` for each entry of a list. Beside each stress and modulus stands the same with `_pa`, in Pa: over `output.out_of_plane_thickness`. A key
-that stands here twice has the meaning that fits the test.
+Written at the end, and when a test is interrupted. Values that are not defined are `null`. In `table.key`, the key belongs to the table named before the point; `*` stands for any
+name, `[]` for each entry of a list. Each stress and modulus has a second key with the suffix `_pa`: its value in Pa, divided by `output.out_of_plane_thickness`. If a key
+is listed twice, the meaning depends on the test.
 )";
 
 constexpr const char* frames_text = R"(
 ## `frames/`
 
-Each moment is three files, of a jointed specimen four, named by its row of the judged curve (from 0, five digits or more), which `frames.pvd` lists as
-parts 0 to 3 of a time series. They are VTK's XML PolyData (compressed, `.vtp`), with the moment as field data. Points are Float32 (Float64 with `output.frame_precision = "double"`), what was computed Float64.
+Each frame consists of three files (four for a jointed specimen). Their names contain the index of the frame's row among the rows from which the peak is determined (from 0, at least five digits). `frames.pvd` lists
+the files as parts 0 to 3 of a time series. The files are VTK's XML PolyData (compressed, `.vtp`); field data state the strain, stress and time of the frame. Points are Float32 (Float64 with `output.frame_precision = "double"`), computed values are Float64.
 
 | file | holds |
 | --- | --- |
-| `particles_NNNNN.vtp` | platens as lines, polygons by their corners, circles as regular polygons of the circle's area (24 corners, 12 beyond 2000 particles); a clump's circles all have its values |
-| `contacts_NNNNN.vtp` | every bond that loading began with, in the same order in each file, then what else touches at the moment: as lines centre-point-centre between circles, from surface to surface between polygons |
-| `cracks_NNNNN.vtp` | a line for each bonded point broken so far, in the order of `events.csv`: its share of the face at which the bodies were held together, where they have carried it |
-| `joints_NNNNN.vtp` | a line for each face on a trace of joints, of a jointed specimen |
-| `frames.pvd` | the list of all of them, for ParaView |
+| `particles_NNNNN.vtp` | platens as lines, polygons by their corners, circles as regular polygons of equal area (24 corners, or 12 with more than 2000 particles). All circles of a clump have the values of the clump |
+| `contacts_NNNNN.vtp` | all bonds that were intact when loading began, in the same order in each file, followed by other current contacts. Lines run from centre to point to centre between circles, or from surface to surface between polygons |
+| `cracks_NNNNN.vtp` | a line for each bonded contact point that has broken, in the order of `events.csv`. The line is the point's part of the face along which two bodies were bonded, at its current position |
+| `joints_NNNNN.vtp` | a line for each face on a joint trace; only for jointed specimens |
+| `frames.pvd` | list of all these files, for ParaView |
 
 Field data of all of them:
 )";
@@ -144,7 +157,9 @@ void describe_test_files(std::ostream& out) {
     out << summary_text;
     begin_table(out, "key");
     for (const SummaryKey& key : summary_keys())
-        print_row(out, key.what, key.converted ? fmt::format(", `{}{}`", key.what.name, converted_suffix) : "");
+        if (!key.again)
+            print_row(out, {key.name.c_str(), key.unit.c_str(), key.meaning.c_str(), key.more.c_str()},
+                      key.converted ? fmt::format(", `{}{}`", key.name, converted_suffix) : "");
     out << frames_text;
     print_table(out, "field", frame_fields());
     out << "\nCell data of `particles`:\n";

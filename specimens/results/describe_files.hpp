@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page FILES.md: every file of a test with every column, key and array, from the declarations by which they are
-// written.
+// Generates the page FILES.md from the declarations that also write the files. It lists all files of a test with all
+// their columns, keys and arrays.
 // Tested by tests/tools/readme_test.py.
 #pragma once
 
@@ -8,6 +8,7 @@
 
 namespace crackle {
 
+/// Writes the page as Markdown.
 void describe_test_files(std::ostream& out);
 
 }  // namespace crackle

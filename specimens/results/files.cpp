@@ -11,6 +11,7 @@
 #include "solver/files/read_file.hpp"
 #include "specimens/observers/events.hpp"
 #include "specimens/results/checkpoint.hpp"
+#include "specimens/summary/summary_file.hpp"
 
 namespace crackle {
 namespace {
@@ -18,22 +19,18 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds collection_interval{1};
-/// Frames that may wait to be drawn, of specimens whose frames are small.
+/// Number of frames that may wait to be drawn, and the largest specimen for which more than one may wait.
 constexpr std::size_t most_waiting = 4, most_bodies_of_several = 20'000;
 
-/// Pictures that the state does not know of were taken after its checkpoint, and may not be taken again.
+/// Removes frame files that are not listed in the state: they were written after its checkpoint and may not come again.
 void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
     std::set<std::string> listed;
     for (const FrameEntry& entry : state.frames)
         listed.insert(
             {particles_file(entry.row), contacts_file(entry.row), cracks_file(entry.row), joints_file(entry.row)});
-    std::vector<fs::path> unlisted;
-    std::error_code error;
-    for (const auto& file : fs::directory_iterator(frames, error)) {
-        const std::string name = file.path().filename().string();
-        if (is_picture(name) && !listed.contains(name)) unlisted.push_back(file.path());
-    }
-    for (const fs::path& file : unlisted) fs::remove(file, error);
+    std::error_code ignored;
+    for (const std::string& name : names_in(frames))
+        if (is_picture(name) && !listed.contains(name)) fs::remove(frames / name, ignored);
 }
 
 }  // namespace
@@ -114,11 +111,11 @@ void TestFiles::draw(Frame frame, const TestSetup& setup, const TestState& state
     const bool collects = std::chrono::steady_clock::now() - collected_ >= collection_interval;
     const auto first = state.history.cracks.begin();
     const auto cracks = static_cast<std::ptrdiff_t>(frame.cracks);
-    // What changes while it is drawn is copied; of the world only what a test leaves as it was made is looked at.
+    // Data that change while a frame is drawn are copied; only constant parts of the world are read.
     struct Job {
         Frame frame;
         std::vector<Crack> cracks;
-        std::string collection;  // frames.pvd once the frame is there; empty: later
+        std::string collection;  // contents of frames.pvd, to be written after the frame; empty: written later
     };
     const auto job = std::make_shared<const Job>(
         Job{std::move(frame), {first, first + cracks}, collects ? due_collection(state) : ""});
@@ -177,7 +174,7 @@ void TestFiles::flush() {
     if (ae_) ae_->flush();
 }
 
-void TestFiles::write_summary(TestSummary& summary, const TestState& state) {
+void TestFiles::write_summary(Summary& summary, const TestState& state) {
     write_collection(state);
     FileMarks files{{"curve.csv", curve_.mark()}, {"events.csv", events_.mark()}};
     if (slips_) files.emplace_back("slips.csv", slips_->mark());
@@ -185,11 +182,11 @@ void TestFiles::write_summary(TestSummary& summary, const TestState& state) {
     crackle::write_summary(folder_, summary, std::move(files));
 }
 
-void write_summary(const OutputFolder& folder, TestSummary& summary, FileMarks files) {
+void write_summary(const OutputFolder& folder, Summary& summary, FileMarks files) {
     const fs::path checkpoint = folder.path() / "checkpoint";
     if (is_there(checkpoint)) files.emplace_back("checkpoint", mark_of_file(checkpoint));
     state_files(summary, files);
-    folder.write("summary.json", summary.text(2) + '\n', Durable::yes);
+    folder.write("summary.json", text_of(summary, 2) + '\n', Durable::yes);
 }
 
 }  // namespace crackle

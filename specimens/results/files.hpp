@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The files that grow while a test runs: curve.csv, events.csv, frames/, checkpoint, and summary.json at the end.
+// The files written during a test: curve.csv, events.csv, frames/, the checkpoint, and finally summary.json.
 #pragma once
 
 #include <chrono>
@@ -10,53 +10,59 @@
 #include "specimens/recordings/stated_files.hpp"
 #include "specimens/results/background.hpp"
 #include "specimens/results/growing_file.hpp"
+#include "specimens/results/make_summary.hpp"
 #include "specimens/results/output_folder.hpp"
-#include "specimens/results/summary.hpp"
 
 namespace crackle {
 
-/// Writes summary.json, which states these files (stated_files.hpp) and the checkpoint, if there is one.
-void write_summary(const OutputFolder& folder, TestSummary& summary, FileMarks files);
+/// Writes summary.json, which records the lengths and hashes of these files (stated_files.hpp) and of the checkpoint,
+/// if there is one.
+void write_summary(const OutputFolder& folder, Summary& summary, FileMarks files);
 
+/// Options for the files of a test.
 struct FileOptions {
-    PointPrecision precision = PointPrecision::single_;  ///< of frames
-    bool slips = false;                                  ///< slips.csv is written
-    bool pressed = false, jointed = false;               ///< the curve, the events, have the columns of such a test
-    std::size_t large_frame = 200'000;  ///< bodies from which on the frame at the peak waits on the disc
+    FramePrecision precision = FramePrecision::single_;  ///< precision of points in frames
+    bool slips = false;                                  ///< whether slips.csv is written
+    bool pressed = false, jointed = false;               ///< whether curve and events have the columns for such a test
+    std::size_t large_frame = 200'000;  ///< number of bodies from which the frame at the peak is kept on disk
 };
 
+/// The files of a test while it runs.
 class TestFiles {
   public:
-    /// Begins from the start (state without rows) or goes on from the state, removing what came after it.
-    /// ae.csv is written where the state says that emission is listened to.
+    /// Starts new files if the state has no rows; otherwise continues them from the state and removes later contents.
+    /// ae.csv is written if emission is recorded.
     TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, const FileOptions& options);
 
+    /// Adds a row to curve.csv.
     void add_row(const CurveRow& row);
-    /// @param trace number of that on which it broke, or -1
+    /// @param trace  index of the trace on which the bond broke, or -1
     void add_event(const BreakEvent& event, double axial_strain, std::int32_t trace);
+    /// Adds a row to slips.csv.
     void add_slip(const SlipEvent& event, double axial_strain);
+    /// Adds a row to ae.csv. @param thickness  the thickness of the specimen, m
     void add_emission(const AcousticEvent& event, double thickness);
-    /// Takes the present moment for a frame, as take_frame(). Lists it in state.frames, in the order of rows, and has
-    /// its pictures written beside the stepping: they are there, all of them, before a checkpoint or a summary is.
-    /// frames.pvd follows within a second, or then: replacing a file costs more than a small specimen's frame. World
-    /// and setup must outlive these files.
+    /// Takes a frame of the current state, as take_frame() does, and adds it to state.frames in the order of rows. The
+    /// frame's file is written in the background; it is complete before a checkpoint or a summary is written.
+    /// frames.pvd follows within a second, or at that time: replacing a file costs more than a frame of a small
+    /// specimen. World and setup must outlive this object.
     void add_frame(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,
                    const World& world);
-    /// Keeps the present moment: the peak so far. While the stress rises every row is one. In state.peak_frame, of a
-    /// large specimen on the disc.
+    /// Stores the current state as the frame of the peak, which each later peak replaces; while the stress rises, every
+    /// row is a new peak. The frame is stored in state.peak_frame, or on disk for a large specimen.
     void keep_peak(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,
                    const World& world);
-    /// The frame kept last, if there is one, as add_frame().
+    /// Adds the frame that keep_peak() stored last, if any, as add_frame() does.
     void add_peak(const TestSetup& setup, TestState& state, const World& world);
-    /// Flushes the growing files, notes how far they go in the state, and writes the checkpoint when all is on the
-    /// disc.
+    /// Flushes the files, records their lengths in the state, and writes the checkpoint once all data are on disk.
     void write_checkpoint(const TestSetup& setup, TestState& state, const World& world);
-    /// Without a checkpoint: for a run that has gone wrong, whose last good checkpoint stays.
+    /// Flushes without writing a checkpoint. Used for a run that has failed; its last good checkpoint stays.
     void flush();
-    void write_summary(TestSummary& summary, const TestState& state);
+    /// Writes summary.json, with the lengths and hashes of all files of the test.
+    void write_summary(Summary& summary, const TestState& state);
 
   private:
-    /// Whether it is to be drawn: it was not before.
+    /// Adds a frame to the list. @return whether it must be drawn, because it was not in the list yet
     bool list_frame(const FrameEntry& entry, const TestSetup& setup, TestState& state, const World& world);
     void draw(Frame frame, const TestSetup& setup, const TestState& state, const World& world);
     std::string due_collection(const TestState& state);
@@ -67,11 +73,11 @@ class TestFiles {
     FileOptions options_;
     GrowingFile curve_, events_;
     std::optional<GrowingFile> slips_, ae_;
-    std::optional<FrameOnDisc> peak_on_disc_;  // in place of TestState::peak_frame
-    std::optional<FramePainter> painter_;      // once there is a frame
-    bool collection_due_;                      // frames.pvd is not of the state
+    std::optional<FrameOnDisc> peak_on_disc_;  // used instead of TestState::peak_frame
+    std::optional<FramePainter> painter_;      // exists once there is a frame
+    bool collection_due_;                      // whether frames.pvd is older than the state
     std::chrono::steady_clock::time_point collected_;
-    Background background_;  // last: what it still has to do needs the others
+    Background background_;  // last member, because its remaining jobs use the others
 };
 
 }  // namespace crackle

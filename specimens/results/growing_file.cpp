@@ -6,11 +6,13 @@
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <new>
 #include <system_error>
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/read_pieces.hpp"
 #include "solver/files/replace_file.hpp"
@@ -27,11 +29,12 @@ GrowingFile::GrowingFile(fs::path path, const FileMark& marked)
     : path_(std::move(path)), bytes_(marked.bytes), hash_(XXH3_createState()) {
     if (!hash_) throw std::bad_alloc();
     XXH3_64bits_reset(hash_.get());
+    refuse_no_plain_file(path_);
     if (marked.bytes > 0) {
         errno = 0;
         std::ifstream there(path_, std::ios::binary);
         if (!there && errno != ENOENT)
-            throw InputError(fmt::format("{}: cannot be read ({})", path_.string(), std::strerror(errno)));
+            fail_reading(errno, fmt::format("{}: cannot be read ({})", path_.string(), std::strerror(errno)));
         const auto end = static_cast<std::streamoff>(marked.bytes);
         const bool whole = there && read_pieces(there, 0, end, [&](std::string_view piece) {
                                XXH3_64bits_update(hash_.get(), piece.data(), piece.size());
@@ -50,9 +53,7 @@ GrowingFile::GrowingFile(fs::path path, const FileMark& marked)
         errno = error.value();
         refuse_output(path_);
     }
-    errno = 0;
-    out_.open(path_, std::ios::binary | (marked.bytes > 0 ? std::ios::app : std::ios::trunc));
-    if (!out_) refuse_output(path_);
+    out_.open(path_, marked.bytes > 0 ? FileStream::Opening::appending : FileStream::Opening::fresh);
 }
 
 void GrowingFile::write(const std::string& text) {
@@ -62,16 +63,16 @@ void GrowingFile::write(const std::string& text) {
 }
 
 void GrowingFile::flush() {
-    errno = 0;
     out_.flush();
-    if (!out_) refuse_output(path_);
+    out_.require_written(path_);
     std::error_code gone;
     const auto there = fs::file_size(path_, gone);
     if (gone || there != bytes_) {
-        throw InputError(fmt::format(
-            "{}: found {}, expected the {} bytes that were written; it was moved or changed while the test ran: run "
-            "the test again",
-            path_.string(), gone ? gone.message() : fmt::format("{} bytes", there), bytes_));
+        fail_reading(gone.value(),
+                     fmt::format("{}: found {}, expected the {} bytes that were written; it was moved or changed while "
+                                 "the test ran: run "
+                                 "the test again",
+                                 path_.string(), gone ? gone.message() : fmt::format("{} bytes", there), bytes_));
     }
 }
 

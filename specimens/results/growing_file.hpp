@@ -1,31 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A text file that grows while a test runs, and what a checkpoint records of it: where to go on, and by what bytes the
-// file is known to be the one that was left.
+// A text file that grows while a test runs. A checkpoint records its length and a hash of its contents, so that it can
+// be continued.
 // Tested by tests/specimens/results/growing_file_test.cpp.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 
 #include "solver/files/file_mark.hpp"
+#include "solver/files/file_stream.hpp"
 
 struct XXH3_state_s;
 
 namespace crackle {
 
+/// A file to which rows are appended, with a hash of its contents.
 class GrowingFile {
   public:
-    /// Keeps what is marked and goes on behind it; a mark of 0 bytes starts again.
-    /// @throws InputError if the file does not begin with what is marked, or cannot be written.
+    /// Keeps the marked bytes and continues after them; a mark of 0 bytes starts a new file.
+    /// @throws InputError if the file does not begin with the marked bytes, or cannot be written.
     GrowingFile(std::filesystem::path path, const FileMark& marked);
     ~GrowingFile();
 
+    /// Appends text.
     void write(const std::string& text);
-    /// @throws InputError if the disc did not take it all, or the file is no longer where it was made.
+    /// @throws InputError if not all data could be written, or the file was moved or removed.
     void flush();
+    /// Length and hash of the text written.
     FileMark mark() const;
 
   private:
@@ -34,7 +37,7 @@ class GrowingFile {
     };
 
     std::filesystem::path path_;
-    std::ofstream out_;
+    FileStream out_;
     std::uint64_t bytes_ = 0;
     std::unique_ptr<XXH3_state_s, FreeHash> hash_;
 };

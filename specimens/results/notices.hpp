@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a reader of a test's numbers must know beside them: the notices of summary.json.
+// Notices of summary.json: what a reader must know to judge a test's results.
 // Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
@@ -12,12 +12,12 @@
 
 namespace crackle {
 
-/// Those of the start, and what the curve turned out to resolve badly.
-/// @param viscous_share of the largest stress, that the dashpots bear when loading begins
+/// Notices from the setup of the test, and notices on its results.
+/// @param viscous_share  the fraction of the largest stress that dashpots carry when loading begins
 std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup, const TestState& state,
                                     const World& world, double viscous_share);
 
-/// What the companions show of the peak, in words; empty where they agree, or have not run.
+/// A sentence stating that companions disagree about the peak; empty if they agree or have not run.
 std::string notice_of_companions(const FailureTracker& failure, const NumericalErrors& errors);
 
 }  // namespace crackle

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The folder a test writes into, and the promise that goes with it: earlier results are never touched before the new
-// ones are complete. A folder with results is refused; with `force` the new results grow in OUT.new beside it and take
-// the old ones' place at the end. Nothing but a test's results is ever replaced. Single files appear under a temporary
-// name and are renamed, so that a full disc leaves the previous one. While an OutputFolder lives its folders are locked
-// against other processes.
+// The folder to which a test writes. Earlier results are never changed before the new ones are complete. A folder with
+// results is rejected. With `force`, the new results are written to OUT.new beside it and replace the old ones at the
+// end. Only results of tests are ever replaced. Files receive their final names once complete (new_file.hpp), so that
+// the previous file survives a full disk. While an OutputFolder exists, its folders are locked against other processes.
 // Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
@@ -18,55 +17,68 @@
 
 namespace crackle {
 
-/// What a test makes in its folder.
+/// A file that a test writes to its folder, with a description of its contents.
 struct ResultFile {
     const char* name;
     const char* holds;
 };
+/// All files and folders that a test may make.
 std::span<const ResultFile> result_files();
 
-/// Names that a test makes in its folder; anything else there belongs to the user.
+/// Whether a name is that of a file written by a test; all other files belong to the user.
 bool is_result_name(const std::string& name);
 
-/// Whether a folder holds what a test made. What is there of one that was stopped before its loading began is nothing:
-/// such a test is simply run again.
+/// Whether a folder contains results of a test. What is left of a test that was stopped before loading began does not
+/// count: such a test is simply run again.
 bool holds_test_results(const std::filesystem::path& folder);
 
-/// First line of a test's case.toml: by it a folder's case is known to be a result, not a user's own.
+/// First line of a test's case.toml: distinguishes the case in a results folder from a user's own file.
 inline constexpr const char* resolved_case_mark = "# Resolved case of crackle ";
 
+/// Whether a file must be on disk before it receives its final name.
 enum class Durable : bool { no, yes };
 
+/// What to do with earlier complete results in OUT and with unfinished ones in OUT.new.
+enum class Earlier {
+    refused,     ///< earlier results are an error
+    replaced,    ///< earlier results are replaced, unless OUT.new contains an unfinished test, which can be resumed
+    begun_again  ///< as `replaced`, and the contents of OUT.new are discarded
+};
+
+/// The folder of a test's results, locked against other processes. New results are written beside earlier ones.
 class OutputFolder {
   public:
-    /// @param inputs files of the case, which must not lie where results go
-    /// @throws InputError if the folder holds results (without force) or what only looks like them, is in use by
+    /// @param inputs  files of the case, which must not lie where results are written
+    /// @throws InputError if the folder contains results (unless they are replaced) or foreign files, is in use by
     /// another process, or cannot be written.
-    static OutputFolder create(const std::filesystem::path& wanted, bool force,
+    static OutputFolder create(const std::filesystem::path& wanted, Earlier earlier,
                                std::span<const std::filesystem::path> inputs);
-    /// An existing folder, to go on with; results that were just taking its place do so first.
-    /// @throws InputError if there is none.
+    /// Opens an existing folder to resume its test; an interrupted replacement is completed first. Results in OUT.new
+    /// replace those in OUT once they are complete.
+    /// @throws InputError if there is no such folder.
     static OutputFolder reopen(const std::filesystem::path& folder);
 
+    /// Takes over the folder and its lock.
     OutputFolder(OutputFolder&&) = default;
     OutputFolder& operator=(OutputFolder&&) = delete;
-    /// Removes what create() made, if nothing was written into it, and a folder that results were moved out of.
+    /// Removes what create() made if nothing was written to it, and the folder out of which results were moved.
     ~OutputFolder();
 
-    const std::filesystem::path& path() const { return working_; }   ///< where files are written now
-    const std::filesystem::path& target() const { return target_; }  ///< where they will be in the end
+    const std::filesystem::path& path() const { return working_; }   ///< folder to which files are currently written
+    const std::filesystem::path& target() const { return target_; }  ///< folder where the results will finally be
+    /// Whether new results are written beside older ones, which they replace at the end.
     bool staged() const { return working_ != target_; }
 
-    /// Writes a whole file, under a temporary name first. @param name relative to the folder
-    /// @param durable it gets its name when it and all that was written before are on the disc: it never knows of more
-    /// than a loss of power leaves
+    /// Writes a whole file, first under a temporary name. @param name  relative to the folder
+    /// @param durable  the file receives its name only when it and all earlier writes are on disk, so that it never
+    /// refers to data lost in a power failure
     void write(const std::string& name, const std::string& bytes, Durable durable = Durable::no) const;
-    /// The same, of a file that is not in memory as a whole.
+    /// Writes a file that is too large to hold in memory, in the same way.
     void write(const std::string& name, const std::function<void(std::ostream&)>& write_to,
                Durable durable = Durable::no) const;
-    /// Puts staged results in the place of the old ones; path() is target() from then on.
+    /// Replaces the old results with the staged ones; afterwards path() equals target().
     void finish();
-    /// Of a staged folder whose finish() did not end: what has become of the earlier results, as a sentence.
+    /// For a staged folder whose finish() did not complete: a sentence on the state of the earlier results.
     std::string fate_of_earlier_results() const;
 
   private:
@@ -74,7 +86,7 @@ class OutputFolder {
         : target_(std::move(target)), working_(std::move(working)) {}
 
     std::filesystem::path target_, working_;
-    std::filesystem::path moved_from_;  // may be there still
+    std::filesystem::path moved_from_;  // emptied folder that may still have to be removed
     bool made_ = false;
     std::vector<FolderLock> locks_;
 };

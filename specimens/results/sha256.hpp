@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// SHA-256 (FIPS 180-4): names the inputs of a test so that `sha256sum` can check them, and guards checkpoints.
+// SHA-256 (FIPS 180-4). It identifies the inputs of a test, so that `sha256sum` can check them, and protects
+// checkpoints.
 #pragma once
 
 #include <memory>
@@ -10,12 +11,13 @@ struct evp_md_ctx_st;
 
 namespace crackle {
 
-/// Of bytes that come piece by piece.
+/// Hash of data that are added piece by piece.
 class Sha256 {
   public:
     Sha256();
+    /// Appends bytes to the data.
     void add(std::string_view bytes);
-    /// 64 hexadecimal digits; once.
+    /// Returns the hash as 64 hexadecimal digits; may be called only once.
     std::string digits();
 
   private:
@@ -25,7 +27,7 @@ class Sha256 {
     std::unique_ptr<evp_md_ctx_st, Free> context_;
 };
 
-/// 64 hexadecimal digits.
+/// Returns the hash as 64 hexadecimal digits.
 std::string sha256(std::string_view bytes);
 
 }  // namespace crackle

@@ -3,31 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "specimens/measures/trace_motion.hpp"
-#include "specimens/results/json_number.hpp"
 
 namespace crackle {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json motion_of(const TraceMotion& motion) {
-    const auto mean = [&](double value) { return finite_or_null(motion.length > 0.0 ? value : NAN); };
-    return {{"failed_share", finite_or_null(motion.failed / motion.bonded)},
-            {"opening", mean(motion.opening)},
-            {"slip", mean(motion.slip)},
-            {"largest_opening", mean(motion.largest_opening)},
-            {"largest_slip", mean(motion.largest_slip)}};
+JointMotion motion_of(const TraceMotion& motion) {
+    const auto mean = [&](double value) { return motion.length > 0.0 ? value : NAN; };
+    return {motion.failed / motion.bonded, mean(motion.opening), mean(motion.slip), mean(motion.largest_opening),
+            mean(motion.largest_slip)};
 }
 
 }  // namespace
 
-Json trace_figures(const TestSetup& setup, const TestState& state, const World& world) {
+JointedFigures trace_figures(const TestSetup& setup, const TestState& state, const World& world) {
     const std::vector<Crack>& cracks = state.history.cracks;
     const bool has_peak = state.failure.peak_row >= 0;
     const auto to_peak = static_cast<std::size_t>(state.breaks_in_shear_to_peak + state.breaks_in_tension_to_peak);
@@ -35,18 +28,14 @@ Json trace_figures(const TestSetup& setup, const TestState& state, const World& 
     const std::int64_t on_traces = breaks_on_traces(setup, cracks);
     const std::int64_t on_traces_to_peak = breaks_on_traces(setup, cracks_to_peak);
     const auto entry = [&](const std::string& source, double length, const TraceMotion& peak, const TraceMotion& end) {
-        return Json{{"source", source},
-                    {"length", length},
-                    {"faces", end.faces},
-                    {"length_of_faces", end.length},
-                    {"bonded_share", finite_or_null(end.bonded / end.length)},
-                    {"at_peak", has_peak ? motion_of(peak) : Json(nullptr)},
-                    {"at_end", motion_of(end)}};
+        const auto at_peak = has_peak ? std::optional(motion_of(peak)) : std::nullopt;
+        return JointFigures{source,  length,         end.faces, end.length, end.bonded / end.length,
+                            at_peak, motion_of(end), {}};
     };
     const std::vector<TraceMotion> at_end = trace_motions(setup, places_of_faces(world, setup), cracks);
     const std::vector<TraceMotion> at_peak =
         has_peak ? trace_motions(setup, state.faces_at_peak, cracks_to_peak) : std::vector<TraceMotion>(at_end.size());
-    Json traces = Json::array(), sources = Json::array();
+    std::vector<JointFigures> traces, sources;
     std::vector<std::string> names;
     for (std::size_t k = 0; k < setup.traces.size(); ++k) {
         const SpecimenTrace& trace = setup.traces[k];
@@ -64,16 +53,12 @@ Json trace_figures(const TestSetup& setup, const TestState& state, const World& 
             peak.add(at_peak[k]);
             end.add(at_end[k]);
         }
-        Json json = entry(name, length, peak, end);
-        json["traces"] = count;
-        sources.push_back(json);
+        sources.push_back(entry(name, length, peak, end));
+        sources.back().traces = count;
     }
-    return {{"bonds_broken_on_joints", on_traces},
-            {"bonds_broken_in_rock", std::ssize(cracks) - on_traces},
-            {"bonds_broken_on_joints_to_peak", on_traces_to_peak},
-            {"bonds_broken_in_rock_to_peak", static_cast<std::int64_t>(to_peak) - on_traces_to_peak},
-            {"joints", sources},
-            {"traces", traces}};
+    return {on_traces,         std::ssize(cracks) - on_traces,
+            on_traces_to_peak, static_cast<std::int64_t>(to_peak) - on_traces_to_peak,
+            sources,           traces};
 }
 
 }  // namespace crackle

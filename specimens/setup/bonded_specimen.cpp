@@ -17,45 +17,44 @@
 namespace crackle {
 namespace {
 
-// Circles bond at the overlaps they have whatever the thickness; this one keeps platens thin beside the particles.
-constexpr double circle_thick_share = 0.1;  // of the mean radius
+// Circles bond at their overlaps, whatever the thickness; this value keeps platens thin compared with the particles.
+constexpr double circle_thick_share = 0.1;  // relative to the mean radius
 
-/// The case's step, known to be stable only now that there are bonds.
+/// Applies the case's time step. Its stability can be checked only once there are bonds.
 void apply_given_step(World& world, const TestCase& test) {
     if (!test.numerics.time_step) return;
     try {
         set_time_step(world, *test.numerics.time_step);
     } catch (const UnstableRun&) {
         throw InputError(fmt::format(
-            "{}: found {} s, expected at most the exact stable step of this specimen, {:.6g} s; give a smaller one, "
-            "leave it out to have it derived, or run with --allow-unstable to see the limit",
+            "{}: found {} s, expected at most the exact stable step of this specimen, {:.6g} s; give a smaller "
+            "time step, omit it for an automatic step, or run with --allow-unstable to find the limit",
             test.at("numerics.time_step"), *test.numerics.time_step, world.stepping.exact_step));
     }
 }
 
-/// How deep corners of a mesh overhang after the inset: some 0.01 of the thickness, hardly ever more than this.
+/// Allowance for the overhang of mesh corners after the inset, relative to the thickness. It is about 0.01, hardly ever
+/// more than this.
 constexpr double overhang_share = 0.05;
 
 Bonding bonding_of(const Specimen& specimen, const TestCase& test, double thick) {
     Bonding bonding;
     bonding.thick = thick;
-    if (!test.coulomb_bonds()) return bonding;
+    if (!test.bond_facts().bonds_across_gaps) return bonding;
     const TestCase::Bond& keys = test.bond;
     if (specimen.polygons) bonding.gap = keys.gap.value_or(overhang_share * thick);
-    // By pairs of circles `range` goes: this is of circles and the parts that hold them.
+    // Pairs of circles use `range`; this gap applies between circles and the parts that hold them.
     if (!specimen.polygons && !specimen.shape.outline.empty()) bonding.gap = cut_circles_offset * specimen.particle;
     bonding.range = keys.range;
     bonding.tensile_factor = keys.tensile_factor;
     bonding.cohesion_factor = keys.cohesion_factor;
-    if (keys.strength_distribution != "none") {
-        bonding.factors = StrengthFactors(
-            strength_distribution_named(test.at("bond.strength_distribution"), keys.strength_distribution),
-            *keys.strength_cv, *keys.strength_seed);
+    if (keys.strength_distribution != StrengthDistribution::none) {
+        bonding.factors = StrengthFactors(keys.strength_distribution, *keys.strength_cv, *keys.strength_seed);
     }
     return bonding;
 }
 
-/// Bonds that a notch parts are not made.
+/// Returns a predicate for pairs on opposite sides of the notch, which are not bonded.
 std::function<bool(BodyIndex, BodyIndex)> parted_by(const World& world, const Notch& notch) {
     return [&world, notch](BodyIndex i, BodyIndex j) {
         const BodyState &a = world.bodies.state[i], &b = world.bodies.state[j];
@@ -63,7 +62,7 @@ std::function<bool(BodyIndex, BodyIndex)> parted_by(const World& world, const No
     };
 }
 
-/// Glued platens and the grips beside them never let go.
+/// Returns a predicate for bonds of a glued platen or a grip, which never break.
 std::function<bool(Vec2, BodyIndex, BodyIndex)> grips_of(const World& world, const Specimen& specimen,
                                                          const Platens& platens, double grip) {
     const Domain& domain = specimen.scene.domain;
@@ -77,17 +76,17 @@ std::function<bool(Vec2, BodyIndex, BodyIndex)> grips_of(const World& world, con
     };
 }
 
-/// The bodies as they are bonded, without platens.
+/// The scene to be bonded, without platens.
 Scene scene_of(const Specimen& specimen, const TestCase& test) {
     Scene scene = specimen.scene;
     scene.thick = test.bond.thick     ? *test.bond.thick
                   : specimen.polygons ? specimen.mesh_gap
                                       : circle_thick_share * specimen.mean_radius;
-    scene.bond_law = bond_law_named("bond.law", test.bond.law);
-    scene.units = stiffness_units_named("material.units", test.material.units);
-    scene.segment_law = segment_law_named("numerics.contact_law", test.numerics.contact_law);
-    scene.integrator = integrator_named("numerics.integrator", test.numerics.integrator);
-    scene.time_step = 0.0;  // a particle file's own is of its packing
+    scene.bond_law = test.bond.law;
+    scene.units = test.material.units;
+    scene.segment_law = test.numerics.contact_law;
+    scene.integrator = test.numerics.integrator;
+    scene.time_step = 0.0;  // the time step in a particle file was chosen for packing
     scene.safety_factor = test.numerics.safety_factor;
     scene.step_scale = test.step_scale;
     scene.allow_unstable = test.numerics.allow_unstable;
@@ -117,10 +116,11 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, con
     const double thick = scene.thick;
     bonded.world = build_world(std::move(scene));
     bonded.world.workers.while_solving = std::move(while_solving);
-    forget_point_forces(bonded.world);  // platens give the stress, the curve's rows the energy of springs
+    forget_point_forces(bonded.world);  // not needed: platens give the stress, and curve rows the energy of the springs
     Bonding bonding = bonding_of(specimen, test, thick);
-    bonding.pressed = loading.kind != "tension";
-    if (loading.platens == "glued")
+    const TestKind& kind = test_kind(loading.kind);
+    bonding.pressed = kind.compression || kind.shear_box;
+    if (loading.platens == PlatenKind::glued)
         bonding.holds = grips_of(bonded.world, specimen, bonded.platens, loading.grip.value_or(0.0));
     if (specimen.shape.notch && specimen.polygons) bonding.leaves = parted_by(bonded.world, *specimen.shape.notch);
     bond(bonded.world, test, bonding);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A specimen between its platens as a world with bonds.
+// Creates a bonded world from a specimen and its platens.
 // Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
@@ -13,24 +13,27 @@
 
 namespace crackle {
 
+/// A bonded world, and its platens.
 struct BondedSpecimen {
     World world;
     Platens platens;
 };
 
-/// Platens added, world built, bonds made, platens in place, forces known.
-/// @param loading of the test, or with other platens @param while_solving for the world (Workers)
-/// @throws InputError for a step above the exact stable step, naming the case's key
+/// Adds platens, builds the world, creates bonds, moves the platens to their initial positions and computes forces.
+/// @param loading  the test's own loading, or a copy with other platens @param while_solving  passed to the world
+/// (Workers)
+/// @throws InputError if the time step exceeds the exact stable step; the error names the case's key
 BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading,
                              std::function<void()> while_solving = {});
 
+/// What is made of the traces of joints.
 enum class Traces : std::uint8_t {
     as_they_are,
-    welded,   ///< of joints that hold as the rock does and give nothing; circles keep their flat faces
-    as_rock,  ///< without joints
+    welded,   ///< joints are as strong as the rock and do not deform; circles keep their flat faces
+    as_rock,  ///< joints are ignored
 };
 
-/// The same without platens and walls.
+/// The bonded specimen alone, without platens and walls.
 World bond_alone(const Specimen& specimen, const TestCase& test, Traces traces = Traces::as_they_are);
 
 }  // namespace crackle

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loading by lateral strain: a compressed specimen widens steadily, and the platen does what that takes, backwards
-// where the specimen gives off more energy than it needs to break (class II, Wawersik & Fairhurst, Int. J. Rock Mech.
-// Min. Sci. 7, 1970).
+// Loading by lateral strain: the platen moves such that a compressed specimen widens at a steady rate. The platen moves
+// back when fracture releases more energy than it consumes (class II behaviour, Wawersik & Fairhurst, Int. J. Rock
+// Mech. Min. Sci. 7, 1970).
 //
-// The lateral strain is that of the medians of both sides, smoothed over a transit. A target grows by ν·(the rate that
-// the tolerance allows), ν of the linear solution, and lies never farther from the lateral strain, ahead or behind,
-// than a band b = ν·ε1/20; the speed is that rate times (target - lateral strain)/b. An elastic specimen is loaded as
-// by axial strain, b behind; where one widens faster than that the platen goes back until it no longer does.
+// The lateral strain is computed from the medians of both sides and smoothed over one wave transit. Its target grows at
+// ν times the strain rate allowed by the tolerance, where ν is Poisson's ratio of the linear solution. The target stays
+// within a band b = ν·ε1/20 of the lateral strain, on either side. The platen's strain rate is the allowed rate times
+// (target - lateral strain)/b. An elastic specimen is loaded as under axial control, with a lag of b. If the specimen
+// widens faster, the platen moves back until the widening slows down.
 //
 // Tested by tests/specimens/loading/lateral_control_test.cpp.
 #pragma once
@@ -16,18 +17,21 @@
 
 namespace crackle {
 
+/// How the lateral strain controls the loading.
 struct LateralRule {
-    double ratio = 0.0;         ///< Poisson's, of the linear solution; 0: not so controlled
-    double band = 0.0;          ///< of lateral strain
-    double acceleration = 0.0;  // 1/s2, of the axial strain
+    double ratio = 0.0;         ///< Poisson's ratio of the linear solution; 0: no lateral control
+    double band = 0.0;          ///< largest distance between target and lateral strain
+    double acceleration = 0.0;  // 1/s2, largest acceleration of the axial strain
 
+    /// Whether it does.
     bool on() const { return ratio > 0.0; }
 };
-/// @throws InputError if the specimen does not widen by the linear solution
+/// @throws InputError if the specimen does not widen in the linear solution
 LateralRule lateral_rule_of(const TestCase& test, const RateRule& rate, double poissons_ratio);
 
-/// The coming speed, taken into the path. @param allowed 1/s, by the tolerance
-/// @param lateral_strain now, not smoothed @param since s, since the last time
+/// Chooses the next speed and stores it in the path. @param allowed  1/s, strain rate allowed by the tolerance
+/// @param strain  axial strain @param lateral_strain  current value, not smoothed
+/// @param since  s, time since the last call
 void follow_lateral(LoadingPath& path, const LateralRule& rule, double allowed, double strain, double lateral_strain,
                     double since);
 

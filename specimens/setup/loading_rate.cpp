@@ -8,11 +8,13 @@
 namespace crackle {
 namespace {
 
-// Changes of ln(rate) a transit, over sqrt(tolerance): for an error of e times the tolerance, and at most.
+// Controller for ln(rate), scaled by sqrt(tolerance): gain is the change per wave transit and unit of error/tolerance;
+// fastest_rise and fastest_fall limit it.
 constexpr double gain = 1.0, fastest_rise = 1.0, fastest_fall = 4.0;
-// The rate never falls below this share of its limit: after a break a specimen rings on for a while at any rate.
+// Lower limit of the rate, as a fraction of its upper limit: after a breakage a specimen vibrates for a while at any
+// rate.
 constexpr double slowest_share = 0.15;
-// Errors far below the tolerance carry no further information.
+// Errors are clamped to this fraction of the tolerance: smaller ones carry no further information.
 constexpr double least_error_share = 1e-6;
 
 }  // namespace

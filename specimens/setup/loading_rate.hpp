@@ -1,74 +1,61 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quasi-static loading by tolerance: the platen's speed follows the inertia error.
+// Quasi-static loading at a rate that is controlled by a tolerance: the platen's speed depends on the measured inertia
+// error.
 //
-// Loading starts in motion, with the velocities of the elastic solution, so that it sends no shock: while the specimen
-// is elastic, any constant rate is as good as rest. What a rate costs comes when the specimen changes: in a transit T =
-// height/sqrt(E/ρ) of a wave the strain grows by rate·T, so the rate is at most sqrt(tolerance)·ε1/T, ε1 the strain at
-// which one in fifty bonded points has slid or broken by the linear solution, or a joint in the shear box slides. Below
-// that it follows two measured errors, smoothed over a transit:
-//     out-of-balance   |σ_top - σ_bottom| over the largest stress so far
-//     kinetic share    kinetic energy beyond that of the loading itself, over the strain energy
-// The larger of the two over the tolerance drives ln(rate): slow through bursts of breaks, faster where nothing
-// happens.
+// To avoid a shock, loading starts with the velocities of the elastic solution. As long as the specimen is elastic, any
+// constant rate then gives the static response. The rate matters once the specimen starts to fail. During the transit
+// time T = height/sqrt(E/ρ) of a wave the strain grows by rate·T, so the rate is at most sqrt(tolerance)·ε1/T. ε1 is
+// the strain at which, by the linear solution, one in fifty bonded points has slid or broken, or a joint in the shear
+// box slides. Below that limit the rate follows two measured errors, smoothed over one transit:
+//       out-of-balance   |σ_top - σ_bottom| divided by the largest stress so far
+//       kinetic share    kinetic energy beyond that of the steady loading motion, divided by the strain energy
+// The larger error, divided by the tolerance, controls ln(rate): loading is slow through bursts of breakages and faster
+// in quiet periods.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 
+#include "solver/base/fields.hpp"
+
 namespace crackle {
 
-/// What does not change while a specimen is loaded.
+/// Constants of the rate rule, fixed during loading.
 struct RateRule {
-    double tolerance = 0.0;         ///< 0: the rate is given, and the rest unused
+    double tolerance = 0.0;         ///< 0: the case gives the rate, and the other members are unused
     double transit_time = 0.0;      // s
-    double first_strain = 0.0;      ///< axial, where the specimen first gives way by the linear solution
-    double stress_floor = 0.0;      // N/m, at that strain
-    double energy_floor = 0.0;      // J, stored at that strain
-    double kinetic_per_rate = 0.0;  // J s2, of the elastic motion at a rate of 1/s
+    double first_strain = 0.0;      ///< axial strain ε1 at which the specimen starts to fail by the linear solution
+    double stress_floor = 0.0;      // N/m, stress at that strain
+    double energy_floor = 0.0;      // J, strain energy at that strain
+    double kinetic_per_rate = 0.0;  // J s2, kinetic energy of the elastic motion at a strain rate of 1/s
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("tolerance", s.tolerance);
-        visit("transit_time", s.transit_time);
-        visit("first_strain", s.first_strain);
-        visit("stress_floor", s.stress_floor);
-        visit("energy_floor", s.energy_floor);
-        visit("kinetic_per_rate", s.kinetic_per_rate);
-    }
+    CRACKLE_FIELDS(tolerance, transit_time, first_strain, stress_floor, energy_floor, kinetic_per_rate);
 };
 
+/// The present rate, and what it follows from.
 struct RateState {
     double rate = 0.0;                    // 1/s, axial, >= 0
     double out_of_balance = 0.0;          ///< smoothed, signed
-    double largest_stress = 0.0;          // N/m, so far, whatever its sign
+    double largest_stress = 0.0;          // N/m, largest magnitude so far
     double kinetic_share = 0.0;           ///< smoothed
     double next_check = 0.0;              // s
     double slowest = 0.0, fastest = 0.0;  // 1/s
-    double strain_above = 0.0;            ///< strain gone through while the error lay above the tolerance
+    double strain_above = 0.0;            ///< strain travelled while the error exceeded the tolerance
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("rate", s.rate);
-        visit("out_of_balance", s.out_of_balance);
-        visit("largest_stress", s.largest_stress);
-        visit("kinetic_share", s.kinetic_share);
-        visit("next_check", s.next_check);
-        visit("slowest", s.slowest);
-        visit("fastest", s.fastest);
-        visit("strain_above", s.strain_above);
-    }
+    CRACKLE_FIELDS(rate, out_of_balance, largest_stress, kinetic_share, next_check, slowest, fastest, strain_above);
 };
 
-/// Checks per transit: the rate changes little from one to the next, so that changing it sends no shock.
+/// Checks per wave transit, frequent enough that the rate changes little between checks and the changes cause no shock.
 inline constexpr double checks_per_transit = 20.0;
 
-/// The rate to begin with, never exceeded.
+/// The initial rate, which is never exceeded.
 double largest_rate(const RateRule& rule);
-/// What the rate never falls below.
+/// Lower limit of the rate.
 double slowest_rate(const RateRule& rule);
 
-/// Smooths the out-of-balance of one step, at every step, so that nothing depends on the rows of the curve.
-/// @param top, bottom axial stress of the specimen at its platens, N/m, of the same sign
+/// Smooths the out-of-balance stress. Called in every step, so that the result does not depend on the rows of the
+/// curve.
+/// @param top, bottom  axial stress of the specimen at its platens, N/m, with the same sign convention
 inline void watch_balance(RateState& state, const RateRule& rule, double top, double bottom, double dt) {
     state.largest_stress = std::max(state.largest_stress, 0.5 * std::abs(top + bottom));
     const double share = std::min(1.0, dt / rule.transit_time);
@@ -76,8 +63,8 @@ inline void watch_balance(RateState& state, const RateRule& rule, double top, do
     state.out_of_balance += share * ((top - bottom) / scale - state.out_of_balance);
 }
 
-/// The coming rate, taken into the state. @param moving 1/s, at which the platen moves now, of either sign
-/// @param kinetic, stored energies of the specimen, J
+/// Chooses the next rate and stores it in the state. @param moving  1/s, current strain rate of the platen, signed
+/// @param kinetic, stored  kinetic and strain energy of the specimen, J
 void choose_rate(RateState& state, const RateRule& rule, double moving, double kinetic, double stored, double time);
 
 }  // namespace crackle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Places, holds and drives the two platens.
+// Adds the parts that hold and drive the specimen: two platens, or the jaws, pads or boxes of its kind of test.
 
 #include "specimens/setup/platen.hpp"
 #include "solver/measure/point_view.hpp"
@@ -15,7 +15,7 @@ struct Extent {
     double high = -std::numeric_limits<double>::infinity();
 };
 
-/// Outermost surface points of the particles along x or y (bare corners for polygons).
+/// Outermost surface points of the particles along x or y (for polygons the corners, without the rounding).
 Extent extent_along(const Scene& scene, double Vec2::*axis) {
     Extent extent;
     for (const CircleElement& circle : scene.circles) {
@@ -29,15 +29,15 @@ Extent extent_along(const Scene& scene, double Vec2::*axis) {
     return extent;
 }
 
-/// Distance of a bonded platen's line from the domain's face, outwards.
-/// @param depth how far inside the face the outermost particle ends
+/// Distance from the domain's face outwards to the face of a bonded platen, m.
+/// @param depth  distance from the domain's face inwards to the outermost end of a particle
 double bonded_offset(const Specimen& specimen, double depth, double thick) {
     if (!specimen.polygons) return thick;
     const bool flat = depth <= specimen.mesh_gap;
     return flat ? 0.5 * specimen.mesh_gap : specimen.mesh_gap - depth;
 }
 
-/// The platens' material with another friction angle, degrees.
+/// Adds a copy of the platens' material with another friction angle, degrees, and returns its index.
 int material_with_friction(Scene& scene, const Specimen& specimen, double angle) {
     Material material = scene.materials[static_cast<std::size_t>(specimen.platen_material)];
     material.friction_angle = material.residual_friction_angle = angle;
@@ -46,7 +46,7 @@ int material_with_friction(Scene& scene, const Specimen& specimen, double angle)
 }
 
 int platen_material(Scene& scene, const Specimen& specimen, const TestCase::Loading& loading) {
-    if (loading.platens != "frictional") return specimen.platen_material;
+    if (loading.platens != PlatenKind::frictional) return specimen.platen_material;
     return material_with_friction(scene, specimen, *loading.platen_friction_angle);
 }
 
@@ -60,7 +60,7 @@ void hold(Scene& scene, std::uint32_t body, double velocity) {
     scene.bodies[body].velocity = {0.0, velocity};
 }
 
-/// Circle, clump and polygon centroids are exact for the velocity field; rounding moves nothing that matters here.
+/// The velocity field uses the centroids of circles, clumps and polygons; their rounded corners do not matter here.
 void spread_velocity(Scene& scene, const Platens& platens) {
     const double height = platens.top_y - platens.bottom_y;
     for (Body& body : scene.bodies) {
@@ -70,18 +70,19 @@ void spread_velocity(Scene& scene, const Platens& platens) {
     }
 }
 
-/// What a bonded face of a part lies away from the specimen's, m.
+/// Distance between the specimen's face and the face of a part bonded to it, m.
 double part_offset(const Specimen& specimen, double thick) {
     return specimen.polygons ? 0.5 * specimen.mesh_gap : thick;
 }
 
 int next_id(const Scene& scene) { return std::ranges::max_element(scene.bodies, {}, &Body::id)->id + 1; }
 
-/// The parts of a kind of test that has no platens.
+/// Adds the parts for a kind of test without platens.
 void add_parts(Scene& scene, const Specimen& specimen, const TestCase& test, double thick, Platens& platens) {
     KindRequest request{test, scene.domain, specimen.particle};
     request.offset = part_offset(specimen, thick);
-    // Circles that were cut out by their centres reach beyond the outline: half a radius on, none is through it.
+    // Circles selected by their centres extend beyond the outline. The offset of half a radius prevents a circle from
+    // passing through the face.
     request.cut_offset = specimen.polygons ? request.offset : cut_circles_offset * specimen.particle;
     for (const CircleElement& circle : scene.circles) request.surface.push_back({circle.centre, circle.radius + thick});
     for (const Vec2 corner : scene.vertices) request.surface.push_back({corner, thick});
@@ -104,8 +105,8 @@ void add_parts(Scene& scene, const Specimen& specimen, const TestCase& test, dou
     }
 }
 
-/// Blocks beside the specimen, from beyond the lower platen to beyond the upper one, that the pressure drives.
-/// @param sides of the particles alone
+/// Adds the blocks beside the specimen that are driven by the pressure; they extend beyond both platens.
+/// @param sides  extent of the particles alone
 void add_walls(Scene& scene, const Specimen& specimen, const TestCase& test, double thick, const Platens& platens,
                const Extent& sides) {
     const int material = material_with_friction(scene, specimen, 0.0);
@@ -114,7 +115,7 @@ void add_walls(Scene& scene, const Specimen& specimen, const TestCase& test, dou
     const double low = platens.bottom_y - beyond, high = platens.top_y + beyond;
     const auto add = [&](int id, double face, double outwards) {
         const double x = face + outwards * platens.walls_parked, back = x + outwards * depth;
-        // Counter-clockwise, the face first.
+        // Corners counter-clockwise, starting with those of the face.
         std::vector<Vec2> corners = outwards < 0.0 ? std::vector<Vec2>{{x, low}, {x, high}, {back, high}, {back, low}}
                                                    : std::vector<Vec2>{{x, high}, {x, low}, {back, low}, {back, high}};
         Control control;
@@ -135,7 +136,7 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase& test
     const Extent extent = extent_along(scene, &Vec2::y), sides = extent_along(scene, &Vec2::x);
     const Domain& domain = scene.domain;
     Platens platens;
-    platens.bonded = loading.platens != "frictional";
+    platens.bonded = loading.platens != PlatenKind::frictional;
     platens.apparatus.section = specimen.width;
     platens.apparatus.length = specimen.height;
     scene.domain.wall_present = {false, false, false, false};
@@ -150,8 +151,9 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase& test
         platens.bottom_y = extent.low - thick;
         platens.top_y = extent.high + thick;
     }
-    const double speed = loading.axial_strain_rate.value_or(0.0) * specimen.height;  // by tolerance: set later
-    platens.velocity = loading.kind == "tension" ? speed : -speed;
+    // The speed is set later if the loading rate is derived from a tolerance.
+    const double speed = loading.axial_strain_rate.value_or(0.0) * specimen.height;
+    platens.velocity = test_kind(loading.kind).compression ? -speed : speed;
     spread_velocity(scene, platens);
 
     platens.walls = test.confined() && test.confinement.by_walls();
@@ -165,7 +167,7 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase& test
     platens.parked = platens.bonded ? 0.0 : platen_parking_distance * specimen.height;
     const double bottom_y = platens.bottom_y - platens.parked;
     const double top_y = platens.top_y + platens.parked;
-    // Counter-clockwise, the face first.
+    // Corners counter-clockwise, starting with those of the face.
     const auto bottom = scene.add_chain_body(
         platens.bottom_id, material,
         {{right, bottom_y}, {left, bottom_y}, {left, bottom_y - depth}, {right, bottom_y - depth}}, true);

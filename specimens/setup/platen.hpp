@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loading platens: two flat rigid blocks, wider than the specimen, above and below it.
 //
-// Where their faces lie (t = segment thickness at bonding):
-//   - circles: t outside the domain's face, so that a circle overlaps its platen by what it overlapped the wall it was
-//     packed against;
-//   - polygons: half the meshing thickness outside the face, so that the gap is the meshing thickness as everywhere;
-//   - ragged polygons (no corner within the meshing thickness of the face): the meshing thickness outside the outermost
+// Positions of their faces (t = segment thickness when bonds are made):
+//   - circles: t outside the domain's face, so that a circle overlaps its platen as much as it overlapped the wall
+//     against which it was packed;
+//   - polygons: half the meshing thickness outside the face; the gap then equals the meshing thickness, as elsewhere;
+//   - ragged polygons (no corner within the meshing thickness of the face): one meshing thickness outside the outermost
 //     corner;
-//   - frictional platens: just touching the outermost particle. Nothing bonds them, the test starts without force.
-// A block and not one segment: behind a single segment a corner pressed in by more than t would be through, and pushed
-// on. Before that, both carry the same force.
-// Walls that press the sides of a confined specimen (confinement.side = "walls") are smooth blocks that reach beyond
-// both platens, which they pass through; each moves along x by the force of the pressure on the initial height. They
-// too just touch the outermost particle, and wait as far outside. The lower platen is fixed, the upper one moves at
-// constant velocity; both are held laterally and in rotation. Other kinds of test have the parts that specimens/kinds
-// describes: supports first, the one that drives last. Tested by tests/specimens/loading/virtual_test_test.cpp.
+//   - frictional platens: just touching the outermost particle. They are not bonded, and the test starts at zero force.
+// A platen is a solid block rather than a single segment. A corner pressed into a segment by more than t would pass
+// through it and be pushed out on the other side. Up to that overlap, both exert the same force.
+//
+// Walls that press on the sides of a confined specimen (confinement.side = "walls") are smooth blocks. They extend
+// beyond both platens and may overlap them. Each moves along x under the confining pressure times the initial height.
+// Like frictional platens, walls just touch the outermost particle and are first parked at a distance.
+//
+// The lower platen is fixed and the upper one moves at constant velocity; both are fixed laterally and in rotation.
+// Other kinds of test use the parts described in specimens/kinds: supports first, the driving part last.
+// Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
 #include "solver/scene/scene.hpp"
@@ -23,37 +26,39 @@
 
 namespace crackle {
 
+/// The bodies that hold and drive a specimen.
 struct Platens {
-    int bottom_id = 0, top_id = 0;       ///< numbers after the input's largest: of the first part and of the last
-    Apparatus apparatus;                 ///< parts of the kinds that have some; what stress and strain refer to
-    double bottom_y = 0.0, top_y = 0.0;  ///< m, faces at the start of loading
-    double velocity = 0.0;               ///< m/s of the upper one, upwards
-    double parked = 0.0;                 ///< m, how far outside its face each waits while the specimen is bonded
-    double walls_parked = 0.0;           ///< m, likewise the walls
+    int bottom_id = 0, top_id = 0;  ///< ids of the first and the last part; both are larger than all ids in the input
+    Apparatus apparatus;  ///< parts for kinds of test without platens; reference dimensions of stress and strain
+    double bottom_y = 0.0, top_y = 0.0;  ///< m, y of the faces at the start of loading
+    double velocity = 0.0;               ///< m/s, of the upper platen, positive upwards
+    double parked = 0.0;  ///< m, distance of each platen from its initial position while the specimen is being bonded
+    double walls_parked = 0.0;  ///< m, the same distance for the walls
     bool bonded = true;
-    bool walls = false;  ///< that press the sides, numbered between the two: the left one, then the right one
+    bool walls = false;  ///< whether walls press on the sides; their ids follow the lower platen's, left before right
 };
 
-/// How far apart platens wait while a specimen with frictional platens is bonded, in specimen heights.
+/// Distance at which frictional platens are parked while a specimen is being bonded, in specimen heights.
 inline constexpr double platen_parking_distance = 1.0;
 
-/// Width of a platen over the specimen's: room for a specimen that bulges and sheds pieces.
+/// Width of a platen relative to the specimen's; leaves room for bulging and for pieces that break off.
 inline constexpr double platen_width_ratio = 2.0;
 
-/// Depth of a platen over the specimen's height: more than any corner is ever pressed in.
+/// Depth of a platen relative to the specimen's height; no corner is ever pressed in that far.
 inline constexpr double platen_depth_ratio = 0.05;
 
-/// Of a mean circle's diameter, from an outline that circles were cut by their centres with to a bonded face along it;
-/// by as much more of a gap they are bonded to it.
+/// Distance from a cut outline to the face bonded to it, relative to a mean circle's diameter. Circles are kept or
+/// removed by their centres, so bonds to the face may also bridge a gap of up to this distance.
 inline constexpr double cut_circles_offset = 0.25;
 
-/// Adds both platens and their controls to the specimen's scene, removes the walls and gives every particle the
-/// velocity that grows linearly from the lower to the upper platen, so that loading sends no shock; of kinds with other
-/// parts it stays at rest.
-/// @param thick segment thickness at bonding, m
+/// Adds both platens and their controls to the specimen's scene, and removes the walls. Every particle gets a velocity
+/// that increases linearly from the lower to the upper platen, so that loading starts without a shock. In kinds of test
+/// with other parts the particles start at rest.
+/// @param thick  segment thickness when bonds are made, m
 Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase& test, double thick);
 
-/// Brings frictional platens, and walls, from where they waited to where loading starts; bonded ones are there already.
+/// Moves frictional platens and walls from their parked positions to those where loading starts. Bonded ones are
+/// already there.
 void place_platens(World& world, const Platens& platens);
 
 }  // namespace crackle

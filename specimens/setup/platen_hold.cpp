@@ -16,7 +16,7 @@ namespace {
 
 struct BondedFace {
     int bonds = 0;
-    double from = std::numeric_limits<double>::infinity(), to = -from;  // m, extent of the particles held
+    double from = std::numeric_limits<double>::infinity(), to = -from;  // m, extent of the bonded particles
 
     double length() const { return bonds > 0 ? to - from : 0.0; }
 };
@@ -38,7 +38,7 @@ BondedFace hold_of(const World& world, const TestSetup& setup, BodyIndex platen)
     return hold;
 }
 
-/// m, of a part's face along x.
+/// Width of a part's face along x, m.
 double face_width(const World& world, const SetupPart& part) {
     const std::vector<Vec2> corners = element_positions(world, part.body);
     const auto [least, most] =
@@ -46,7 +46,7 @@ double face_width(const World& world, const SetupPart& part) {
     return most->x - least->x;
 }
 
-/// Open joints that touch under pressure hold, too.
+/// Whether the specimen connects its parts through bonds or through open joints that touch under pressure.
 bool connected(const World& world, const TestSetup& setup) {
     boost::disjoint_sets_with_storage<> pieces(world.bodies.size());
     for (const BodyPair& bond : setup.bonds.pairs) pieces.union_set(bond.body_i, bond.body_j);
@@ -59,15 +59,8 @@ bool connected(const World& world, const TestSetup& setup) {
     });
 }
 
-/// What a part is called by whoever does the test.
-std::string part_name(const TestSetup& setup, const SetupPart& part) {
-    const bool driver = part.body == setup.top;
-    if (setup.kind == "brazilian") return driver ? "upper jaw" : "lower jaw";
-    if (setup.kind == "direct_shear") return driver ? "upper box" : "lower box";
-    return driver ? "pad that presses" : "support";
-}
-
 void check_part_hold(const World& world, const TestSetup& setup, const TestCase& test) {
+    const TestKind& kind = test_kind(setup.kind);
     for (const SetupPart& part : setup.parts) {
         const double width = face_width(world, part);
         const BondedFace hold = hold_of(world, setup, part.body);
@@ -78,9 +71,11 @@ void check_part_hold(const World& world, const TestSetup& setup, const TestCase&
         throw InputError(fmt::format(
             "{}: {} the {}, {:.3g} m wide, expected bonds over half of that; make it wider, or the particles smaller, "
             "or {}",
-            test.at("loading.kind"), found, part_name(setup, part), width,
-            test.coulomb_bonds() ? "give the bonds a reach (bond.range, bond.gap)"
-                                 : "take bond.law = \"coulomb\", whose bonds have a reach (bond.range, bond.gap)"));
+            test.at("loading.kind"), found, part.body == setup.top ? kind.driver : kind.support, width,
+            test.bond_facts().bonds_across_gaps
+                ? "give the bonds a reach (bond.range, bond.gap)"
+                : fmt::format("use bond.law = {}, whose bonds have a reach (bond.range, bond.gap)",
+                              laws_with(&BondLawFacts::bonds_across_gaps))));
     }
 }
 
@@ -105,9 +100,9 @@ void check_platen_hold(const World& world, const TestSetup& setup, const Platens
             "{}: found {} bonds, none of which join the lower and the upper platen, expected a specimen in one "
             "piece; {}",
             test.at("bond.thick"), setup.bonds.size(),
-            world.settings.joints.empty()
-                ? "polygons bond where bond.thick is larger than the gap between them"
-                : "an open joint from side to side holds it together only where its faces touch: without an aperture"));
+            world.settings.joints.empty() ? "polygons bond where bond.thick is larger than the gap between them"
+                                          : "an open joint across the specimen holds it together only if its faces "
+                                            "touch, that is, without an aperture"));
     }
 }
 

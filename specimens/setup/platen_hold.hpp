@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether bonds hold a specimen between its platens, before anything is measured on it.
+// Checks, before any measurement, that bonds hold a specimen between its platens.
 // Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
@@ -8,12 +8,12 @@
 
 namespace crackle {
 
-/// Share of the specimen's width over which the particles bonded with a platen must at least reach.
+/// Smallest acceptable width of the particles bonded to a platen, as a fraction of the specimen's width.
 inline constexpr double min_platen_hold = 0.5;
 
-/// @param setup of a world with bonded platens
-/// @throws InputError if a platen holds nothing or only a corner of the specimen, or if no chain of bonds leads from
-/// one platen to the other: strength and stiffness would be those of the few bonds there are.
+/// @param setup  of a world with bonded platens
+/// @throws InputError if a platen holds nothing or only a corner of the specimen, or if no chain of bonds connects the
+/// platens. Strength and stiffness would then be those of a few bonds.
 void check_platen_hold(const World& world, const TestSetup& setup, const Platens& platens, const TestCase& test);
 
 }  // namespace crackle

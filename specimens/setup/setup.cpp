@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <unordered_map>
-#include <utility>
 
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/geometry/geometry.hpp"
@@ -27,8 +26,8 @@ void note_start_of_driver(TestSetup& setup, const World& world) {
     setup.top_height = driver.y;
 }
 
-/// Side particles with centres in the middle half of the height, away from what the platens hold; of kinds that say
-/// where they are, all of them.
+/// Side particles with centres in the middle half of the height, away from the platens. For kinds of test that define
+/// regions, all particles in them.
 std::vector<BodyIndex> gauge(const World& world, const std::vector<int>& ids, const Domain& domain, bool uniaxial) {
     std::unordered_map<int, BodyIndex> index;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) index[world.bodies.info(b).id] = static_cast<BodyIndex>(b);
@@ -48,13 +47,14 @@ double mean_y(const World& world, const std::vector<BodyIndex>& bodies) {
     return sum / static_cast<double>(bodies.size());
 }
 
-constexpr double outer_share = 0.1;  // of the height, left out of the axial gauge length where there are no grips
+// Fraction of the height left out of the axial gauge length at each end if there are no grips.
+constexpr double outer_share = 0.1;
 
-/// Particles with centres within half a mean particle of the gauge's ends.
+/// Finds the particles with centres within half a mean particle size of the gauge's ends.
 void find_axial_gauge(TestSetup& setup, const World& world, double outer) {
     const double size = std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
     const double bottom = setup.low_end + outer * setup.height, top = setup.low_end + (1.0 - outer) * setup.height;
-    std::vector<bool> carries(world.bodies.size(), false);  // floating ones go their own ways
+    std::vector<bool> carries(world.bodies.size(), false);  // unbonded bodies move independently and are excluded
     for (const BodyPair& bond : setup.bonds.pairs) carries[bond.body_i] = carries[bond.body_j] = true;
     for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
         if (setup.is_platen(b) || !carries[b]) continue;
@@ -87,7 +87,7 @@ void record_bonds(TestSetup& setup, const World& world) {
             const double bond_overlap = world.points.bond_overlap[k];
             of_kind.push_back(
                 {point, bond_overlap, own_shares ? static_cast<float>(share_of_stiffness(world, k)) : 1.0F});
-            if (setup.coulomb_bonds && (state.flags & point_held) == 0) {
+            if (setup.bond_facts().strengths_are_given && (state.flags & point_held) == 0) {
                 tensile += law.tensile_strength;
                 cohesion += law.cohesion;
             }
@@ -108,7 +108,7 @@ void record_bonds(TestSetup& setup, const World& world) {
     setup.mean_back_tension = tension / static_cast<double>(setup.bonds.size());
     setup.mean_back_tension_interface = tension / static_cast<double>(world.bonds.interfaces_initial);
     const auto breakable = static_cast<double>(world.bonds.initial - world.bonds.held);
-    if (setup.coulomb_bonds && breakable > 0.0) {
+    if (setup.bond_facts().strengths_are_given && breakable > 0.0) {
         setup.mean_tensile_strength = tensile / breakable;
         setup.mean_cohesion = cohesion / breakable;
     }
@@ -119,7 +119,7 @@ void record_bonds(TestSetup& setup, const World& world) {
 BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex b, double x, double y, double angle) {
     BodyState body{x, y, 0.0, 0.0, 0.0, {0.0, 0.0}, angle};
     if (world.bodies.info(b).single_circle) {
-        body.shape[0] = world.bodies.state[b].shape[0];  // its radius, which never changes
+        body.shape[0] = world.bodies.state[b].shape[0];  // the radius, which never changes
         return body;
     }
     const double turn = angle - setup.start[b].angle;
@@ -130,7 +130,7 @@ BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex b, d
 
 double TestSetup::axial_strain(const World& world) const {
     const double now = axis == 1 ? world.bodies.state[top].y : world.bodies.state[top].x;
-    return (compression ? top_start - now : now - top_start) / length;  // not -0 at the start
+    return (compression ? top_start - now : now - top_start) / length;  // avoids -0 at the start
 }
 
 double TestSetup::lateral_strain(const World& world) const {
@@ -155,7 +155,7 @@ double TestSetup::median_lateral_strain(const World& world) const {
 double TestSetup::gauge_strain(const World& world) const {
     if (gauge_height == 0.0) return std::numeric_limits<double>::quiet_NaN();
     const double growth = (mean_y(world, gauge_top) - mean_y(world, gauge_bottom)) / gauge_height - 1.0;
-    return compression ? 0.0 - growth : growth;  // not -0 at the start
+    return compression ? 0.0 - growth : growth;  // avoids -0 at the start
 }
 
 PartForces forces_on_parts(const World& world, const TestSetup& setup) {
@@ -171,11 +171,11 @@ PartForces forces_on_parts(const World& world, const TestSetup& setup) {
     return forces;
 }
 
-TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, const TestKind& kind,
+TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, LoadingKind kind,
                        double grip) {
     TestSetup setup;
-    setup.kind = kind.name;
-    setup.uniaxial = kind.uniaxial;
+    setup.kind = kind;
+    setup.uniaxial = test_kind(kind).uniaxial;
     setup.axis = platens.apparatus.axis;
     setup.section = platens.apparatus.section;
     setup.length = platens.apparatus.length;
@@ -189,7 +189,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     if (specimen.shape.notch) setup.notch = specimen.shape.notch->tip.y - world.settings.domain.y1;
     setup.grip = grip * specimen.height;
     setup.low_end = world.settings.domain.y1;
-    setup.compression = kind.compression;
+    setup.compression = test_kind(kind).compression;
     setup.specimen = specimen.kind;
     setup.polygons = specimen.polygons;
     setup.width = specimen.width;
@@ -214,7 +214,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.stable_time_step_proved =
         world.stepping.exact_step_proved && world.settings.segment_law == SegmentLaw::rounded;
     setup.time_step_bound = world.stepping.step_bound;
-    setup.coulomb_bonds = world.settings.bond_law == BondLaw::coulomb;
+    setup.bond_law = world.settings.bond_law;
     setup.notices = specimen.notices;
     setup.packing = specimen.packing;
     setup.minerals = specimen.minerals;
@@ -224,7 +224,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.left = gauge(world, specimen.left_ids, world.settings.domain, setup.uniaxial);
     setup.right = gauge(world, specimen.right_ids, world.settings.domain, setup.uniaxial);
     if (!setup.uniaxial && specimen.left_ids.empty() && specimen.right_ids.empty()) {
-        // none is defined
+        // no lateral strain is defined
     } else if (setup.left.empty() || setup.right.empty()) {
         setup.notices.push_back("no particles at both side faces in the middle half of the height: no lateral strain");
     } else {

@@ -25,18 +25,18 @@ std::pair<BodyIndex, BodyIndex> ordered(BodyIndex i, BodyIndex j) { return {std:
 
 std::pair<BodyIndex, BodyIndex> pair_of(const TraceFace& face) { return {face.i, face.j}; }
 
-/// Unit normal of a polygon's edge. Those of contacts slant where corners overhang.
+/// Outward unit normal of a polygon's edge. Contact normals are not used: they are inclined where corners overhang.
 Vec2 outwards(const World& world, BodyIndex body, std::uint32_t edge) {
     const std::vector<Vec2> corners = element_positions(world, body);
     const Vec2 along = corners[(edge + 1) % corners.size()] - corners[edge];
     return (-1.0 / norm(along)) * perpendicular(along);
 }
 
-/// The face of the pair whose points are all from begin to end; nothing where it is on no trace.
+/// The face of the pair whose contact points are [begin, end); empty if it lies on no trace.
 std::optional<TraceFace> face_of(const World& world, PointIndex begin, PointIndex end) {
     TraceFace face;
     std::tie(face.i, face.j) = ordered(world.points.contact[begin].body_i, world.points.contact[begin].body_j);
-    double overlap = 0.0;  // m, the largest: corners overhang
+    double overlap = 0.0;  // m, largest over the face's points
     std::int64_t points = 0;
     Vec2 normal;
     for (PointIndex k = begin; k < end; ++k) {
@@ -55,13 +55,13 @@ std::optional<TraceFace> face_of(const World& world, PointIndex begin, PointInde
     if (!trace) return std::nullopt;
     const std::optional<ContactShare> share = share_of_face(world, face.i, face.j, gap);
     face.trace = *trace;
-    face.length = share ? share->length : 0.0;  // corner to corner
+    face.length = share ? share->length : 0.0;  // 0 for a contact of two corners
     face.normal = share ? outwards(world, face.i, share->edge_i) : (1.0 / norm(normal)) * normal;
     face.middle = (1.0 / static_cast<double>(points)) * face.middle;
     return face;
 }
 
-/// The same of two circles, whose flat faces meet: of several, at a crossing, on the first trace.
+/// The face between two circles whose flat faces meet. Where traces cross, the face on the first trace is used.
 std::optional<TraceFace> flat_face_of(const World& world, PointIndex begin, PointIndex end) {
     TraceFace face;
     for (PointIndex k = begin; k < end; ++k) {
@@ -76,7 +76,7 @@ std::optional<TraceFace> flat_face_of(const World& world, PointIndex begin, Poin
             face.trace = trace_of(i.side);
             face.normal = (point.body_i == face.i ? 1.0 : -1.0) * Vec2{g.nx, g.ny};
             const Vec2 along{i.along_x, i.along_y}, apart{2.0 * g.aix, 2.0 * g.aiy};
-            const double offset = dot(apart, along);  // m, of j's centre from i's
+            const double offset = dot(apart, along);  // m, distance from i's centre to j's along the face
             const double middle = 0.5 * (std::max(i.from, offset + j.from) + std::min(i.to, offset + j.to));
             const BodyState& body = world.bodies.state[point.body_i];
             face.middle = Vec2{body.x, body.y} + middle * along + i.height * Vec2{g.nx, g.ny};

@@ -1,76 +1,62 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The faces of a specimen that lie on traces of joints, and how they have moved since loading began.
+// The faces of a specimen that lie on joint traces, and their motion since loading began.
 //
-// The middle of a face between the bodies i and j is carried along by both; u [m] is what that of j has moved beyond
-// that of i, n the unit normal from i to j, turned by the mean of what the two have turned, t = n turned by +90°. Then
+// Each of the bodies i and j at a face carries along its own copy of the face's midpoint. u [m] is the displacement of
+// j's copy relative to i's. n is the unit normal from i to j, rotated by the mean rotation of the two bodies, and t is
+// n rotated by +90°. Then
 //
-//     opening = u·n      slip = u·t, positive where who looks across sees the far side go to the left (sinistral)
+//     opening = u·n      slip = u·t, positive if an observer looking across sees the far side move left (sinistral)
 //
-// from either side alike. A face's own springs are in it: one that holds moves a little under load, too.
+// The result is the same from either side. The deformation of the face's own springs is included, so an intact face
+// also moves a little under load.
 // Tested by tests/specimens/setup/trace_faces_test.cpp.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "solver/base/fields.hpp"
 #include "solver/base/vec2.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
 
-/// Where a body was when loading began; of a confined specimen, before the pressure was put on.
+/// Position of a body at the start of loading; for a confined specimen, before the pressure was applied.
 struct StartPlace {
     double x = 0.0, y = 0.0, angle = 0.0;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("x", s.x);
-        visit("y", s.y);
-        visit("angle", s.angle);
-    }
+    CRACKLE_FIELDS(x, y, angle);
 };
 
-/// A face that lies on a trace, of a mesh or of two circles whose flat faces lap there, when loading began.
+/// A face on a trace at the start of loading: a mesh face, or the overlapping flat faces of two circles.
 struct TraceFace {
-    std::int32_t trace = 0;   ///< into TestSetup::traces
-    BodyIndex i = 0, j = 0;   ///< i before j
-    std::int32_t bonds = 0;   ///< bonded points; 0 of an open one
+    std::int32_t trace = 0;   ///< index into TestSetup::traces
+    BodyIndex i = 0, j = 0;   ///< i < j
+    std::int32_t bonds = 0;   ///< number of bonded points; 0 for an open face
     double length = 0.0;      // m
     Vec2 middle{}, normal{};  // m; unit, from i to j
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("trace", s.trace);
-        visit("i", s.i);
-        visit("j", s.j);
-        visit("bonds", s.bonds);
-        visit("length", s.length);
-        visit("middle", s.middle);
-        visit("normal", s.normal);
-    }
+    CRACKLE_FIELDS(trace, i, j, bonds, length, middle, normal);
 };
 
-/// How it has moved, and where it is.
+/// Motion of a face and its current position.
 struct FaceMotion {
     double opening = 0.0, slip = 0.0;  // m
-    Vec2 begin, end;                   // m, means of where both bodies have carried its ends
+    Vec2 begin, end;  // m, current ends; each is the mean of the positions to which the two bodies have carried it
 };
 
-/// Places of the two bodies of a face.
+/// Positions of the two bodies at a face.
 struct FacePlaces {
     StartPlace i, j;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("i", s.i);
-        visit("j", s.j);
-    }
+    CRACKLE_FIELDS(i, j);
 };
+/// Motion of a face. @param start places of its bodies when loading began @param now present places
 FaceMotion motion_of(const TraceFace& face, const FacePlaces& start, const FacePlaces& now);
 
-/// Of a world with bonds that lies as it was bonded, by bodies.
+/// Finds the faces on traces, sorted by bodies. The bodies must still be where they were bonded.
 std::vector<TraceFace> find_trace_faces(const World& world);
-/// For each bond the face that it holds, -1 of one on no trace.
+/// For each bond the index of its face; -1 if it lies on no trace.
 std::vector<std::int32_t> faces_of_bonds(const std::vector<TraceFace>& faces, const ContactList& bonds);
 
 }  // namespace crackle

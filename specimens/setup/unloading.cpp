@@ -9,11 +9,11 @@ namespace crackle {
 namespace {
 
 constexpr double to_unless_given = 0.1;
-constexpr double creep_share = 0.05;  // of the largest rate
-// Of the acceleration: what is chosen from time to time lags behind what brakes all the time.
+constexpr double creep_share = 0.05;  // relative to the largest rate
+// Fraction of the acceleration used for braking: the speed is chosen at intervals and lags behind continuous braking.
 constexpr double brake_share = 0.7;
 
-/// Strain until the platen is to turn round; infinite where it is not.
+/// Strain until the platen must reverse; infinite if it need not reverse.
 double way_to_turn(const LoadingPath& path, const UnloadRule& rule, double strain, double stress) {
     if (path.unloading) return (stress - rule.to * path.stress_at_turn) / rule.modulus;
     const auto next = static_cast<std::size_t>(path.unloaded);
@@ -21,7 +21,7 @@ double way_to_turn(const LoadingPath& path, const UnloadRule& rule, double strai
     return rule.by_strain ? rule.at[next] - strain : (rule.at[next] - stress) / rule.modulus;
 }
 
-/// 1/s, at most, that far before a turn.
+/// Largest speed at a given distance before a reversal, 1/s.
 double speed_before(double way, const UnloadRule& rule, double allowed) {
     const double braking = std::sqrt(2.0 * brake_share * rule.acceleration * std::max(0.0, way));
     return std::min(allowed, std::max(rule.creep, braking));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loading that is interrupted: at listed strains or stresses the specimen is unloaded to a share of the stress there
-// and loaded again (damage-controlled tests, Martin & Chandler, Int. J. Rock Mech. Min. Sci. 31, 1994).
+// Loading with unloading cycles: at listed strains or stresses the specimen is unloaded to a fraction of the stress
+// reached, and then reloaded (damage-controlled tests, Martin & Chandler, Int. J. Rock Mech. Min. Sci. 31, 1994).
 //
-// Before a turn that is a strain d away, the speed is at most sqrt(1.4·a·d), a as in loading_path.hpp; where a stress
-// says where to turn, d = (difference of stress)/E, which a damaged specimen, softer than that, reaches later.
+// At a strain distance d before a reversal the speed is at most sqrt(1.4·a·d), with a as in loading_path.hpp. If a
+// stress defines the reversal, d = (stress difference)/E; a damaged specimen is softer and reaches it later.
 //
 // Tested by tests/specimens/loading/unloading_test.cpp.
 #pragma once
@@ -15,26 +15,31 @@
 
 namespace crackle {
 
+/// Where loading turns round, and how fast.
 struct UnloadRule {
     bool by_strain = false;
-    std::vector<double> at;     ///< strains, or N/m; positive in the sense of the test; none: loading goes on
-    double to = 0.0;            ///< share of the stress where unloading began
-    double acceleration = 0.0;  // 1/s2, of the strain
+    std::vector<double> at;     ///< strains, or N/m; positive in the direction of loading; empty: no unloading
+    double to = 0.0;            ///< fraction of the stress at which unloading started
+    double acceleration = 0.0;  // 1/s2, largest acceleration of the strain
     double modulus = 0.0;       // N/m, of the linear solution
-    /// 1/s, at least, so that every turn is come to: stopping from it takes next to no way.
+    /// Least speed, 1/s, so that every reversal is reached; the distance needed to stop from it is negligible.
     double creep = 0.0;
 
+    /// Whether the loading unloads at all.
     bool on() const { return !at.empty(); }
-    /// Strain that unloading and loading again take at most, of an elastic specimen. @param strain that it is loaded to
+    /// Largest additional strain travelled in the unloading cycles of an elastic specimen. @param strain  largest
+    /// strain of the test
     double added_travel(double strain) const;
 };
+/// Rule of a case. @param modulus N/m, of the linear solution
 UnloadRule unload_rule_of(const TestCase::Loading& loading, const RateRule& rate, double modulus);
 
-/// 1/s, to begin with: from it there is the way to stop before the first turn. @param allowed 1/s
+/// Initial speed, 1/s, from which the platen can still stop before the first reversal. @param allowed  1/s, as below
 double first_speed(const UnloadRule& rule, double allowed);
 
-/// The coming speed, taken into the path. @param allowed 1/s, by the tolerance
-/// @param strain, stress now, positive in the sense of the test @param since s, since the last time
+/// Chooses the next speed and stores it in the path. @param allowed  1/s, strain rate allowed by the tolerance
+/// @param strain, stress  current values, positive in the direction of loading @param since  s, time since the last
+/// call
 void turn_by_list(LoadingPath& path, const UnloadRule& rule, double allowed, double strain, double stress,
                   double since);
 

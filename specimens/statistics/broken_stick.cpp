@@ -14,7 +14,7 @@
 namespace crackle {
 namespace {
 
-/// Sums over the points from one on, x from 0 to 1.
+/// Sums over all points from a given one to the last; x from 0 to 1.
 struct Sums {
     double n = 0.0, x = 0.0, xx = 0.0, y = 0.0, xy = 0.0, yy = 0.0;
 
@@ -39,7 +39,7 @@ class Stick {
         }
     }
 
-    /// Best a, b, c for a break there, and what is left of the sum of squares.
+    /// Coefficients a, b, c of the best fit with a break at s, and its sum of squared residuals.
     std::pair<Eigen::Vector3d, double> fit(double s) const {
         const auto beyond = std::upper_bound(x_.begin(), x_.end(), s) - x_.begin();
         const Sums& all = tails_.front();
@@ -56,7 +56,7 @@ class Stick {
     }
 
     BrokenStick best() const {
-        // Two points at least on either side, else the lines are not determined.
+        // Each line needs at least two points to be determined.
         std::size_t best = 1;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t k = 1; k + 2 < x_.size(); ++k) {
@@ -66,7 +66,7 @@ class Stick {
                 best = k;
             }
         }
-        constexpr int half_digits = 26;  // a minimum has no more
+        constexpr int half_digits = 26;  // rounding limits the position of a minimum to half the digits of a double
         const double low = x_[std::max<std::size_t>(best, 2) - 1], high = x_[std::min(best + 1, x_.size() - 3)];
         const auto [s, left] =
             boost::math::tools::brent_find_minima([&](double at) { return fit(at).second; }, low, high, half_digits);

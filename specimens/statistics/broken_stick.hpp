@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two straight lines that meet: where a curve changes its slope.
-//     y = a + b x + c max(0, x - s)
-// by least squares over a, b, c and s (Hudson, J. Am. Stat. Assoc. 61, 1966). For counts that grow in bursts the
-// interval of s comes from drawing the bursts again.
+// Fits two straight lines that meet, to find where a curve changes its slope:
+//       y = a + b x + c max(0, x - s)
+// The parameters a, b, c and s are found by least squares (Hudson, J. Am. Stat. Assoc. 61, 1966). For counts that grow
+// in bursts, the interval of s comes from resampling the bursts.
 // Tested by tests/specimens/statistics/broken_stick_test.cpp.
 #pragma once
 
@@ -12,33 +12,35 @@
 
 namespace crackle {
 
+/// Two lines that meet. Slopes are in units of y per unit of x.
 struct BrokenStick {
-    double at = std::numeric_limits<double>::quiet_NaN();  ///< s
+    double at = std::numeric_limits<double>::quiet_NaN();  ///< s, at which the lines meet
     double slope_below = std::numeric_limits<double>::quiet_NaN();
     double slope_above = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// @param x ascending @param y as many. Of fewer than five points: not a number.
+/// Fits two lines; NaN for fewer than five points. @param x  ascending values @param y  values of the same number
 BrokenStick fit_broken_stick(std::span<const double> x, std::span<const double> y);
 
-/// So many at once, at x.
+/// Several counts that occur together, at the same x.
 struct Burst {
     double x;
     std::int64_t count;
 };
 
+/// Value at which a count changes its slope, with its 95 % interval.
 struct BurstBreak {
     double at = std::numeric_limits<double>::quiet_NaN();
     double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Fewer bursts than this have no break.
+/// Smallest number of bursts for which a break is determined.
 inline constexpr std::size_t fewest_bursts = 10;
 
-/// Where the cumulative count changes its slope between 0 and `end`, with a 95 % interval: percentiles of 1,000 fits to
-/// as many bursts drawn with replacement. The count is read at 200 equally spaced places. The same bursts give the same
-/// interval. Of too few bursts: not a number.
-/// @param bursts those beyond `end` are left out
+/// Value between 0 and `end` at which the cumulative count changes its slope. The count is evaluated at 200 equally
+/// spaced values. The 95 % interval consists of percentiles of 1,000 bootstrap fits, each to as many bursts as there
+/// are, drawn with replacement. The same bursts give the same interval. The result is NaN if there are too few bursts.
+/// @param bursts  bursts in any range; those beyond `end` are ignored
 BurstBreak find_burst_break(std::span<const Burst> bursts, double end);
 
 }  // namespace crackle

@@ -35,7 +35,7 @@ MeanFigure moments_of(std::span<const double> values) {
     return figure;
 }
 
-/// Student's t of the 95 % interval.
+/// Student's t for the 95 % interval.
 double student_of(double freedom) {
     return boost::math::quantile(boost::math::students_t(freedom), 1.0 - 0.5 * outside);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What several packings say of a figure: mean, scatter, and how sure the mean is.
+// Statistics of a result over several packings: mean, scatter, and the error of the mean.
 // Tested by tests/specimens/statistics/mean_test.cpp.
 #pragma once
 
@@ -9,54 +9,58 @@
 
 namespace crackle {
 
-/// Of fewer values the bootstrap cannot leave their range; Student's t does.
+/// Smallest number of values for the bootstrap. With fewer, bootstrap means cannot leave the range of the values, and
+/// Student's t is used.
 inline constexpr std::size_t fewest_of_bootstrap = 8;
 
-/// Of values that are independent draws. What is not defined (a deviation of one value) is not a number.
+/// Mean of independent values. Members that are undefined, such as the deviation of a single value, are NaN.
 struct MeanFigure {
     std::size_t count = 0;
     double mean = std::numeric_limits<double>::quiet_NaN();
-    double deviation = std::numeric_limits<double>::quiet_NaN();       ///< sample standard deviation, n - 1
-    double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< of the mean
-    /// 95 % interval of the mean. Of 8 to 200 values: percentiles of 10,000 bootstrap means, at the levels that are as
-    /// wide as Student's t (expanded percentile interval, Hesterberg, Am. Stat. 69, 2015). Of fewer, whose bootstrap
-    /// cannot leave their range, and of more, where both agree: Student's t. The same values give the same interval.
+    double deviation = std::numeric_limits<double>::quiet_NaN();       ///< sample standard deviation, with n - 1
+    double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< standard error of the mean
+    /// 95 % interval of the mean. For 8 to 200 values, it consists of percentiles of 10,000 bootstrap means, at levels
+    /// for which the interval is as wide as Student's t (expanded percentile interval, Hesterberg, Am. Stat. 69, 2015).
+    /// For fewer values, bootstrap means cannot leave their range; for more, both methods agree. Student's t is used in
+    /// these cases. The same values give the same interval.
     double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
 
     double variation() const { return deviation / mean; }  ///< coefficient of variation
 };
+/// Mean, deviation and interval of values. @param values  independent values; if there are none, the results are NaN
 MeanFigure mean_of(std::span<const double> values);
 
-/// Half of the 95 % interval of the difference of two means of independent values: Student's t with Welch's degrees of
-/// freedom (Biometrika 34, 1947). Not a number where one has less than two values.
+/// Half-width of the 95 % interval of the difference between two means of independent values, from Student's t with
+/// Welch's degrees of freedom (Biometrika 34, 1947). NaN if one of them has fewer than two values.
 double difference_half_width(const MeanFigure& a, const MeanFigure& b);
 
-/// What a mean is wrong by because time goes in steps and the platens move at a rate, from companions of the same
-/// packings at half the step and half the rate. A first-order error is twice the change at half of it (Richardson);
-/// that is taken for both: of the step it is an upper bound where leapfrog's second order prevails (4/3 of the change).
-/// The three runs of a packing belong together, and the errors are those of their sum. In units of the figure,
-/// positive: the mean is too large.
+/// Errors of a mean due to the time step and the loading rate, in units of the figure; positive if the mean is too
+/// large. They are estimated from companion runs of the same packings at half the step and at half the rate. A
+/// first-order error is twice the change that halving causes (Richardson). This estimate is used for both errors. For
+/// the step it is an upper bound if the second order of leapfrog prevails, for which the error is 4/3 of the change.
+/// Standard errors take into account that the three runs of a packing belong together.
 struct MeanBias {
-    std::size_t packings = 0;  ///< that have all three
+    std::size_t packings = 0;  ///< number of packings with results of all three runs
     double step = std::numeric_limits<double>::quiet_NaN(), step_error = std::numeric_limits<double>::quiet_NaN();
     double rate = std::numeric_limits<double>::quiet_NaN(), rate_error = std::numeric_limits<double>::quiet_NaN();
-    double value = std::numeric_limits<double>::quiet_NaN();  ///< of both
+    double value = std::numeric_limits<double>::quiet_NaN();  ///< sum of both errors
     double standard_error = std::numeric_limits<double>::quiet_NaN();
 
-    /// Whether one of the three lies beyond the 95 % interval of nothing, by Student's t.
+    /// Whether at least one of the three errors differs significantly from zero (95 %, Student's t).
     bool known() const;
 };
-/// @param asked, half_step, half_rate  of the same packings in the same order
+/// Estimates the bias of a mean. @param asked, half_step, half_rate  values of the same packings, in the same order
 MeanBias bias_of(std::span<const double> asked, std::span<const double> half_step, std::span<const double> half_rate);
 
-/// Between sorted values, linear (type 7 of Hyndman and Fan, Am. Stat. 50, 1996). @param sorted at least one value
-/// @param share 0 to 1
+/// Percentile by linear interpolation between sorted values (type 7 of Hyndman and Fan, Am. Stat. 50, 1996).
+/// @param sorted  at least one value
+/// @param share  0 to 1
 double percentile(std::span<const double> sorted, double share);
 
-/// Share below and above that percentiles of bootstrap means of so many values leave out, to be as wide as Student's t.
+/// Fraction of `count` values' bootstrap means cut off at either end so that the interval is as wide as Student's t.
 double expanded_tail(std::size_t count);
 
-/// Packings that bring a standard error down to a goal: (deviation/goal)², at least 2.
+/// Number of packings that reduces the standard error to `goal`: (deviation/goal)², at least 2.
 double packings_for(double deviation, double goal);
 
 }  // namespace crackle

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Distributions on std::mt19937_64, whose sequence the standard fixes; what std::uniform_real_distribution and its kin
-// make of it is up to each library, and a seed must give the same specimen everywhere.
+// Random distributions based on std::mt19937_64, whose sequence is fixed by the C++ standard. A seed must give the same
+// specimen everywhere, but distributions such as std::uniform_real_distribution differ between standard libraries.
 // Tested by tests/specimens/packing/packing_test.cpp.
 #pragma once
 
@@ -11,23 +11,24 @@
 
 namespace crackle {
 
-/// Uniform in [0, 1), 53 bits.
+/// Random number, uniform in [0, 1), with 53 random bits.
 inline double uniform_number(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1.0p-53; }
 
-/// Uniform in [low, high).
+/// Random number, uniform in [low, high).
 inline double uniform_number(std::mt19937_64& generator, double low, double high) {
     return low + (high - low) * uniform_number(generator);
 }
 
-/// Uniform in {0, …, bound - 1}, without bias; bound > 0.
+/// Random integer, uniform in {0, …, bound - 1} without bias. @param bound  > 0
 inline std::uint64_t uniform_below(std::mt19937_64& generator, std::uint64_t bound) {
-    const std::uint64_t excess = (0 - bound) % bound;  // 2^64 mod bound: values below it would favour small results
+    // 2^64 mod bound; values below it are rejected, since they would favour small results.
+    const std::uint64_t excess = (0 - bound) % bound;
     std::uint64_t value = generator();
     while (value < excess) value = generator();
     return value % bound;
 }
 
-/// Fisher-Yates.
+/// Shuffles the items (Fisher-Yates).
 template <typename T>
 void shuffle(std::vector<T>& items, std::mt19937_64& generator) {
     for (std::size_t left = items.size(); left > 1; --left)

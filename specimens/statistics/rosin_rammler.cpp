@@ -12,14 +12,14 @@
 namespace crackle {
 namespace {
 
-// Of n, by its logarithm: from pieces spread over decades to pieces alike to a hundredth.
+// Range of n for the search, which uses log n: from pieces spread over decades to pieces equal to within one percent.
 constexpr double least_exponent = 0.02, largest_exponent = 100.0;
-constexpr int half_digits = 26;  // a minimum has no more
+constexpr int half_digits = 26;  // rounding limits the position of a minimum to half the digits of a double
 
 }  // namespace
 
 RosinRammler fit_rosin_rammler(std::span<const double> sizes, std::span<const double> areas, double least) {
-    std::vector<double> ratio, weight;  // of the size to `least`
+    std::vector<double> ratio, weight;  // ratio of each size to `least`
     double all = 0.0;
     for (std::size_t k = 0; k < sizes.size(); ++k) {
         if (sizes[k] < least) continue;
@@ -34,7 +34,7 @@ RosinRammler fit_rosin_rammler(std::span<const double> sizes, std::span<const do
     if (!(largest > smallest)) return fit;
     double mean_log = 0.0;
     for (std::size_t k = 0; k < ratio.size(); ++k) mean_log += weight[k] / all * correctly_rounded::log(ratio[k]);
-    // For given n the best (x0/least)^n is the mean of (x/least)^n - 1.
+    // For given n, the best (x0/least)^n is the weighted mean of (x/least)^n - 1.
     const auto scale_of = [&](double n) {
         double mean = 0.0;
         for (std::size_t k = 0; k < ratio.size(); ++k)
@@ -49,7 +49,8 @@ RosinRammler fit_rosin_rammler(std::span<const double> sizes, std::span<const do
                                                                correctly_rounded::log(largest_exponent), half_digits)
                              .first;
     const double exponent = correctly_rounded::exp(log_n);
-    if (exponent < 2.0 * least_exponent) return fit;  // the likelihood grows towards 0: no such law
+    // The likelihood still grows towards n = 0, so the law does not apply.
+    if (exponent < 2.0 * least_exponent) return fit;
     fit.exponent = exponent;
     fit.size = least * correctly_rounded::pow(scale_of(fit.exponent), 1.0 / fit.exponent);
     return fit;

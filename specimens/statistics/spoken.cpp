@@ -26,7 +26,8 @@ std::string spoken_stress(double value, const std::string& unit, int digits) {
         double factor;
         char letter;
     };
-    const double rounded_up = 1.0 - 0.5 * std::pow(10.0, -digits);  // to a prefix
+    // Smallest value that is rounded up to the next prefix.
+    const double rounded_up = 1.0 - 0.5 * std::pow(10.0, -digits);
     for (const Prefix& prefix : {Prefix{1e9, 'G'}, Prefix{1e6, 'M'}, Prefix{1e3, 'k'}}) {
         if (unit == "Pa" && std::isfinite(value) && std::abs(value) >= rounded_up * prefix.factor)
             return fmt::format("{:.{}g} {}Pa", value / prefix.factor, digits, prefix.letter);

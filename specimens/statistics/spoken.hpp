@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers as sentences have them: "1 packing", "17.9 GPa".
+// Numbers formatted for sentences: "1 packing", "17.9 GPa".
 // Tested by tests/specimens/statistics/spoken_test.cpp.
 #pragma once
 
@@ -8,14 +8,16 @@
 
 namespace crackle {
 
-/// "1 packing", "2 packings". @param noun whose plural ends in s
+/// A count with its noun: "1 packing", "2 packings". @param noun  singular of a noun whose plural ends in s
 std::string counted(std::int64_t count, const char* noun);
+/// A count with its noun, for sizes of containers.
 std::string counted(std::size_t count, const char* noun);
 
-/// A value below a bound, with as many digits, three or more, as it takes to see that: "19.97" below 20.
+/// A value below a bound, with at least three digits and as many as are needed to show that it is below the bound:
+/// "19.97" for 20.
 std::string spoken_below(double value, double bound);
 
-/// Pa by its prefix, "17.9 GPa"; any other unit as it is, "5.1e+06 N/m".
+/// A stress in Pa with an SI prefix, "17.9 GPa"; in any other unit without a prefix, "5.1e+06 N/m".
 std::string spoken_stress(double value, const std::string& unit, int digits = 4);
 
 }  // namespace crackle

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rocks of circles with known keys, calibrated from what a laboratory would measure of them: how often the stated
-// intervals cover the keys, how far off the means are, what it costs; and NLopt's CRS2, which knows nothing of a rock,
-// on the same targets. Prints the lines of results/calibrations.md.
+// Rocks of circles with known keys, calibrated from what a laboratory would measure of them. It shows how often the
+// stated intervals cover the keys, how far off the means are, and what it costs. NLopt's CRS2, which knows nothing of a
+// rock, runs on the same targets. Prints the lines of results/calibrations.md.
 //   build/release/tests/benchmarks/calibrations [ROCKS] [FOLDER]
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/processors_lent.hpp"
+#include "solver/machine/processors_lent.hpp"
 #include "specimens/calibration/calibrate.hpp"
 #include "specimens/calibration/measurements.hpp"
 #include "specimens/campaign/axis.hpp"

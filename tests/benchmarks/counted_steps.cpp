@@ -103,7 +103,7 @@ int main(int count, char** words) {
     if (how == "step") {
         for (long k = 0; k < steps; ++k) step(world);
     } else {
-        step(world);  // the least step is none to begin with
+        step(world);  // the least step cannot be the first one
         ContactFeatures features = features_of(world);
         if (kernels().contains(how)) {
             for (bool ContactFeatures::*const feature : kernels().at(how)) features.*feature = true;

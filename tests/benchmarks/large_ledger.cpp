@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ledger of many tests that were never run: what it takes on the disc, and how long it takes to add one, to find
-// nothing left to do, and to show. build/release/tests/benchmarks/large_ledger [TESTS] [FOLDER]
+// A ledger of many tests that were never run: its size on the disc, and the time to add a test, to look for work, and
+// to show it. build/release/tests/benchmarks/large_ledger [TESTS] [FOLDER]
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How soon a page of the viewer shows its first picture, and how many pictures a second it draws while it is panned and zoomed:
-// headless Chromium, WebGL in software, each picture waited for until it stands.
+// How soon a page of the viewer shows its first picture, and how many pictures a second it draws while it is panned and
+// zoomed. It uses headless Chromium with WebGL in software, and waits for each picture.
 //   node viewer_rate.mjs PAGE.html [pictures, default 60]      CHROMIUM: the browser; playwright-core must be found from here
 import {pathToFileURL} from 'node:url';
 

@@ -21,7 +21,7 @@ const open = (file, options) => openPage(browser, join(root, file), options);
 const deckOf = (corners) => ['1 0 0', '1.0d-4 0.0 0.0', '1', '1.0 1.0d8 1.0d8 0.0 0.0 0.0', '-1.0 4.0 -1.0 4.0 0.0', '0 1 0', `1 1 ${corners.length}`, '0.0 0.0 0.0',
     ...corners.flatMap(([x, y], at) => [`${at + 1} ${x}.0 ${y}.0`, corners[(at + 1) % corners.length].map((value) => `${value}.0`).join(' ')])].join('\n');
 
-/// Of a case: the largest grains are quartz.
+/// Minerals of a case: the largest grains are quartz.
 const minerals = '[minerals]\nassign = "size"\n[[mineral]]\nname = "quartz"\narea_share = 0.5\n[[mineral]]\nname = "feldspar"\n';
 
 before(async () => {

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A disc after a loss of power, from the trace of what a process did to files.
 
-What of a file was written since its last fsync may be there or not, each write for itself and in any order; likewise names of a
-folder that were made, changed or removed since the folder's last fsync. syncfs is both, of all files and folders."""
+Writes to a file since its last fsync may be there or not, each for itself and in any order. So may names of a folder that were made, changed or
+removed since the folder's last fsync. syncfs is both, of all files and folders."""
 
 from dataclasses import dataclass
 from pathlib import PurePosixPath

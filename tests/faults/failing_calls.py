@@ -7,7 +7,7 @@ import re
 from judgement import judge
 from program import ERRORS
 
-FIRST, BEYOND = 200, 50  # all of the first, so many of the others
+FIRST, BEYOND = 200, 50  # all of the first 200, 50 of the others
 SIGNALS = ("KILL", "TERM", "HUP", "INT", "PIPE", "XFSZ")
 
 
@@ -20,7 +20,7 @@ def kinds_of(calls):
 
 
 def chosen(calls, quick):
-    """Of the calls of one kind. quick: the first on each file, numbers in its name left out, and the last of all."""
+    """Calls of one kind to fail. quick: the first on each file, numbers in its name left out, and the last of all."""
     if quick:
         firsts = {}
         for call in calls:

@@ -4,7 +4,7 @@
 from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 
-from program import CAUSES, contents, differences
+from program import CAUSES, OF_A_PATH, contents, differences
 
 # Outcomes that are as they should be.
 UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, REFUSED = (
@@ -15,6 +15,7 @@ GOOD = (UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, REFUSED)
 SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE = (
     "exit 0, results wrong", "earlier results lost", "went on from a mixture", "hung", "aborted", "not right afterwards", "words", "exit code")
 BAD = (SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE)
+OF_TESTS = ("failed by the system", "ended with a system error")  # tests of a campaign or calibration did, whatever the system said
 
 
 def worst_of(faults):
@@ -39,7 +40,7 @@ class Outcome:
 def names_for(path):
     """How a message may name what could not be had: the file, what it was to become, or the folder it lies in."""
     path = PurePosixPath(path)
-    name = path.name.removesuffix(".tmp")
+    name = path.name
     found = {name} if name else set()
     found |= {part for part in path.parent.parts}
     return found | ({"."} if len(path.parts) <= 1 else set())
@@ -54,7 +55,7 @@ def wrong_words(run, error, calls):
         return None
     if CAUSES[error] not in lines[0]:
         return f"no cause ({CAUSES[error]}): {lines[0]}"
-    if error != "ENOMEM" and calls and not any(name in lines[0] for call in calls for name in names_for(call.path)):
+    if error != "ENOMEM" and calls and calls[0].kind != "fork" and not any(name in lines[0] for call in calls for name in names_for(call.path)):
         return f"names no file ({calls[0].path}): {lines[0]}"
     return None
 
@@ -83,9 +84,9 @@ def went_on(program, scene, place, stopped, after):
 
 
 def judge(program, scene, place, run, error=None, signal=None, mend=lambda: None):
-    """Of a run with a call that failed, or a signal (its name). error: the name of what the call gave; mend: before the user goes on"""
+    """Judges a run with a call that failed, or a signal (its name). error: the name of what the call gave; mend: before the user goes on"""
     if run.hung:
-        return Outcome(HUNG, faults=[(HUNG, "longer than a minute")])
+        return Outcome(HUNG, faults=[(HUNG, "more than a minute of processor time, or no end")])
     after = contents(place / "work")
     if run.code == 0:
         if after in scene.accepted:
@@ -99,15 +100,17 @@ def judge(program, scene, place, run, error=None, signal=None, mend=lambda: None
             faults.append((ABORTED, f"signal {-run.code}: {run.err.strip()[:160]}"))
         elif run.code > 4:
             faults.append((CODE, f"{run.code}: {run.err.strip()[:160]}"))
+        elif error and run.code != (wanted := 2 if error in OF_A_PATH and not any(words in run.err for words in OF_TESTS) else 4):
+            faults.append((CODE, f"{run.code}, expected {wanted}: {run.err.strip()[:160]}"))
         elif complaint := wrong_words(run, error, run.calls):
             faults.append((WORDS, complaint))
     elif run.code > 0:
         if complaint := wrong_words(run, None, []):
             faults.append((WORDS, complaint))
     if lost := None if run.code == 130 and scene.saves_itself else scene.damage(after):
-        faults.append((LOST, lost + (f"; it says: {run.err.strip()[-60:]}" if "as they were" in run.err else "")))
-    elif "as they were" in run.err and not all(after.get(name) == data for name, data in scene.before.items()):
-        faults.append((WORDS, f"says as they were, and they are not: {run.err.strip()[:200]}"))
+        faults.append((LOST, lost + (f"; it says: {run.err.strip()[-60:]}" if "are unchanged" in run.err else "")))
+    elif "are unchanged" in run.err and not all(after.get(name) == data for name, data in scene.before.items()):
+        faults.append((WORDS, f"says that outputs are unchanged, and they are not: {run.err.strip()[:200]}"))
     mend()
     faults += went_on(program, scene, place, run, after)
     if faults:

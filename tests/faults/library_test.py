@@ -10,11 +10,12 @@ import tempfile
 import textwrap
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from disc import Disc, Operation, read_trace  # noqa: E402
-from program import ERRORS  # noqa: E402
+from program import ERRORS, Program  # noqa: E402
 
 LIBRARY = os.environ["INJECTED_FAULTS"]
 
@@ -36,6 +37,7 @@ CALLS = {
     "flock": "fcntl.flock(file, fcntl.LOCK_EX)",
     "memory": "bytearray(1 << 20)",
     "thread": "threading.Thread(target=int).start()",
+    "fork": "os.fork() == 0 and os._exit(0)",
 }
 
 
@@ -152,6 +154,22 @@ class Discs(unittest.TestCase):
         self.assertEqual(disc.after_loss("lost", "kept"), {"kept": b"new"})
         disc.do(Operation("fsync", ".", 0, b""))
         self.assertEqual(disc.after_loss("lost", "lost"), {"kept": b"new"})
+
+
+class Hangs(unittest.TestCase):
+    def run_shell(self, text):
+        with tempfile.TemporaryDirectory() as folder, mock.patch("program.LONGEST", 0.5):
+            (Path(folder) / "work").mkdir()
+            (Path(folder) / "work/script").write_text(text)
+            return Program("/bin/sh", LIBRARY).run("script", Path(folder))
+
+    def test_what_waits_for_a_processor_or_a_disc_does_not_hang(self):
+        done = self.run_shell("sleep 1.5; echo there")
+        self.assertEqual((done.code, done.out), (0, "there\n"))
+
+    def test_what_works_without_an_end_hangs_and_so_does_what_it_began(self):
+        for text in ("while :; do :; done", "(while :; do :; done) & wait"):
+            self.assertTrue(self.run_shell(text).hung, text)
 
 
 if __name__ == "__main__":

@@ -18,10 +18,16 @@ class NotHere(Exception):
 
 
 def mounted(folder, kilobytes, again=False):
+    if os.geteuid() != 0:
+        raise NotHere("mount: only root may")
     options = ("remount," if again else "") + f"size={kilobytes}k,mode=755"
     done = subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", str(folder)], capture_output=True, text=True)
     if done.returncode:
         raise NotHere(f"mount: {done.stderr.strip()}")
+
+
+def unmounted(folder):
+    subprocess.run(["umount", str(folder)], check=True)
 
 
 def copied(origin, folder):
@@ -36,8 +42,6 @@ def pages(folder):
 
 def full_disc(program, scene, place, origin, quick):
     """Larger and larger discs, until the command is done. @yield outcomes with the kilobytes"""
-    if os.geteuid() != 0:
-        raise NotHere("mount: only root may")
     work, used, more = place / "work", pages(origin / "before"), 0
     while True:
         shutil.rmtree(work, ignore_errors=True)
@@ -50,7 +54,7 @@ def full_disc(program, scene, place, origin, quick):
             run.calls = [Call("write", 0, scene.results[0])]
             outcome = judge(program, scene, place, run, "ENOSPC", mend=lambda: mounted(work, MOST, again=True))
         finally:
-            subprocess.run(["umount", str(work)], check=True)
+            unmounted(work)
         yield outcome, size
         if outcome.kind in (UNTOUCHED, UNREACHED):
             return

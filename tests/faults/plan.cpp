@@ -30,9 +30,9 @@ namespace {
 constexpr std::size_t least_counted = std::size_t{128} << 10;
 
 constexpr auto call_count = static_cast<std::size_t>(Call::last_);
-constexpr std::array<const char*, call_count> call_names{"open",  "read",     "write",  "fsync", "rename",  "unlink",
-                                                         "mkdir", "truncate", "mmap",   "close", "opendir", "readdir",
-                                                         "stat",  "flock",    "memory", "thread"};
+constexpr std::array<const char*, call_count> call_names{"open",  "read",     "write",  "fsync",  "rename",  "unlink",
+                                                         "mkdir", "truncate", "mmap",   "close",  "opendir", "readdir",
+                                                         "stat",  "flock",    "memory", "thread", "fork"};
 
 struct Named {
     const char* name;
@@ -196,6 +196,8 @@ bool fails(Call call, const char* name) { return ready && fails(call, path_at(AT
 bool fails(Call call, int descriptor) { return ready && fails(call, path_of(descriptor)); }
 
 bool thread_fails() { return ready && count(Call::thread, "thread"); }
+
+bool fork_fails() { return ready && count(Call::fork, "fork"); }
 
 bool memory_fails(std::size_t bytes) { return ready && bytes >= least_counted && count(Call::memory, "memory"); }
 

@@ -9,7 +9,7 @@
 namespace crackle::faults {
 
 /// Kinds of calls, counted each for itself. memory: what malloc and its kin take from the system (mmap, by itself);
-/// thread: one that is begun.
+/// thread: one that is begun; fork: a process. A process that is forked goes on counting by itself.
 enum class Call {
     open,
     read,
@@ -27,6 +27,7 @@ enum class Call {
     flock,
     memory,
     thread,
+    fork,
     last_
 };
 
@@ -35,18 +36,19 @@ struct Path {
     char text[PATH_MAX];
 };
 
-/// Of a name relative to a folder's descriptor, or to AT_FDCWD. Links in it are not followed.
+/// Path of a name relative to a folder's descriptor, or to AT_FDCWD. Links in it are not followed.
 Path path_at(int folder, const char* name);
-/// Of an open file; empty if it has none.
+/// Path of an open file; empty if it has none.
 Path path_of(int descriptor);
 
 /// Counts a call on a path. @return whether it is to fail; errno is set then
 bool fails(Call call, const Path& path);
 bool fails(Call call, const char* name);
 bool fails(Call call, int descriptor);
-/// Counts an allocation of so many bytes, if it is large enough to be counted.
+/// Counts an allocation of `bytes`, if it is large enough to be counted.
 bool memory_fails(std::size_t bytes);
 bool thread_fails();
+bool fork_fails();
 
 /// Whether the path lies in the folder that is looked at.
 bool looked_at(const Path& path);

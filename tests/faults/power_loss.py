@@ -19,7 +19,7 @@ def trace_of(program, scene, place, origin):
 
 
 def states(before, operations, quick):
-    """Folders as a loss of power may leave them, each once: [(after so many operations, what was lost, {name: bytes})]."""
+    """Folders as a loss of power may leave them, each once: [(number of operations before it, what was lost, {name: bytes})]."""
     disc, chance = Disc(before), random.Random(1)
     moments = sorted(chance.choices(range(1, len(operations) + 1), k=BY_CHANCE // 10 if quick else BY_CHANCE))
     seen, found = set(), []
@@ -47,6 +47,6 @@ def attempt(program, scene, place, files):
     faults = went_on(program, scene, place, stopped, files)
     if not faults:
         return Outcome(SAID)
-    # Left by chance so that nobody can tell whose they are; the message says what to do.
+    # Folders left by chance without a sign of their owner; the message states what to do.
     faults = [(REFUSED if kind == UNMENDED and ("move" in words or "choose another" in words) else kind, words) for kind, words in faults]
     return Outcome(worst_of(faults), faults=faults)

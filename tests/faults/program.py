@@ -3,24 +3,32 @@
 
 import json
 import os
+import re
 import shutil
 import signal
+import sqlite3
 import subprocess
+import time
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 
-# Of summary.json: what depends on the clock.
+# Keys of summary.json that depend on the clock.
 OF_THE_CLOCK = {"wall_seconds", "step_seconds", "particle_steps_per_second"}
-LONGEST = 60  # s: what takes longer hangs
+LONGEST = 60  # s of processor time: what takes more hangs
+STUCK = 20 * LONGEST  # s by the clock, on a machine that has other work too
 # What each kind of call says where it fails; of two the second where it fails from then on.
 ERRORS = {"open": ("EACCES", "EMFILE"), "read": ("EIO", "EIO"), "write": ("ENOSPC", "ENOSPC"), "fsync": ("EIO", "EIO"),
           "rename": ("EACCES", "ENOSPC"), "unlink": ("EACCES", "EROFS"), "mkdir": ("ENOSPC", "EACCES"), "truncate": ("EIO", "EPERM"),
           "mmap": ("ENOMEM", "ENOMEM"), "close": ("EIO", "ENOSPC"), "opendir": ("EACCES", "EMFILE"), "readdir": ("EIO", "EIO"),
           "stat": ("EACCES", "EIO"), "flock": ("ENOLCK", "ENOLCK"), "memory": ("ENOMEM", "ENOMEM"),
-          "thread": ("EAGAIN", "EAGAIN")}
+          "thread": ("EAGAIN", "EAGAIN"), "fork": ("EAGAIN", "EAGAIN")}
 CAUSES = {"EACCES": "Permission denied", "EMFILE": "Too many open files", "EIO": "Input/output error", "ENOSPC": "No space left on device",
           "EROFS": "Read-only file system", "EPERM": "Operation not permitted", "ENOMEM": "memory", "ENOLCK": "No locks available",
           "EAGAIN": "Resource temporarily unavailable"}
+
+
+OF_A_PATH = ("EACCES", "EPERM", "EROFS")  # what the user can change: exit code 2; all others are the system's, 4
 
 
 @dataclass
@@ -44,6 +52,32 @@ class Run:
         return self.code is None
 
 
+def processor_seconds(group):
+    """Processor time of a group: of its processes and of their children that have ended."""
+    ticks = 0
+    for file in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            values = file.read_text(errors="replace").rpartition(")")[2].split()
+        except OSError:  # it has ended
+            continue
+        if int(values[2]) == group:
+            ticks += sum(int(value) for value in values[11:15])
+    return ticks / os.sysconf("SC_CLK_TCK")
+
+
+def end_of(process):
+    """Exit code and both streams of the leader of a group; the code of one that hangs is None, and its group is killed."""
+    begun = time.monotonic()
+    while True:
+        try:
+            out, err = process.communicate(timeout=LONGEST / 4)
+            return process.returncode, out, err
+        except subprocess.TimeoutExpired:
+            if processor_seconds(process.pid) > LONGEST or time.monotonic() - begun > STUCK:
+                os.killpg(process.pid, signal.SIGKILL)
+                return None, *process.communicate()
+
+
 class Program:
     def __init__(self, program, library):
         self.program, self.library = Path(program).resolve(), Path(library).resolve()
@@ -58,14 +92,8 @@ class Program:
             environment |= {"LD_PRELOAD": str(self.library), "CRACKLE_FAULT_FOLDER": str(folder), "CRACKLE_FAULT_LOG": str(log)}
             environment |= {f"CRACKLE_FAULT_{key.upper()}": str(value) for key, value in faults.items() if value is not True}
         process = subprocess.Popen([*before, str(self.program), *words.split()], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        try:
-            out, err = process.communicate(timeout=LONGEST)
-            code = process.returncode
-        except subprocess.TimeoutExpired:
-            process.send_signal(signal.SIGKILL)
-            out, err = process.communicate()
-            code = None
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, process_group=0)
+        code, out, err = end_of(process)
         calls = []
         if log.exists():
             for line in log.read_text(errors="replace").splitlines():
@@ -78,15 +106,34 @@ class Program:
         return self.run(words, place, list=True)
 
 
+def table_of(ledger):
+    """Results in a campaign's ledger, without what depends on the clock. The bytes of a file that is no ledger."""
+    try:
+        with closing(sqlite3.connect(f"file:{ledger}?mode=ro", uri=True)) as opened:
+            found = opened.execute("SELECT * FROM results")
+            names = [column[0] for column in found.description]
+            rows = [dict(zip(names, row)) for row in found]
+    except sqlite3.Error:
+        return ledger.read_bytes()
+    return json.dumps([{name: row[name] for name in sorted(row) if name != "processor_seconds"} for row in rows]).encode()
+
+
 def contents(folder):
-    """{name: bytes} of all files in a folder, and its folders with a stroke behind them; of summary.json what does not depend on the clock."""
+    """{name: bytes} of all files in a folder, and its folders with a stroke behind them; without what depends on the clock, of a ledger its
+    table."""
     found = {}
     for path in sorted(folder.rglob("*")):
         name = str(path.relative_to(folder))
+        if path.name.endswith(".crackle_tmp"):
+            continue  # of a command that was stopped: the next one removes it, where nobody is known to hold the folder a minute later
         if path.is_dir():
             found[name + "/"] = b""
             continue
-        data = path.read_bytes()
+        if path.name.endswith(("-wal", "-shm", "-journal")):  # SQLite's own
+            continue
+        data = table_of(path) if path.suffix == ".sqlite" else path.read_bytes()
+        if path.name.startswith("calibration."):
+            data = re.sub(rb'\d+ s of (?:a processor|processor time)|"processor_seconds": [-+.e\d]+', b"", data)
         if path.name == "summary.json":
             try:
                 whole = json.loads(data)
@@ -111,7 +158,7 @@ def put(folder, files):
 
 
 def below(files, name):
-    """Those of a folder, or of one file."""
+    """Contents of a folder, or of one file."""
     return {key: data for key, data in files.items() if key == name or key.startswith(name + "/")}
 
 

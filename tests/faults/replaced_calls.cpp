@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Put in front of the C library by LD_PRELOAD: each call that can fail by the plan (plan.cpp), and goes into the trace
-// (trace.hpp) once it has done its work. What libstdc++'s streams and std::filesystem call is here, and what the
-// program calls itself; what the C library calls within itself (fclose its close, malloc its mmap) is not seen, so
-// fclose counts as a close, and large allocations are a kind of their own (replaced_memory.cpp).
+// (trace.hpp) once it has done its work. Calls of libstdc++'s streams, of std::filesystem and of the program itself are
+// here. Calls of the C library within itself (fclose its close, malloc its mmap) are not seen. fclose therefore counts
+// as a close, and large allocations are a kind of their own (replaced_memory.cpp).
 #include <dirent.h>
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -66,7 +66,7 @@ ssize_t written(int file, std::string_view bytes, Real real) {
     return count;
 }
 
-/// Of a call that gives 0 where it is done.
+/// A call that gives 0 on success.
 template <class Real>
 int done(Call call, const char* kind, const Path& path, Real real, long offset = 0, std::string_view data = {}) {
     if (fails(call, path)) return -1;
@@ -157,6 +157,17 @@ ssize_t pread(int file, void* bytes, size_t count, off_t at) {
 ssize_t write(int file, const void* bytes, size_t count) {
     CRACKLE_REAL(write);
     return written(file, {static_cast<const char*>(bytes), count}, [&] { return real(file, bytes, count); });
+}
+
+ssize_t pwrite(int file, const void* bytes, size_t count, off_t at) {
+    CRACKLE_REAL(pwrite);
+    const Path path = path_of(file);
+    if (fails(Call::write, path)) return -1;
+    const Recorded record;
+    const ssize_t written = real(file, bytes, count, at);
+    if (record.wanted() && written > 0)
+        record.add("write", path, at, {static_cast<const char*>(bytes), static_cast<std::size_t>(written)});
+    return written;
 }
 
 ssize_t writev(int file, const iovec* parts, int count) {
@@ -299,8 +310,9 @@ int fstatat(int folder, const char* name, struct stat* found, int flags) noexcep
     return fails(Call::stat, path_at(folder, name)) ? -1 : real(folder, name, found, flags);
 }
 
-// The same under the names that mean files of any length, which is what they are here.
+// The calls under the names that mean files of any length, which is what they are here.
 ssize_t pread64(int file, void* bytes, size_t count, off64_t at) { return pread(file, bytes, count, at); }
+ssize_t pwrite64(int file, const void* bytes, size_t count, off64_t at) { return pwrite(file, bytes, count, at); }
 int truncate64(const char* name, off64_t length) noexcept { return truncate(name, length); }
 int ftruncate64(int file, off64_t length) noexcept { return ftruncate(file, length); }
 void* mmap64(void* where, size_t length, int protection, int flags, int file, off64_t at) noexcept {
@@ -330,6 +342,13 @@ int fstatat64(int folder, const char* name, struct stat64* found, int flags) noe
 int flock(int file, int operation) noexcept {
     CRACKLE_REAL(flock);
     return fails(Call::flock, file) ? -1 : real(file, operation);
+}
+
+pid_t fork() noexcept {
+    CRACKLE_REAL(fork);
+    if (!crackle::faults::fork_fails()) return real();
+    errno = EAGAIN;
+    return -1;
 }
 
 int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*begin)(void*), void* with) {

@@ -44,7 +44,7 @@ def as_it_was(before, after, expected, results):
     """Whether earlier results are untouched, or the new ones in their place. @return what is wrong, or None"""
     for name in results:
         old = below(before, name)
-        now = {key: data for key, data in below(after, name).items() if not key.endswith((*STAGED, ".tmp"))}
+        now = {key: data for key, data in below(after, name).items() if not key.endswith(STAGED)}
         if old and now not in (old, below(expected, name)):
             return f"{name} is neither the earlier one nor the new one"
     return None
@@ -66,9 +66,9 @@ class Scene:
     results: tuple = ()  # names of what it writes
     grows: bool = False  # results are added to, in place
     resume: str = "test --resume out -q"
-    otherwise: str = None  # the way that is left where nothing of it can be gone on with
+    otherwise: str = None  # the way that is left where nothing of it can be resumed
     further: str = None  # goes on from its end
-    saves_itself: bool = False  # asked to end, it puts a part of itself, to be gone on with, in the place of earlier results
+    saves_itself: bool = False  # asked to end, it puts a part of itself, to be resumed, in the place of earlier results
     unfinished: bool = False  # results are those of a test that goes on: what comes of them at the end counts
     expected: dict = None
     accepted: list = None
@@ -125,6 +125,8 @@ class Scene:
         ways = []
         if kind == "test" and "out/" in after and "out/" not in self.before:
             ways.append(self.resume)
+        if kind == "test" and "out.new/checkpoint" in after:
+            ways.append("test --resume out.new -q")
         if self.further and stopped.code == 130 and "out/" in after:
             ways.append(GO_ON)
         return list(dict.fromkeys([*ways, self.command, self.forced(), self.otherwise or self.command]))
@@ -148,9 +150,37 @@ class Scene:
         return None if sets[2] in sets[:2] else "new_* are of two parts"
 
 
+PLAN = """[[test]]
+case = "case.toml"
+[packings]
+count = 2
+[run]
+keep = "curves"
+"""
+# Moduli alone: two linear solves, a round and the fresh packings.
+ROCK = """[[test]]
+name = "tension"
+case = "case.toml"
+[[target]]
+test = "tension"
+figure = "youngs_modulus"
+value = 1e7
+tolerance = 0.05
+[[free]]
+key = "material.normal_stiffness"
+from = 2e6
+to = 5e7
+[packings]
+fit = 4
+polish = 4
+fresh = 4
+"""
+
+
 def scenes():
     case = CASE.replace("RATE", "0.1")
     other = CASE.replace("RATE", "0.2")
+    campaign = {"files": {"case.toml": case, "plan.toml": PLAN}, "made_by": ["campaign plan.toml -o out --workers 1 -q"]}
     packed = f"{PACK} -o in_gm.dat -q"
     done = "test case.toml -o out -q"
     deck, half = {"deck": "0 0 400 20 10"}, "run deck -o out --steps 250 -q"
@@ -177,5 +207,10 @@ def scenes():
               made_by=["test other.toml -o out -q"], results=("out",)),
         Scene("test --resume", "test --resume out -q", files={"case.toml": case},
               made_by=[(done, {"call": "write", "at": 24, "signal": "INT"})], results=("out",), unfinished=True, otherwise="test case.toml -o out --force -q"),
+        Scene("campaign", "campaign plan.toml -o out --workers 1 -q", files={"case.toml": case, "plan.toml": PLAN}, results=("out",), unfinished=True),
+        Scene("campaign, again", "campaign plan.toml -o out --workers 1 -q", **campaign, results=("out",), unfinished=True),
+        Scene("report of a campaign", "report out -o page.html -q", **campaign, results=("page.html",)),
+        Scene("plot of a campaign", "plot out -o points.svg -q", **campaign, results=("points.svg",)),
+        Scene("calibrate", "calibrate rock.toml -o out --workers 1 -q", files={"case.toml": case, "rock.toml": ROCK}, results=("out",), unfinished=True),
         Scene("test --verify", done + " --verify", files={"case.toml": case}, results=("out",), resume="test --resume out -q --verify"),
     ]

@@ -29,7 +29,7 @@ class RefusedThreads(unittest.TestCase):
                 self.assertEqual(done.code, 0, done.err)
                 if faults and SEVERAL:
                     self.assertTrue(done.calls, "none was begun")
-                    self.assertRegex(done.err, "1 of 2 threads are used: the system lets this process have 1 more")
+                    self.assertRegex(done.err, "1 of 2 threads are used: the operating system allows this process only 1")
                 left.append({name: data for name, data in contents(place / "work").items() if name.startswith(made)})
             self.assertEqual(left[0].keys(), left[1].keys())
             for name, data in left[0].items():

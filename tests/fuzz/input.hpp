@@ -38,7 +38,7 @@ std::filesystem::path write_file(const std::filesystem::path& name, std::string_
 /// Puts XXH3 of [begin, end - 8) into the last eight bytes.
 void mend_xxh3(std::string& bytes, std::size_t begin, std::size_t end);
 
-/// The same of a world's checkpoint that ends at `end`, wherever it begins; its version becomes the present one.
+/// Mends a world's checkpoint that ends at `end`, wherever it begins; its version becomes the present one.
 void mend_world(std::string& bytes, std::size_t end);
 
 /// Small values one after the other out of an input's bytes; zeros at its end.

@@ -31,7 +31,7 @@ Target target_named(const std::string& name) {
     return nullptr;
 }
 
-// As run has them for libFuzzer.
+// Limits as `run` sets them for libFuzzer.
 constexpr double most_seconds = 5.0;
 constexpr rlim_t most_memory = rlim_t{1} << 30;
 

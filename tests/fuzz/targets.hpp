@@ -17,6 +17,8 @@ namespace crackle::fuzz {
     USE(case_file)                \
     USE(plan)                     \
     USE(rock)                     \
+    USE(ledger)                   \
+    USE(packing)                  \
     USE(checkpoint)               \
     USE(frame)                    \
     USE(recording)                \

@@ -173,8 +173,8 @@ inline bool on_one_side(Point a, Point b, const Rectangle& r) {
            (a.y == r.y2 && b.y == r.y2);
 }
 
-/// Length of facing edges checked and the largest departure of their distance from `gap` (and from gap/2 to the
-/// domain's faces): `whole` is the partition without inset, `apart` the inset one with the same cells. Edge pairs are
+/// Length of facing edges checked, and the largest departure of their distance from `gap` (and from gap/2 to the
+/// domain's faces). `whole` is the partition without inset, `apart` the inset one with the same cells. Edge pairs are
 /// found by their place and direction, then measured at three points of the stretch that both cover.
 struct GapCheck {
     std::int64_t interfaces = 0, faces = 0;

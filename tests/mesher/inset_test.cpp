@@ -68,7 +68,7 @@ TEST(Inset, StraightCornerIsNone) {
 }
 
 TEST(Inset, StraightCornerThatIsKeptIsOneAndConvex) {
-    // A trace ends in the middle of the lower edge; the one above is none, and is dropped.
+    // A trace ends in the middle of the lower edge; the point above is not a corner, and is dropped.
     const std::vector<Point> square{{0, 0}, {0.5, 0}, {1, 0}, {1, 1}, {0.5, 1}, {0, 1}};
     const std::vector<char> kept{0, 1, 0, 0, 0, 0};
     for (const double depth : {0.0, 0.125}) {

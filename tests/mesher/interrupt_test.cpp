@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whoever does not want a mesh any more is heard, wherever the making of it is.
+// An interrupt ends the making of a mesh, wherever it is.
 
 #include <functional>
 #include <optional>

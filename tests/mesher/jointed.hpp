@@ -97,7 +97,7 @@ struct NetworkCount {
 };
 
 /// Networks of few and of many traces, with small angles, traces a thousandth of a cell apart, ends on the walls and
-/// coincident traces: each is meshed validly, or refused naming traces.
+/// coincident traces. Each is meshed validly, or refused naming traces.
 inline NetworkCount mesh_random_networks(MeshKind kind, std::uint64_t networks) {
     NetworkCount result;
     for (std::uint64_t seed = 1; seed <= networks; ++seed) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Delaunay triangles with traces: every trace is a chain of edges on its line, the domain is filled without overlap,
-// angles are fair, and random networks are meshed or refused by name.
+// and angles are fair. Random networks are meshed or refused by name.
 
 #include <algorithm>
 #include <map>
@@ -100,7 +100,7 @@ TEST(JointedDelaunay, MergingNeverCrossesATrace) {
                                length_of(traces[0]) + length_of(traces[1]), 1e-12));
             EXPECT_TRUE(agrees("area", mesh.report.area_before_inset, 2.0, 1e-12));
         } catch (const MeshError& error) {  // a sliver of random centres that is convex with no neighbour
-            EXPECT_NE(std::string(error.what()).find("convex with none"), std::string::npos);
+            EXPECT_NE(std::string(error.what()).find("not convex with any"), std::string::npos);
         }
     }
     EXPECT_GT(merged, 0);
@@ -116,7 +116,7 @@ TEST(JointedDelaunay, ATriangleBetweenTracesThatMergesWithNoneNamesThem) {
     } catch (const MeshError& error) {
         const std::string text = error.what();
         fmt::print("  {}\n", text);
-        EXPECT_NE(text.find("convex with none"), std::string::npos);
+        EXPECT_NE(text.find("not convex with any"), std::string::npos);
         EXPECT_EQ(error.traces, (std::vector<int>{0, 1}));
         EXPECT_NE(text.find(" by traces 0, 1 destroyed"), std::string::npos);
     }
@@ -142,9 +142,14 @@ TEST(JointedDelaunay, SameInputSameBytes) {
 }
 
 TEST(JointedDelaunay, RandomNetworksAreMeshedOrRefusedByName) {
-    const testing::NetworkCount count = testing::mesh_random_networks(MeshKind::delaunay, 1000);
-    EXPECT_GT(count.meshed, 500);
-    EXPECT_GT(count.refused, 20);
+#ifdef __SANITIZE_ADDRESS__
+    constexpr int networks = 300;  // each takes several times as long there
+#else
+    constexpr int networks = 1000;
+#endif
+    const testing::NetworkCount count = testing::mesh_random_networks(MeshKind::delaunay, networks);
+    EXPECT_GT(count.meshed, networks / 2);
+    EXPECT_GT(count.refused, networks / 50);
 }
 
 TEST(JointedDelaunay, CoincidentCentresAreNamedAsTheyAreGiven) {

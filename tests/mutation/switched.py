@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All faults in one build, each behind a switch that the environment sets: CRACKLE_FAULT=n, n from 1 in the list's order.
 
-A fault's new text becomes a choice between it and the old one: by itself where only a number, a name or a whole statement
-differs, by the fault's `switch = [part of the source, the same with a choice]` elsewhere, `@` standing for its switch."""
+A fault's new text becomes a choice between it and the old one: by itself where only a number, a name or a whole statement differs. Elsewhere it does
+so by the fault's `switch = [part of the source, the same with a choice]`, where `@` stands for its switch."""
 
 import re
 
@@ -23,6 +23,7 @@ header_path = "tests/mutation/switch.hpp"
 _token = re.compile(r'"(?:\\.|[^"\\])*"|\d[\w.]*|[A-Za-z_]\w*|->|::|<=|>=|==|!=|\+=|-=|&&|\|\||\+\+|--|<<|>>|\s+|.', re.S)
 _number = r"[\d.]+(?:e\d+)?"
 _name = r"[A-Za-z_]\w*"
+_constant = re.compile(r"\s*(?:inline |static )*constexpr ")
 _owner = re.compile(r"(?:[A-Za-z_]\w*(?:\[\w+\])?(?:\.|->|::))*$")  # of a member
 
 
@@ -66,6 +67,10 @@ def choices(faults, tree):
                               "expected `switch` with a part of the source that stands once")
             continue
         at = text.index(part)
+        before = (text[max(0, at - 200) : at] + choice).split("@")[0]
+        if _constant.match(re.split(r"[;\n]", before)[-1]):
+            complaints.append(f"{fault['id']}: found a choice within `constexpr`, expected `switch` with `const`")
+            continue
         places.setdefault(fault["file"], []).append((at, at + len(part), choice.replace("@", f"FAULT({number})"), fault["id"]))
     for changes in places.values():
         changes.sort()

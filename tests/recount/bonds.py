@@ -13,7 +13,7 @@ from outlines import outset
 least_facing = 0.9  # minus the cosine between edges that face each other: those of a mesh lie parallel
 least_lap, flush = 0.01, 1e-9  # of the mean radius; of both: rounding of flat faces that lie flush
 facing_share = 1e-6  # of bond.thick: rounding; faces of an open joint that lie against each other
-parallel_within = 1e-6  # sine: those of one trace, but for the rounding of corners
+parallel_within = 1e-6  # sine between edges of one trace, apart from the rounding of corners
 overhang = 0.05  # of bond.thick: gap at which corners of polygons are still bonded, if bond.gap is not given
 _all_bits = (1 << 64) - 1
 
@@ -117,7 +117,7 @@ def face(model, i, j, gap):
 
 
 def faces_of(model, p):
-    """Of each pair of polygons with points among these, by its bodies, the smaller id first."""
+    """Faces of each pair of polygons with points among these, by its bodies, the smaller id first."""
     found = {}
     for pair, own in by_pairs(p).items() if model.polygons else ():
         i, j = sorted(pair, key=lambda b: model.ids[b])

@@ -79,7 +79,7 @@ rate = "axial_strain_rate = 0.02\n"
 bonded = 'platens = "bonded"\n'
 friction = 'platens = "frictional"\nplaten_friction_angle = 15.0\n'
 
-# The same bodies with bonds of strengths of their own, and with stiffness and strengths of an area.
+# The bodies with bonds of strengths of their own, and with stiffness and strengths of an area.
 packing = rock[: rock.index("[material]")]
 area = """[material]
 units = "area"

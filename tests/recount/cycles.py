@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests whose platen turns round (specimens/METHODS.md 4): the way gone through, first loading, figures of cycles."""
+"""Tests whose platen turns round (specimens/setup/METHODS.md): the strain travelled, first loading, figures of cycles."""
 
 import math
 
@@ -26,7 +26,7 @@ def first_loading(results, strain):
 
 
 def travel(results, strain):
-    """Strain gone through back and forth up to each row, and what turns between rows may add to all of it."""
+    """Strain travelled back and forth up to each row, and what turns between rows may add to all of it."""
     steps = np.diff(strain, prepend=strain[0])
     turns = int(np.sum(steps[1:] * steps[:-1] < 0)) if turns_round(results) else 0
     return np.cumsum(np.abs(steps)), 2 * turns * np.abs(steps).max()

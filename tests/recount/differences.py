@@ -9,7 +9,9 @@ class Differences:
         self.figures = {}  # name: times compared, tests, difference and tolerance where it is the largest share of it
 
     def take(self, folder, lines):
-        for name, _, _, difference, tolerance, _ in lines:
+        for name, stated, ours, difference, tolerance, _ in lines:
+            if stated != stated and ours != ours:
+                continue  # not a number in both: that says nothing of the figure
             name = re.sub(r"^frame \d+:", "frames:", re.sub(r" \[\d+ of \d+\]$", "", name))
             name = re.sub(r"^(minerals\[)\d+\]", r"\1]", name)
             seen = self.figures.setdefault(name, [0, set(), 0.0, tolerance])
@@ -26,6 +28,7 @@ class Differences:
             "",
             "Every figure that the tests recount, in how many tests and how often (a column of the curve or of events is one figure: its worst row stands for all), and the",
             "comparison that came nearest to its tolerance. Difference and tolerance have the figure's unit; «exact» is a number that is counted, a word, or a statement that holds.",
+            "What is null in the summary and not defined for the recount either is not counted: no test of it has a value.",
             "",
             "| figure | tests | compared | largest difference | tolerance there | share of it |",
             "| --- | --- | --- | --- | --- | --- |",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Acoustic events: ae.csv against the breaks of events.csv, and what the summary says of them (specimens/METHODS.md 5)."""
+"""Acoustic events: ae.csv against the breaks of events.csv, and what the summary says of them (specimens/emission/METHODS.md)."""
 
 import math
 
@@ -28,7 +28,7 @@ def cluster(events, diameter, speed):
 
 
 def share_below(half, x):
-    """Of the χ² distribution with 2 `half` degrees of freedom, by the series of the incomplete gamma function."""
+    """Distribution function of χ² with 2 `half` degrees of freedom, by the series of the incomplete gamma function."""
     x, term, total, k = x / 2, 1 / half, 1 / half, half
     while term > total * 1e-17:
         k += 1
@@ -74,7 +74,7 @@ def recount_b(r, magnitudes):
     r.key(names + "error", error)
     stated = [math.nan if end is None else end for end in r.summary["b_value"]["interval"]]
     r.rows(names + "interval", stated, [low, high], rounding * (abs(b) if b == b else 0.0))
-    # Of all magnitudes tried none is nearer to a line than the stated one, which is one of them.
+    # The stated magnitude is one of those tried, and none of them is nearer to a line.
     other, tried = r.summary["b_value"]["least_distance"], np.sort(magnitudes)
     if other["completeness"] is None:
         r.true(names + "least_distance: none of fewer than 50", len(magnitudes) < 50 and other["b"] is None)
@@ -85,7 +85,7 @@ def recount_b(r, magnitudes):
     if not distances:
         return
     least = min(distances)[0]
-    # Of places alike but for rounding either may be named.
+    # Either of two places that differ by rounding may be named.
     best = min((m for d, m in distances if d <= least + 1e-12), key=lambda m: abs(m - other["completeness"]))
     r.key(names + "least_distance.completeness", best)
     above = tried[tried > best] - best

@@ -8,9 +8,9 @@ import numpy as np
 from cycles import turns_round
 from model import rounding
 
-# Of a strength: what a force may grow in a step. At 0.8 of the stable one the stiffest motion turns by 106 degrees.
+# Share of a strength by which a force may grow in a step. At 0.8 of the stable one the stiffest motion turns by 106 degrees.
 one_step = 0.5
-# Of the energy of all breaks: the mean of what their forces grew in the last step; of a few it scatters by one_step.
+# Share of the energy of all breaks by which their forces grew in the last step, in the mean; for a few breaks it scatters by one_step.
 mean_step = 0.1
 
 
@@ -109,7 +109,7 @@ def recount_envelope(r, model, bonds, of_bond, in_shear):
     tensile, limit = bonds.tensile[m], bonds.cohesion[m] + model.friction(bonds)[m] * normal
     parts, shears = -normal >= tensile * (1 - rounding), shear >= limit - rounding * bonds.cohesion[m]
     r.compare("events: rows within both limits", int(np.sum(~(parts | shears))), 0, 0)
-    # Of two limits exceeded in one step the way decides, which only a frame a step holds (history.py).
+    # Where two limits are exceeded in one step, the way decides, which only a frame per step holds (history.py).
     r.compare("events: rows with another mode", int(np.sum(np.where(in_shear, ~shears, ~parts))), 0, 0)
     r.compare("events: coulomb bonds that slid", int(np.sum(e["slid"])), 0, 0)
     over = np.where(in_shear, shear - limit, -normal - tensile)
@@ -133,7 +133,7 @@ def recount_envelope(r, model, bonds, of_bond, in_shear):
 
 
 def recount_parting(r, model):
-    """The largest crack: broken bonds that share particles or a platen, and where it lies (specimens/METHODS.md 3)."""
+    """The largest crack: broken bonds that share particles or a platen, and where it lies (specimens/setup/METHODS.md)."""
     e, s = r.events, r.summary
     pairs = [(model.index[int(a)], model.index[int(b)]) for a, b in zip(e["body_i"], e["body_j"])]
     if not pairs:

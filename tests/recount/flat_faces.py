@@ -41,7 +41,7 @@ def line_of(faces, own, table, deck):
 
 
 def line_of_case(table):
-    """Of a set through a point, or of a trace of two points; None of others."""
+    """Line of a set through a point, or of a trace of two points; None for others."""
     points = table.get("points", [])
     if len(points) == 4:
         at, way = np.array(points[:2]), np.array(points[2:]) - points[:2]
@@ -121,7 +121,7 @@ def take_sides(foot, height, radius):
 
 @dataclass
 class FlatFaces:
-    """Of one part: `body`, its side, and its stretch along the trace from its centre, m, at the height of that."""
+    """Face on one part: `body`, its side, and its stretch along the trace from its centre, m, at the height of that."""
 
     part: Part
     body: np.ndarray

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What depends on history, from a test with a row and a frame a step: shear forces, losses, work, energies of breaks.
+"""What depends on history, from a test with a row and a frame per step: shear forces, losses, work, energies of breaks.
 
 Follows every contact point from frame to frame by solver/MODEL.md 4, 5 and 8; `r`, `model` and `bonds` as in frames.py."""
 
@@ -25,7 +25,7 @@ def holds_every_step(r, rows):
 
 
 class Values(NamedTuple):
-    """Of a contact point in a frame: m, m/s, N/m, N s/m."""
+    """Constants of a contact point in a frame: m, m/s, N/m, N s/m."""
 
     overlap: float
     closing: float
@@ -75,7 +75,7 @@ def moment(model, r, bonds, row, first, dt):
     settle_rounding(model, q, frame, first, bonds)
     arm_i, arm_j, way = relative_motion(q, places, velocity, spin)
     tangent = turned(q.normal)
-    # Over a step an arm turns by w = spin dt; what a turn of both bodies as one moves along the face is w x arm less
+    # Over a step an arm turns by w = spin dt. A turn of both bodies as one moves it along the face by w x arm less
     # w^2/2 arm, since places are those at the end.
     half = dt / 2
     slip = dot(way, tangent) + half * (spin[q.i] ** 2 * dot(arm_i, tangent) - spin[q.j] ** 2 * dot(arm_j, tangent))
@@ -207,7 +207,7 @@ class Follower:
         return min(self._slack(point, normal, shear)) <= 0
 
     def _break_coulomb(self, step, key, point, values, dt):
-        """What is left goes on as a contact without a bond. @return dashpot loss, J"""
+        """The rest continues as a contact without a bond. @return dashpot loss, J"""
         overlap, closing, slip, kn, ks, friction, cn, _ = values[:8]
         opening = overlap - point.rest
         before = opening - closing * dt

@@ -92,7 +92,7 @@ class JointedTests:
             loading = squeezed.replace("0.02", str(strain)) + f"axial_strain_rate = {speed}\n"
             with self.subTest(case=name):
                 r = self.agrees(run("joint_every_step_" + name, few + text + loading + a_row_a_step), 380)
-                self.assertTrue(any("history" in line[0] for line in r.lines), "a frame a step")
+                self.assertTrue(any("history" in line[0] for line in r.lines), "a frame per step")
                 if name in ("triangles", "circles"):
                     self.assertGreater(r.summary["bonds_broken_on_joints"], 0)
                 else:

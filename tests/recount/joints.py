@@ -119,7 +119,7 @@ class Faces:
         return opening, slip, off
 
     def state(self, row):
-        """Of each face by its bonds: 0 holds, 2 has lost them all, 4 never had one; and whether it has had one."""
+        """State of each face by its bonds: 0 holds, 2 has lost them all, 4 never had one; and whether it has had one."""
         contacts = self.r.results.contacts(row)
         bonds = {}
         for a, b, state in zip(contacts["body_i"], contacts["body_j"], contacts["state"]):
@@ -135,7 +135,7 @@ def rotation(angle):
 
 
 def recount_joints(r, joints):
-    """What traces have come to, of any kind of test: every face from the places of its two bodies (specimens/METHODS.md 2)."""
+    """What traces have come to, of any kind of test: every face from the places of its two bodies (specimens/joints/METHODS.md)."""
     if not joints.traces:
         return None
     sources = [trace["source"] for trace in joints.traces]
@@ -198,7 +198,7 @@ def recount_faces(r, model, faces):
 
 
 def recount_length(r, faces, name, own, table):
-    """Of a trace through the whole box, by the line that its faces lie on. @param table  of the case"""
+    """Length of a trace through the whole box, by the line that its faces lie on. @param table  of the case"""
     deck = r.results.specimen
     whole = table.get("length", "persistent") == "persistent" and ("spacing" in table or "number" in table)
     line = line_of(faces, own, table, deck) if whole and own.any() else None

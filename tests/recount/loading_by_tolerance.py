@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""First rate, first motion, and what the rate rule makes of a curve with a row a step (specimens/METHODS.md 4).
+"""First rate, first motion, and what the rate rule makes of a curve with a row per step (specimens/loading/METHODS.md).
 
 `r`, `model` and `bonds` as in frames.py; `solution` is the motion for an axial strain of 1, by model.py."""
 

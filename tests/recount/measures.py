@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures of a test that are read off its whole curve, its breaks and its fragments (specimens/METHODS.md 5)."""
+"""Measures of a test that are read off its whole curve, its breaks and its fragments (specimens/measures/METHODS.md)."""
 
 import math
 
@@ -22,7 +22,7 @@ def first(holds):
 
 
 def recount_moduli(r, at_peak, strain, stress, lateral, sense):
-    """Of ISRM's windows and beyond the peak. Columns of all judged rows. @param at_peak  row of the peak among them"""
+    """Moduli of ISRM's windows and beyond the peak. Columns of all judged rows. @param at_peak  row of the peak among them"""
     peak, rising = stress[at_peak], stress[: at_peak + 1]
     windows = []
     for k in range(71):
@@ -30,7 +30,7 @@ def recount_moduli(r, at_peak, strain, stress, lateral, sense):
         windows.append(slice(begin, (at_peak if end is None else end) + 1))
     windows = [w for w in windows if w.stop - w.start >= 3]
     left = [regression(strain[w], stress[w])[1] for w in windows]
-    # Of windows that a line fits alike but for rounding either may be the best.
+    # Either of two windows that a line fits alike, apart from rounding, may be the best.
     alike = [w for w, misfit in zip(windows, left) if misfit <= min(left) * (1 + 1e-6)]
     stated = r.summary["average_modulus"]
     slopes = [(regression(strain[w], stress[w])[0], sense * regression(strain[w], lateral[w])[0]) for w in alike]

@@ -14,7 +14,7 @@ from outlines import clump_centre, outset, polygon_moments
 
 # Relative: sums of thousands of terms, and places known to 1e-16 of a specimen where overlaps are 1e-4 of it.
 rounding = 1e-9
-platen_width, platen_depth = 2.0, 0.05  # of the specimen's width and height (specimens/METHODS.md 3)
+platen_width, platen_depth = 2.0, 0.05  # of the specimen's width and height (specimens/setup/METHODS.md)
 
 
 def dot(a, b):
@@ -27,7 +27,7 @@ def turned(v):
 
 
 def single(values):
-    """As kept in single precision."""
+    """The value in single precision."""
     return values.astype(np.float32).astype(float)
 
 
@@ -116,7 +116,7 @@ class Model:
         return self.results.key("bond", "range", 0.0) * max(b.circles[:, 2].max() for b in self.deck.bodies)
 
     def _named_pairs(self):
-        """Of [[mineral_pair]]: (indices of its materials, its keys)."""
+        """Tables [[mineral_pair]]: (indices of its materials, its keys)."""
         names = [m["name"] for m in self.minerals]
         pairs = []
         for table in self.results.case.get("mineral_pair", []):
@@ -151,7 +151,7 @@ class Model:
             np.array([(right, y1), (left, y1), (left, y1 - depth), (right, y1 - depth)]),
             np.array([(left, y2), (right, y2), (right, y2 + depth), (left, y2 + depth)]),
         ]
-        # That of [material] stands behind the minerals'.
+        # The material of [material] stands behind the minerals'.
         material = len(self.minerals) if self.minerals else self.deck.bodies[0].material
         if self.frictional:
             friction = dict(self.materials[material])
@@ -227,7 +227,7 @@ class Model:
         return np.tan(np.radians(self._friction_angle(p)))
 
     def residual_friction(self, p):
-        """Of contacts without a bond; a residual angle is at most the pair's own."""
+        """Friction of contacts without a bond; a residual angle is at most the pair's own."""
         angle = self.joints.of("friction_angle", p.trace, self.weaker("residual_friction_angle", p))
         angle = self.joints.of("residual_friction_angle", p.trace, angle)
         return np.tan(np.radians(np.minimum(angle, self._friction_angle(p))))
@@ -236,7 +236,7 @@ class Model:
         return self.joints.of("friction_angle", p.trace, self.weaker("friction_angle", p))
 
     def strength(self, name, p, rock):
-        """Of a joint, where it has one of its own or a factor. @param rock  tensile_strength or cohesion without it"""
+        """Strength of a joint, where it has one of its own or a factor. @param rock  tensile_strength or cohesion without it"""
         return self.joints.of(name, p.trace, self.joints.of("strength_factor", p.trace, 1.0) * rock)
 
     def across_joint(self, p, distance):
@@ -248,7 +248,7 @@ class Model:
         return left
 
     def weaker(self, name, p):
-        """Of two materials, unless a table of the pair states it."""
+        """Value for two materials, unless a table of the pair states it."""
         return self._overridden(name, p, np.minimum(*self._pair(name, p.i, p.j)))
 
     def _root_term(self, name, p):
@@ -323,7 +323,7 @@ class Model:
         self.sides = sides_of_bodies(on_traces)
 
     def trace_of(self, i, j):
-        """That on which two bodies are bonded, or lie against each other."""
+        """Trace on which two bodies are bonded, or lie against each other."""
         return self.joints.pairs.get(frozenset((self.ids[i], self.ids[j])), self._trace_between(i, j))
 
     def _trace_between(self, i, j):
@@ -404,7 +404,7 @@ class Model:
         return points
 
     def lay_flat_faces(self, parts):
-        """Of circles at these straight traces: two on opposite sides of one meet there and nowhere else."""
+        """Sides of circles at these straight traces: two on opposite sides of one meet there and nowhere else."""
         self.flat_faces = [lay_faces(self, part) for part in parts]
         for faces in self.flat_faces:
             i, j = meetings(faces, self.centre)[:2]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Peak, failure and largest stress of a curve (specimens/METHODS.md 5), from its rows alone."""
+"""Peak, failure and largest stress of a curve (specimens/measures/METHODS.md), from its rows alone."""
 
 
 def find_fall(way, stress, share):

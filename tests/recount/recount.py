@@ -140,7 +140,7 @@ def recount_curve(r, joints):
     r.key("failed", failed)
     if end is not None:
         r.key("ended_by", "failure")
-        # A drop lasts by the way gone through, which rows know but for a turn between them.
+        # A drop lasts by the strain travelled, which rows have, except for a turn between them.
         r.compare("row at which failure is found", len(stress) - 1, r.first_loading[end], 2 if more else 0)
     else:
         r.true("ended_by: not failure", r.summary["ended_by"] != "failure" or more > 0)
@@ -233,7 +233,7 @@ def recount_given(r, model):
 
 
 def recount_lengths(r):
-    """Of the files beside the summary; their hashes are the program's to look at."""
+    """Lengths of the files beside the summary; the program checks their hashes."""
     for name, stated in r.summary.get("files", {}).items():
         figure = f"files.{name}.bytes"
         r.compare(figure, stated["bytes"], (r.results.folder / name).stat().st_size, 0)
@@ -245,7 +245,7 @@ def number(value):
 
 
 def recount_errors(r):
-    """Stated errors from the companions' own results (specimens/METHODS.md 7)."""
+    """Stated errors from the companions' own results (specimens/loading/METHODS.md)."""
     errors = r.summary.get("numerical_errors") or {}
     if "companions" not in errors or not r.summary.get("failed"):
         return

@@ -132,7 +132,7 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
         self.agrees(run("micrometres", case), 300)
 
     def test_errors_of_crack_initiation(self):
-        """Of a specimen that breaks often enough to have one."""
+        """The result of a specimen that breaks often enough to have one."""
         shipped = Path(__file__).parents[2] / "specimens/guide_rock/delaunay_compression.toml"
         folder = run("verified_triangles", f'include = "{shipped}"\n[packing]\ncount = 40\n' + output, "--verify")
         r = recounted(folder)
@@ -158,7 +158,7 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
             with self.subTest(case=name):
                 folder = run("every_step_" + name, text)
                 r = recounted(folder)
-                self.assertTrue(any("history" in line[0] for line in r.lines), "a frame a step")
+                self.assertTrue(any("history" in line[0] for line in r.lines), "a frame per step")
                 if name == "frictional":
                     self.assertIn("initial_tangent_window.contacts_gained", r.keys)
                     self.assertGreater(r.summary["initial_tangent_window"]["contacts_gained"], 0)
@@ -202,7 +202,7 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
         ):
             with self.subTest(case=name):
                 folder = every_step_of_few("coulomb_" + name, case)
-                self.assertTrue(any("history" in line[0] for line in recounted(folder).lines), "a frame a step")
+                self.assertTrue(any("history" in line[0] for line in recounted(folder).lines), "a frame per step")
                 self.agrees(folder, 180)
 
     def test_rate_rule_of_every_step(self):

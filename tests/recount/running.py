@@ -29,7 +29,7 @@ def run(name, case, *options):
 
 @functools.cache
 def recounted(folder):
-    """Of a folder that stays as it is."""
+    """Results of a folder that does not change."""
     return recount(folder)
 
 
@@ -38,7 +38,7 @@ def differing(r):
 
 
 class SoundFiles:
-    """Of files as the program has left them."""
+    """Results of files as the program has left them."""
 
     def agrees(self, folder, fewest):
         r = recounted(folder)

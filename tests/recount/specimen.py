@@ -13,7 +13,7 @@ from outlines import outset, polygon_moments
 
 
 def recount_packing(r):
-    """packing.* from the circles between their walls (specimens/METHODS.md 1)."""
+    """packing.* from the circles between their walls (specimens/packing/METHODS.md)."""
     deck = r.results.circles
     if deck is None or "packing" not in r.summary:
         return
@@ -51,7 +51,7 @@ def recount_packing(r):
 
 
 def recount_minerals(r, model):
-    """Shares and grains of each mineral, and what it is made of (specimens/METHODS.md 3)."""
+    """Shares and grains of each mineral, and what it is made of (specimens/making/METHODS.md)."""
     stated, case = r.summary.get("minerals", []), r.results.case
     r.true("minerals: as many as the case has", len(stated) == len(model.minerals))
     material, area = model.material[: model.count], model.area[: model.count]
@@ -87,7 +87,7 @@ def recount_minerals(r, model):
 
 
 def recount_cells(r):
-    """packing.cell_* from the polygons, each set outwards by the depth of the inset (specimens/METHODS.md 2)."""
+    """packing.cell_* from the polygons, each set outwards by the depth of the inset (specimens/making/METHODS.md)."""
     if "cell_diameter" not in r.summary.get("packing", {}):
         return
     depth = r.results.key("mesh", "inset", r.results.key("mesh", "thick") / 2)

@@ -28,7 +28,7 @@ PACKING = "pack --count 300 --lognormal-median 0.01 --lognormal-deviation 0.3 --
 
 
 def scenes(small):
-    """{name: ({name of a file or folder: its text, or the path that it is a copy of}, commands of crackle in the folder of the scene, whose outputs are compared)}"""
+    """{name: ({name of a file or folder: its text, or the path of its original}, commands of crackle in the folder of the scene)}. Their outputs are compared."""
     found = {
         "packing": ({}, [PACKING]),
         "delaunay_mesh": ({}, [PACKING, "mesh in_gm.dat --kind delaunay --thick 5e-4 --merge -o mesh.dat"]),

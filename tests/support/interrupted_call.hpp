@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The program as a user calls it and ends it by a signal once it has come to some point: no time is waited, for
+// The program as a user calls it and ends it by a signal once it has come to some point. No time is waited, since
 // machines and sanitizers differ by a factor of twenty.
 #pragma once
 
@@ -16,24 +16,33 @@
 
 namespace crackle::testing {
 
-/// Runs the program in a folder, standard output and error in out.txt and err.txt there, and sends the signal once
-/// `ready` says so.
+/// Starts the program in a folder, standard output and error in out.txt and err.txt there.
+inline pid_t started_call(const std::filesystem::path& folder, std::vector<std::string> words) {
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    words.insert(words.begin(), CRACKLE_PROGRAM);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    if (::chdir(folder.c_str()) == 0 && ::freopen("out.txt", "w", stdout) != nullptr &&
+        ::freopen("err.txt", "w", stderr) != nullptr)
+        ::execv(CRACKLE_PROGRAM, arguments.data());
+    ::_exit(127);
+}
+
+/// Waits for its end. @return its exit code; -1 if a signal ended it
+inline int ended_call(pid_t child) {
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// Runs the program and sends the signal once `ready` says so.
 /// @return its exit code; -1 if a signal ended it, it ended before it was ready, or was not ready in two minutes
 template <class Ready>
-int interrupted_call(const std::filesystem::path& folder, std::vector<std::string> words, int signal,
+int interrupted_call(const std::filesystem::path& folder, const std::vector<std::string>& words, int signal,
                      const Ready& ready) {
-    const pid_t child = ::fork();
-    if (child == 0) {
-        words.insert(words.begin(), CRACKLE_PROGRAM);
-        std::vector<char*> arguments;
-        for (std::string& word : words) arguments.push_back(word.data());
-        arguments.push_back(nullptr);
-        if (::chdir(folder.c_str()) != 0 || ::freopen("out.txt", "w", stdout) == nullptr ||
-            ::freopen("err.txt", "w", stderr) == nullptr)
-            ::_exit(127);
-        ::execv(CRACKLE_PROGRAM, arguments.data());
-        ::_exit(127);
-    }
+    const pid_t child = started_call(folder, words);
     const auto last = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     int status = 0;
     bool is_ready = false;
@@ -46,9 +55,9 @@ int interrupted_call(const std::filesystem::path& folder, std::vector<std::strin
     }
     EXPECT_TRUE(is_ready) << "two minutes have passed";
     ::kill(child, is_ready ? signal : SIGKILL);
-    ::waitpid(child, &status, 0);
-    EXPECT_TRUE(WIFEXITED(status)) << "signal " << signal << " ended it";
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    const int code = ended_call(child);
+    EXPECT_NE(code, -1) << "signal " << signal << " ended it";
+    return code;
 }
 
 }  // namespace crackle::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is said where something is refused.
+// Message where something is refused.
 #pragma once
 
 #include <fmt/format.h>

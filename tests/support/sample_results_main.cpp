@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sample_results ROOT: six made-up folders of results, one that has not failed, one whose pieces carry more than the
-// specimen and that has a thickness, one with slips, one that recorded slips and had none, and one whose texts try to
-// be markup.
+// sample_results ROOT: six made-up folders of results. One has not failed; one has a thickness, and pieces that carry
+// more than the specimen. One has slips, one recorded slips and had none, and one has texts that try to be markup.
 #include <fstream>
 #include <iostream>
 

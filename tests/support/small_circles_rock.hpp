@@ -39,7 +39,7 @@ inline const char* const pressed_tests =
     "set = {\"loading.kind\" = \"biaxial\", \"confinement.pressure\" = 1e6}\n"
     "[[test]]\nname = \"squeezed\"\ncase = \"compression.toml\"\n"
     "set = {\"loading.kind\" = \"biaxial\", \"confinement.pressure\" = 3e6}\n";
-/// Of a law of these and of the compression.
+/// Target of a law of these and of the compression.
 inline std::string law_target_text(const std::string& figure, double value,
                                    const std::string& tests = "[\"compression\", \"pressed\", \"squeezed\"]") {
     return fmt::format("[[target]]\ntests = {}\nfigure = \"{}\"\nvalue = {:.10g}\n", tests, figure, value);

@@ -26,7 +26,7 @@ inline std::filesystem::path write_packed_case(const std::filesystem::path& file
     return file;
 }
 
-/// Two kinds of test, an axis of two values, and so many packings.
+/// Two kinds of test, an axis of two values, and `packings` packings.
 inline std::filesystem::path write_small_plan(const std::filesystem::path& folder, int packings = 2,
                                               const std::string& more = "") {
     write_packed_case(folder / "tension.toml");

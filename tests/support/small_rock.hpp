@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A small specimen and its case, written as a user would: discs on a slightly shaken triangular lattice between four
-// walls that they overlap, so that bonding has something to bond; cells of the same centres for polygons.
+// A small specimen and its case, written as a user would. Discs lie on a slightly shaken triangular lattice between
+// four walls that they overlap, so that bonding has something to bond. Polygons are cells of the same centres.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,6 +13,9 @@
 #include "solver/demseg/geometry.hpp"
 
 namespace crackle::testing {
+
+/// N/m; springs in series, 2kk/(k + k), miss it in the last bit.
+inline constexpr double odd_stiffness = 16572823.625;
 
 inline constexpr double rock_radius = 0.02;      // m
 inline constexpr double rock_overlap = 7.74e-5;  // m, mean

@@ -52,7 +52,7 @@ class CheckRooms(unittest.TestCase):
     def test_the_program_in_tests_has_rooms_and_tests(self):
         code, out = self.checked(self.BENCH)
         self.assertEqual(code, 0, out)
-        self.expect_fault(self.BENCH | {"tools/rooms.md": GOOD["tools/rooms.md"]}, "tests/bench/scenes: a folder with sources without a row")
+        self.expect_fault(self.BENCH | {"tools/rooms.md": GOOD["tools/rooms.md"]}, "tests/bench/scenes: a folder with sources has no row")
         self.expect_fault({path: text for path, text in self.BENCH.items() if not path.endswith("_test.cpp")}, "no tests/bench_tests/scenes/house_test.cpp")
 
     def test_nothing_outside_tests_includes_what_lies_in_it(self):
@@ -66,15 +66,15 @@ class CheckRooms(unittest.TestCase):
 
     def test_a_circle_of_rooms_and_of_units(self):
         self.expect_fault({"solver/low/brick.hpp": GOOD["solver/low/brick.hpp"] + '#include "solver/high/roof.hpp"\n'},
-                          "a circle of rooms: solver/high -> solver/low -> solver/high", "a circle of units")
+                          "a cycle of rooms: solver/high -> solver/low -> solver/high", "a cycle of units")
 
     def test_too_many_units(self):
         many = {f"solver/low/b{k}.hpp": GOOD["solver/low/brick.hpp"] for k in range(15)}
         self.expect_fault(many, "solver/low: 16 units, expected at most 15")
 
     def test_a_loose_source_and_a_folder_without_a_row(self):
-        self.expect_fault({"solver/loose.hpp": GOOD["solver/low/brick.hpp"]}, "solver/loose.hpp: a loose source")
-        self.expect_fault({"solver/attic/box.hpp": GOOD["solver/low/brick.hpp"]}, "solver/attic: a folder with sources without a row")
+        self.expect_fault({"solver/loose.hpp": GOOD["solver/low/brick.hpp"]}, "solver/loose.hpp: a source outside a room")
+        self.expect_fault({"solver/attic/box.hpp": GOOD["solver/low/brick.hpp"]}, "solver/attic: a folder with sources has no row")
 
     def test_an_outsider_that_includes_an_internal_header(self):
         files = {"solver/CMakeLists.txt": GOOD["solver/CMakeLists.txt"].replace("low/brick.hpp ", ""),

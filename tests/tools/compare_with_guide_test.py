@@ -67,7 +67,7 @@ class Comparison(unittest.TestCase):
                     for loading in ("tension", "compression"):
                         figures = summary(specimen, loading)
                         figures["largest_stress"] *= factor if loading == "compression" else 1.0
-                        # Of the fourth packing one test has not ended: it is in no mean. Companions are none of their own.
+                        # One test of the fourth packing has not ended: it is in no mean. Companions are no tests of their own.
                         state = "crashed" if (seed, specimen, loading) == (4, "voronoi", "tension") else "done"
                         for variant, scale in (("as_asked", 1.0), ("half_step", 7.0)):
                             figures["largest_stress"] *= scale

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the pages show is so: their commands run, their tables name what the program writes, their links lead somewhere.
+"""What the pages show is true: their commands run, their tables name what the program writes, their links lead somewhere.
 
   CRACKLE_PROGRAM, CRACKLE_BENCH_PROGRAM    the programs
-Pages are all Markdown files of the tree. Blocks marked `sh` run in their order in one shell a page, the README's first, all in one folder that is empty
-but for the project's specimens/, tools/recount and the built programs where the README expects them; then the blocks marked `python` of a page, as one script.
-Commands of blocks marked `sh ci` must stand in .ci/run. What takes too long or needs what is not here is marked `sh long`, or stands in a page as
-«Made by `...`» and «Run: `...`»: these must name a program that is there, with options it has, and folders that are there.
+Pages are all Markdown files of the tree. Blocks marked `sh` run in their order in one shell a page, the README's first. All run in one folder, which holds
+the project's specimens/, tools/recount and the built programs where the README expects them. Then a page's blocks marked `python` run as one script.
+Commands of blocks marked `sh ci` must stand in .ci/run. Commands that take too long or need what is not here are marked `sh long`, or stand in a page as
+«Made by `...`» and «Run: `...`». These must name a program that is there, with options it has, and folders that are there.
 """
 import functools
 import json
@@ -47,6 +47,12 @@ def table(text, heading):
     start = text.index("\n" + heading)
     rows = re.search(r"\n\n((?:\|.*\n)+)", text[start:]).group(1).splitlines()[2:]
     return [name for row in rows for name in re.findall(r"`([^`]+)`", row.split("|")[1])]
+
+
+def anchors(text):
+    """The names by which links reach the headings of a page."""
+    headings = (re.sub(r"\]\([^)]*\)", "]", line) for line in re.findall(r"^#+ (.+)$", text, re.MULTILINE))
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
 @functools.cache
@@ -114,7 +120,7 @@ def declared(name):
     """A key of a summary by the wildcards of FILES.md."""
     name = re.sub(r"^numerical_errors\.companions\.\w+", "numerical_errors.companions.*", name)
     name = re.sub(r"^crack_rose\.\w+", "crack_rose.*", name)
-    name = re.sub(r"^traces\[\].*|^(joints\[\]\.at_end)\..*", lambda found: found[1] or "traces", name)
+    name = re.sub(r"^traces\[\].*|^(joints\[\]\.at_end|energy_at_end)\..*", lambda found: found[1] or "traces", name)
     name = re.sub(r"^files\.(curve\.csv|events\.csv|slips\.csv|ae\.csv|checkpoint)", "files.*", name)
     return re.sub(r"^numerical_errors\.(youngs_modulus|peak_stress|peak_strain|crack_\w+_stress)", "numerical_errors.*", name)
 
@@ -137,7 +143,7 @@ normal_stiffness = 2e7
 [[mineral]]
 name = "feldspar"
 """
-# Those of a confined test, one that fails and one that does not.
+# Files of a confined test, one that fails and one that does not.
 CONFINED = """include = "{top}/specimens/guide_rock/circles_compression.toml"
 [packing]
 count = 60
@@ -219,7 +225,7 @@ class Pages(unittest.TestCase):
         for made in ("out/in_gm.dat", "out/in_gm_volo.dat", "out/pulled/summary.json", "out/squeezed/curve.csv",
                      "out/report.html", "out/triangle/output.dat"):
             self.assertTrue((self.folder / made).is_file(), f"{made}: found nothing, expected what the README's commands make")
-        self.assertNotEqual(self.runs["README.md", "python"].stdout, "")
+        self.assertNotEqual(self.runs["specimens/EXAMPLES.md", "python"].stdout, "")
 
     def test_commands_for_ci_stand_in_ci(self):
         script = (TOP / ".ci" / "run").read_text(encoding="utf-8")
@@ -243,6 +249,16 @@ class Pages(unittest.TestCase):
     def test_doors_are_short(self):
         for page, most in AT_MOST.items():
             self.assertLessEqual(len(PAGES[page].encode()), most, page)
+
+    def test_pages_of_methods_are_short_listed_and_installed(self):
+        index = PAGES["specimens/METHODS.md"]
+        listed = {str((TOP / "specimens" / link).resolve().relative_to(TOP)) for link in re.findall(r"\]\(([\w./]+/METHODS\.md)\)", index)}
+        pages = {page for page in PAGES if page.endswith("/METHODS.md")} - {"specimens/METHODS.md"}
+        self.assertEqual(listed, pages)
+        rooms = re.search(r"foreach\(room ([^)]+)\)\n  install\(FILES \S+/METHODS\.md", (TOP / "tools/CMakeLists.txt").read_text(encoding="utf-8"))[1].split()
+        self.assertEqual({f"{room}/METHODS.md" for room in rooms}, pages | {"specimens/METHODS.md"})
+        for page in pages:
+            self.assertLessEqual(len(PAGES[page].encode()), 10_000, page)
 
     def test_files_that_contributing_names_are_there(self):
         named = re.findall(r"`((?:solver|specimens|tests|tools)/[\w./]+)`", PAGES["CONTRIBUTING.md"])
@@ -318,8 +334,11 @@ class Pages(unittest.TestCase):
 
     def test_links_lead_somewhere(self):
         for page, text in PAGES.items():
-            for link in re.findall(r"\]\(([^)#]+)\)", text):
-                self.assertTrue((TOP / page).parent.joinpath(link).exists(), f"{page}: {link}: found nothing")
+            for link, _, heading in (found.partition("#") for found in re.findall(r"\]\(([^)]+)\)", text)):
+                to = (TOP / page).parent.joinpath(link) if link else TOP / page
+                self.assertTrue(to.exists(), f"{page}: {link}: found nothing")
+                if heading:
+                    self.assertIn(heading, anchors(to.read_text(encoding="utf-8")), f"{page}: {link}: found no such heading")
 
 
 if __name__ == "__main__":

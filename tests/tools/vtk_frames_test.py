@@ -188,7 +188,7 @@ def render(file, view, picture):
 
 
 def rendered(file, view, folder):
-    """The same in a process of its own, under Xvfb."""
+    """The picture in a process of its own, under Xvfb."""
     picture = folder / "rendered.npy"
     subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", sys.executable, __file__, "--render", file,
                     json.dumps([float(v) for v in view]), picture], check=True)
@@ -211,7 +211,7 @@ class VtkFrames(unittest.TestCase):
         return json.loads(arrays.stdout)
 
     def files(self, name):
-        """Of the collection, in its order: (time, part, path)."""
+        """Entries of the collection, in its order: (time, part, path)."""
         frames = self.folder / name / "frames"
         return [(float(entry.get("timestep")), int(entry.get("part")), frames / entry.get("file"))
                 for entry in ElementTree.parse(frames / "frames.pvd").iter("DataSet")]
@@ -220,7 +220,7 @@ class VtkFrames(unittest.TestCase):
         return read(self.files(name)[-3:][part][2])
 
     def expect_alike(self, what, got, expected, tolerance=TOLERANCE):
-        """Of two descriptions of an array."""
+        """Differences between two descriptions of an array."""
         largest = max(abs(expected[0]), abs(expected[1]))
         for which, scale, k in (("minimum", largest, 0), ("maximum", largest, 1), ("sum", expected[3], 2)):
             self.assertLessEqual(abs(got[k] - expected[k]), tolerance * scale,

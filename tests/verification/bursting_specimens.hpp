@@ -105,7 +105,7 @@ inline void check_threads(const World& start, int steps, std::int64_t least_rebu
     }
 }
 
-/// Stops at five random steps, saves, loads, goes on with other threads.
+/// Stops at five random steps, saves, loads, continues with other threads.
 inline void check_restarts(const World& start, int steps, std::uint64_t seed) {
     const Trace straight = trace_of(start, 1, steps);
     EXPECT_GT(straight.broken, 0);

@@ -60,7 +60,7 @@ std::vector<Claim> claims_of(bool slow) {
 
 std::string name_of(const ::testing::TestParamInfo<Claim>& claim) { return claim.param.name; }
 
-// Those that take seconds have the label slow (CMakeLists.txt).
+// Claims that take seconds have the label slow (CMakeLists.txt).
 INSTANTIATE_TEST_SUITE_P(Quick, ClaimTest, ::testing::ValuesIn(claims_of(false)), name_of);
 INSTANTIATE_TEST_SUITE_P(Slow, ClaimTest, ::testing::ValuesIn(claims_of(true)), name_of);
 

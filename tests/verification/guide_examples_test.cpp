@@ -61,7 +61,7 @@ double closing_error(const std::filesystem::path& out) {
 class ConservesEnergy : public ::testing::TestWithParam<std::pair<const char*, double>> {};
 
 // The closing error of the shipped steps is second order in the step, with jumps where contacts open and close between
-// two steps; it stays bounded over the whole run, which shows as a small share of the largest kinetic energy.
+// two steps. It stays bounded over the whole run, as a small share of the largest kinetic energy.
 TEST_P(ConservesEnergy, WithoutDampingAndFriction) {
     const ScratchFolder scratch;
     const auto [name, tolerance] = GetParam();
@@ -153,7 +153,7 @@ TEST(GuideControlledSegment, MovesByItsDisplacementLinearlyInTheStep) {
 }
 
 // An impulse on disc 11 spreads as v_n(t) = v_0 J_2n(2 sqrt(k/m) t) with n the number of discs away (chain equation,
-// infinite chain): displacements peak at the first zeros of J_4, J_8, J_12, whose differences are 715e-6 and 689e-6 s,
+// infinite chain). Displacements peak at the first zeros of J_4, J_8, J_12. Their differences are 715e-6 and 689e-6 s,
 // in the mean 70.2e-5 s per 4.0, the guide's 70e-5 and 5700. That is dispersion, slower than sqrt(k/m) dx = 6487, the
 // speed of long waves.
 TEST(GuideWave, TravelsAtTheMeasuredSpeedOfTheGuideWhichIsDispersion) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Six small scenes whose states are pinned: after so many steps the hash of each field is a recorded number, in every
-// build (release, sanitizers, any number of lanes and threads). No sparse solve enters. A mismatch names scene, step,
-// field and, of the bodies' state, the first body that differs.
+// Six small scenes whose states are pinned. After some steps the hash of each field is a recorded one, in every build
+// (release, sanitizers, any number of lanes and threads). No sparse solve enters. A mismatch names scene, step, field
+// and, of the bodies' state, the first body that differs.
 //
 // A change that is meant to move numbers records them again, and its commit states it:
 //     CRACKLE_RECORD_STATES=tests/verification/pinned_states.csv build/release/tests/verification/verification_tests

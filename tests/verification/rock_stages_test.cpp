@@ -59,7 +59,7 @@ void run_stages(const fs::path& deck, const fs::path& out, const Stages& stages,
     ASSERT_EQ(std::system(call.c_str()), 0) << call;
 }
 
-/// Forces in x on the two plates, a row an output: step, left, right.
+/// Forces in x on the two plates, a row per output: step, left, right.
 Rows forces_on_plates(const fs::path& part) {
     const Rows rows = read_rows(part / "f-d_curve.dat");
     Rows pairs;
@@ -148,7 +148,8 @@ TEST_P(SmallRock, GoesRoundByRenaming) {
     expect_round_trip(out, GetParam());
 }
 
-// The same with plates of one segment, the inner face of the box: a corner gets through, and the error says what holds.
+// The test with plates of one segment, the inner face of the box: a corner gets through, and the error states what
+// holds.
 TEST(GuideRock, APlateOfOneSegmentLetsACornerThrough) {
     const ScratchFolder scratch;
     const fs::path deck = scratch / "deck", out = scratch / "out", err = scratch / "err.txt";

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle calibrate ROCK.toml -o DIR`: the keys of a rock from its laboratory values.
+// `crackle calibrate ROCK.toml -o DIR`: finds values of a rock's keys that reproduce its laboratory results.
 // Tested by tests/tools/calibrate/calibrate_test.cpp.
 
 #include <fmt/format.h>
 
-#include <iostream>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/new_file.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "solver/files/text_table.hpp"
@@ -20,6 +23,7 @@
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/interrupt.hpp"
+#include "tools/terminal/printable.hpp"
 #include "tools/terminal/shipped.hpp"
 #include "tools/terminal/threads.hpp"
 
@@ -28,52 +32,58 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder is taken that is new, empty, or a calibration's.
-void check_folder(const fs::path& folder) {
-    if (!is_there(folder)) return;
-    if (is_folder(folder) && (fs::is_empty(folder) || is_there(folder / "search" / "campaign.sqlite") ||
-                              is_there(folder / "search" / "packings")))
+/// Refuses an output folder unless it is new, empty, or belongs to a calibration.
+void check_folder(const fs::path& folder, const Rock& rock) {
+    std::vector<fs::path> inputs{rock.file};
+    for (const PlannedTest& test : rock.tests) inputs.push_back(test.file);
+    refuse_folder_of_inputs(folder, inputs);
+    if (!is_there(folder) || is_there(folder / "search" / "campaign.sqlite") ||
+        is_there(folder / "search" / "packings"))
         return;
-    throw InputError(
-        fmt::format("{}: found files that no calibration made, expected a new folder or a calibration's; "
-                    "choose another -o",
-                    folder.string()));
+    // A calibration that failed at its first file has left an empty folder.
+    if (names_in(folder) == std::set<std::string>{"search"} && names_in(folder / "search").empty()) return;
+    remove_leftovers(folder, Leftovers::old);
+    refuse_foreign_files(folder, "a new or empty folder, or the folder of a calibration; choose another with -o");
 }
 
 void print_plan(const Rock& rock) {
-    fmt::print("{}: {}, {}, {}\n", rock.title, counted(rock.targets.size(), "target"),
-               counted(rock.free.size(), "free key"), counted(rock.tests.size(), "test"));
+    print_out("{}: {}, {}, {}\n", rock.title, counted(rock.targets.size(), "target"),
+              counted(rock.free.size(), "free key"), counted(rock.tests.size(), "test"));
     TextTable table("<<");
     for (const Target& target : rock.targets)
         table.add(
             {target.name(rock.tests), fmt::format("{:.6g} within {:.3g} %", target.value, 100.0 * target.tolerance)});
     for (const FreeKey& free : rock.free)
         table.add({free.name(), fmt::format("{:.4g} to {:.4g}, from {:.4g}", free.from, free.to, free.start)});
-    fmt::print("{}", table.text());
+    print_out("{}", table.text());
     const auto tests = static_cast<std::int64_t>(rock.tests.size());
-    fmt::print("  a round is up to {}, two to ten of them; then {} up to three times, and {}\n",
-               counted(static_cast<std::int64_t>(2 * rock.free.size() + 3) * tests * rock.fit, "test"),
-               counted(rock.polish * tests, "test"), rock.fresh * tests);
+    print_out("  two to ten rounds of up to {} each; then {} up to three times, and {} on fresh packings\n",
+              counted(static_cast<std::int64_t>(2 * rock.free.size() + 3) * tests * rock.fit, "test"),
+              counted(rock.polish * tests, "test"), rock.fresh * tests);
 }
 
 }  // namespace
 
 CommandLine describe_calibrate() {
     po::options_description options;
-    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the calibration")     //
-        ("workers", po::value<int>()->value_name("N"), "processes that run tests (default: one a processor lent)")  //
-        ("dry-run", "judge the file and all corners of its bounds; run nothing, write nothing")                     //
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the calibration")  //
+        ("workers", po::value<int>()->value_name("N"),
+         "processes that run tests (default: one per available processor)")                                         //
+        ("retry", "repeat tests that ended without a result because of their case (refused, unstable, timed out)")  //
+        ("dry-run", "check the file and all corners of its bounds; run nothing, write nothing")                     //
         ("long", "run tests although they take more than a day, or 1e10 steps")                                     //
-        ("keys", "list all keys of a rock's file");
+        ("keys", "list all keys of a rock file");
     return {
         .synopses = {"crackle calibrate ROCK.toml -o DIR [OPTIONS]"},
         .description =
-            "Finds the free keys of a rock's cases so that the means of its tests over packings are the targets "
-            "that a laboratory has measured: moduli by sparse linear solves, strengths by a response surface over "
-            "wide designs on the same packings. Ends with cases (DIR/cases/TEST.toml), the keys with their intervals "
-            "(DIR/rock.toml), and a table of what fresh packings reach; says which targets are out of reach, with "
-            "their frontier, and which keys the targets do not determine. Stopped at any moment, the same command "
-            "goes on. Exit code 1: a target was not reached.",
+            "Finds values for the free keys of a rock's cases such that the mean results of its tests over several "
+            "packings match targets measured in a laboratory. Moduli are computed by sparse linear solves, and "
+            "strengths by fitting a response surface to tests on the same packings. Writes the cases "
+            "(DIR/cases/TEST.toml), the keys with their intervals (DIR/rock.toml), and a table of the results on fresh "
+            "packings. Reports which targets cannot be reached, with the best compromises, and which keys the targets "
+            "do not determine. A calibration can be stopped at any moment; the same command resumes it. Exit code 1: a "
+            "target was not reached. Exit code 4: a test ended with a system error (out of memory, too many open "
+            "files, a killed worker), so the calibration stopped; the same command resumes it.",
         .options = {{"options", options}},
         .operand = "ROCK.toml",
         .examples = {{"crackle calibrate specimens/targets/granite.toml --dry-run"},
@@ -86,7 +96,7 @@ int calibrate_rock(const Invocation& given) {
     Messages& messages = given.messages;
     if (values.contains("keys")) {
         expect_alone("crackle calibrate", given, "keys");
-        std::cout << describe_rock_keys();
+        print_text(describe_rock_keys());
         return exit_done;
     }
     if (given.operands.empty())
@@ -102,11 +112,13 @@ int calibrate_rock(const Invocation& given) {
         return exit_done;
     }
     watch_interrupts();
+    end_unheard(words_of_resumable);
     CalibrationOptions options;
-    options.folder = values["output"].as<std::string>();
+    options.folder = output_folder(values["output"].as<std::string>());
     options.workers = workers;
+    options.retry = values.contains("retry");
     options.endless = values.contains("long");
-    check_folder(options.folder);
+    check_folder(options.folder, rock);
     CalibrationHooks hooks;
     hooks.interrupted = interrupted;
     hooks.told = [&](const std::string& text) { messages.notice(text); };
@@ -125,15 +137,15 @@ int calibrate_rock(const Invocation& given) {
         const CalibrationOutcome outcome = calibrate(rock, options, hooks);
         write_calibration(rock, outcome, options.folder);
         messages.make_room();
-        if (!messages.quiet()) fmt::print("{}", calibration_text(rock, outcome));
+        if (!messages.quiet()) print_out("{}", calibration_text(rock, outcome));
         replace_file(options.folder / "calibration.html", calibration_page(rock, outcome, options.folder));
         if (!messages.quiet())
-            fmt::print("  cases, rock.toml, calibration.json and .html in {}\n", options.folder.string());
+            print_out("  cases, rock.toml, calibration.json and .html in {}\n", options.folder.string());
         return outcome.all_reached() ? exit_done : exit_claim_fails;
     } catch (const TestInterrupted&) {
         messages.make_room();
     }
-    if (!messages.hosted()) report_error("interrupted; the same command goes on");
+    if (!messages.hosted()) report_error(words_of_resumable);
     return exit_interrupted;
 }
 

@@ -22,8 +22,8 @@ bool in_area_units(const Rock& rock, const CalibrationOutcome& outcome, std::siz
 
 std::string targets_table(const Rock& rock, const CalibrationOutcome& outcome) {
     std::string text =
-        "<div class=\"wide\"><table><thead><tr><th>target</th><th>value</th><th>mean ± its error</th>"
-        "<th>scatter</th><th>off, %</th><th>allowed</th><th class=\"word\"></th></tr></thead><tbody>\n";
+        "<div class=\"wide\"><table><thead><tr><th>target</th><th>value</th><th>mean ± error</th>"
+        "<th>scatter</th><th>difference, %</th><th>tolerance, %</th><th class=\"word\"></th></tr></thead><tbody>\n";
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const Target& target = rock.targets[k];
         const ReachedTarget& reached = outcome.targets[k];
@@ -48,15 +48,16 @@ std::string keys_table(const Rock& rock, const CalibrationOutcome& outcome) {
                             html(rock.free[k].name()), key.value,
                             key.determined ? fmt::format("{} to {}", in_cell(key.low), in_cell(key.high))
                                            : "not determined by the targets",
-                            in_cell(rock.free[k].from), in_cell(rock.free[k].to), key.at_bound ? ", at one" : "");
+                            in_cell(rock.free[k].from), in_cell(rock.free[k].to), key.at_bound ? " (at a bound)" : "");
     }
     return text + "</tbody></table></div>\n";
 }
 
-/// Two targets against each other: all points that were tried, compromises, the target, what was reached.
+/// Diagram of two targets against each other: all points that were tried, compromises, the target values, and the
+/// values reached by fresh packings.
 std::optional<CampaignFigure> targets_plane(const Rock& rock, const CalibrationOutcome& outcome) {
     if (rock.targets.size() < 2) return std::nullopt;
-    // The last two: moduli are mostly listed first, and are met exactly.
+    // The last two targets are used, since moduli are usually listed first and are met exactly.
     const std::size_t x = rock.targets.size() - 2, y = rock.targets.size() - 1;
     const auto with_interval = [](double mean, double low, double high) {
         return plot::Sample{"", {low, high}, mean, low, high};
@@ -65,7 +66,8 @@ std::optional<CampaignFigure> targets_plane(const Rock& rock, const CalibrationO
     plot::Series tried{"tried", {}, {}, false}, frontier{"compromises", {}, {}, true}, target{"target", {}, {}, false},
         reached{"reached by fresh packings", {}, {}, false};
     for (const std::vector<double>& means : outcome.tried_means) {
-        // Where the search began may lie so far off that nothing else can be told apart.
+        // Points farther from the targets than this factor are not shown: the search may start so far away that nothing
+        // else could be distinguished.
         constexpr double near = 2.5;
         const auto off = [&](std::size_t k) { return std::abs(std::log(means[k] / rock.targets[k].value)); };
         if (!(std::max(off(x), off(y)) < std::log(near))) continue;
@@ -93,10 +95,9 @@ std::optional<CampaignFigure> targets_plane(const Rock& rock, const CalibrationO
     return CampaignFigure{
         "axes",
         "",
-        fmt::format(
-            "{} over {}: means of the fit packings at the points that were tried, the target with its tolerance, "
-            "and the mean of {} fresh packings with its 95 % interval",
-            name(y), name(x), outcome.targets[y].fresh.count),
+        fmt::format("{} against {}: means over the fitted packings at all points tried, the target with its tolerance, "
+                    "and the mean over {} fresh packings with its 95 % interval",
+                    name(y), name(x), outcome.targets[y].fresh.count),
         {plot::over_axis(name(x), unit, name(y), rock.targets[y].unit(in_area_units(rock, outcome, y)), all)}};
 }
 
@@ -105,7 +106,7 @@ std::optional<CampaignFigure> targets_plane(const Rock& rock, const CalibrationO
 std::string calibration_page(const Rock& rock, const CalibrationOutcome& outcome, const std::filesystem::path& folder) {
     const auto reached = std::count_if(outcome.targets.begin(), outcome.targets.end(),
                                        [](const ReachedTarget& one) { return one.reached(); });
-    std::string text = page_head(rock.title, fmt::format("{} of {} reached on {}; {}, {:.3g} s of a processor, {}",
+    std::string text = page_head(rock.title, fmt::format("{} of {} reached on {}; {}, {:.3g} s of processor time, {}",
                                                          reached, counted(outcome.targets.size(), "target"),
                                                          counted(outcome.targets.front().fresh.count, "fresh packing"),
                                                          counted(outcome.tests, "test"), outcome.processor_seconds,
@@ -117,7 +118,7 @@ std::string calibration_page(const Rock& rock, const CalibrationOutcome& outcome
     text += "<h2>Figures</h2>\n";
     if (const auto plane = targets_plane(rock, outcome)) text += figure_html(*plane);
     CampaignRecord record = read_campaign(folder / "fresh");
-    // Axes that have one value, the found one, say nothing in a figure.
+    // Each axis has a single value, the calibrated one, so it need not appear in diagrams.
     for (PointSummary& point : record.points) point.axes.clear();
     for (const MeasuredCurve& curve : rock.curves)
         record.measured[rock.tests[curve.test].name].push_back({"measured", curve.points});

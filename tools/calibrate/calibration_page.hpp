@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A calibration on one page: targets and what fresh packings reach, keys with their intervals, what was tried, curves
-// beside measured ones.
+// The page of a calibration: targets with the mean results of new packings, calibrated keys with their intervals, the
+// points that were tried, and curves compared with measured ones.
 // Tested by tests/tools/calibrate/calibrate_test.cpp.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace crackle::tools {
 
-/// The page's bytes. @param folder of the calibration
+/// The page as HTML. @param folder the calibration's folder
 std::string calibration_page(const Rock& rock, const CalibrationOutcome& outcome, const std::filesystem::path& folder);
 
 }  // namespace crackle::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle campaign PLAN.toml -o DIR`: a table of tests on all processors.
+// `crackle campaign PLAN.toml -o DIR`: runs the tests of a plan on all processors.
 
 #include "tools/campaign/campaign.hpp"
 
@@ -8,11 +8,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <iostream>
 #include <optional>
 #include <string>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/campaign/campaign.hpp"
 #include "specimens/campaign/estimate.hpp"
@@ -20,13 +20,14 @@
 #include "specimens/statistics/spoken.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/terminal/interrupt.hpp"
+#include "tools/terminal/printable.hpp"
 #include "tools/terminal/shipped.hpp"
 #include "tools/terminal/threads.hpp"
 
 namespace crackle::tools {
 namespace {
 
-/// "3/20".
+/// Parses a shard such as "3/20".
 Shard shard_of(const std::string& text) {
     Shard shard;
     const char* end = text.data() + text.size();
@@ -36,12 +37,13 @@ Shard shard_of(const std::string& text) {
     constexpr int most_shards = 100'000;
     if (!number || wrong != std::errc() || at != end || shard.of < 1 || shard.of > most_shards || shard.number < 1 ||
         shard.number > shard.of) {
-        throw InputError(fmt::format("crackle campaign: --shard: found {:.40}, expected I/N, 1/20 to 20/20 say", text));
+        throw InputError(
+            fmt::format("crackle campaign: --shard: found {:.40}, expected I/N, for example 1/20 to 20/20", text));
     }
     return shard;
 }
 
-/// "24 tests of 3 points with 4 packings".
+/// Size of a plan as text, for example "24 tests of 3 points with 4 packings".
 std::string size_of(const Plan& plan) {
     return fmt::format("{} of {} with {}", counted(plan.rows.size(), "test"), counted(plan.points.size(), "point"),
                        counted(plan.packings, "packing"));
@@ -50,45 +52,55 @@ std::string size_of(const Plan& plan) {
 std::string hours(double seconds) { return spoken_time(std::max(1.0, seconds)); }
 
 void print_estimate(const Plan& plan, const PlanEstimate& estimate, int workers) {
-    fmt::print("{}: {}\n", plan.title, size_of(plan));
+    print_out("{}: {}\n", plan.title, size_of(plan));
     for (const KindEstimate& kind : estimate.kinds) {
-        fmt::print("  {:<24}{} of {:.2g} s{}\n", kind.test, counted(kind.rows, "test"), kind.seconds,
-                   kind.measured ? ", as measured" : ", by `crackle test --check`");
-        for (const std::string& warning : kind.warnings) fmt::print("  warning: {}: {}\n", kind.test, warning);
+        print_out("  {:<24}{} of {:.2g} s each{}\n", kind.test, counted(kind.rows, "test"), kind.seconds,
+                  kind.measured ? ", as measured" : ", estimated by `crackle test --check`");
+        for (const std::string& warning : kind.warnings) print_out("  warning: {}: {}\n", kind.test, warning);
     }
-    fmt::print("  about {} of a processor, {} with {}\n", hours(estimate.seconds), hours(estimate.seconds / workers),
-               counted(std::int64_t{workers}, "worker"));
+    print_out("  about {} of processor time, {} with {}\n", hours(estimate.seconds), hours(estimate.seconds / workers),
+              counted(std::int64_t{workers}, "worker"));
 }
 
 void print_outcome(const CampaignOutcome& outcome, const std::string& folder) {
     const CampaignProgress& p = outcome.progress;
-    fmt::print("{} of {} done, {} gone wrong, {} left; {} run now in {}\n", p.done, counted(p.tests, "test"),
-               p.gone_wrong, p.left, outcome.run, hours(outcome.wall_seconds));
-    fmt::print("  results in {}: crackle campaign show {}\n", outcome.ledger.string(), folder);
+    print_out("{} of {} done, {}, {} left; this command ran {} in {}\n", p.done, counted(p.tests, "test"),
+              spoken_wrong(p.gone_wrong, p.failures), p.left, outcome.run, hours(outcome.wall_seconds));
+    print_out("  results in {}: crackle campaign show {}\n", outcome.ledger.string(), folder);
 }
 
 }  // namespace
 
+int exit_code_of(std::int64_t gone_wrong, std::int64_t failures) {
+    if (failures > 0) return exit_system_fails;
+    return gone_wrong > 0 ? exit_claim_fails : exit_done;
+}
+
 CommandLine describe_campaign() {
     po::options_description options;
-    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")        //
-        ("workers", po::value<int>()->value_name("N"), "processes that run tests (default: one a processor lent)")  //
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")  //
+        ("workers", po::value<int>()->value_name("N"),
+         "processes that run tests (default: one per available processor)")  //
         ("verify",
-         "run each test at half the step and half the rate, too: the bias of every mean, with its standard error")  //
-        ("retry", "run those again that have gone wrong")                                                           //
+         "also run each test at half the time step and at half the rate, to report the bias of every mean with its "
+         "standard error")                                                                                          //
+        ("retry", "repeat tests that ended without a result because of their case (refused, unstable, timed out)")  //
         ("shard", po::value<std::string>()->value_name("I/N"),
-         "run share I of N into DIR/shards/I.sqlite; `crackle campaign gather` puts shares together")  //
-        ("dry-run", "judge the plan and estimate its hours; run nothing, write nothing")               //
-        ("long", "run tests although they take more than a day, or 1e10 steps")                        //
+         "run share I of N into DIR/shards/I.sqlite; `crackle campaign gather` merges shares")  //
+        ("dry-run", "check the plan and estimate its hours; run nothing, write nothing")        //
+        ("long", "run tests although they take more than a day, or 1e10 steps")                 //
         ("keys", "list all keys of a plan");
     return {.synopses = {"crackle campaign PLAN.toml -o DIR [OPTIONS]", "crackle campaign show|gather|submit ..."},
             .description =
                 "Runs a table of tests: the cases that PLAN.toml names, at all combinations of its axes, on several "
-                "packings each. What came of them stands in one SQLite file, DIR/campaign.sqlite. Stopped at any "
-                "moment, the same command goes on; a plan with more values or packings reuses what has been run.",
+                "packings each. All results are written to one SQLite file, DIR/campaign.sqlite. A campaign can be "
+                "stopped at any moment; the same command resumes it. If values or packings are added to the plan, "
+                "finished tests are reused. Exit code 1: some tests ended without a result because of their case. Exit "
+                "code 4: some tests ended with a system error (out of memory, too many open files, a killed worker); "
+                "the same command repeats them.",
             .options = {{"options", options}},
             .operand = "PLAN.toml",
-            .verbose = "seconds of a test by its kind, as estimated",
+            .verbose = "estimated duration of each kind of test",
             .examples = {{"crackle campaign specimens/plans/granite.toml -o out/granite --dry-run"},
                          {"crackle campaign specimens/plans/granite.toml -o out/granite"},
                          {"crackle campaign show out/granite"},
@@ -101,7 +113,7 @@ int campaign(const Invocation& given) {
     Messages& messages = given.messages;
     if (values.contains("keys")) {
         expect_alone("crackle campaign", given, "keys");
-        std::cout << describe_plan_keys();
+        print_text(describe_plan_keys());
         return exit_done;
     }
     if (given.operands.empty())
@@ -112,8 +124,10 @@ int campaign(const Invocation& given) {
     const auto asked = values.contains("workers") ? std::optional(values["workers"].as<int>()) : std::nullopt;
     const int workers = workers_of_machine(asked, "crackle campaign");
     watch_interrupts();
+    end_unheard(words_of_resumable);
     const Plan plan = read_plan(given_or_shipped(given.operands.front()), values.contains("verify"));
-    const std::string folder = values.contains("output") ? values["output"].as<std::string>() : "";
+    const std::filesystem::path folder =
+        values.contains("output") ? output_folder(values["output"].as<std::string>()) : std::filesystem::path();
     TestHooks checking;
     checking.interrupted = interrupted;
     if (messages.progress().shown())
@@ -148,26 +162,31 @@ int campaign(const Invocation& given) {
                      .rate = p.tests_per_second,
                      .unit = "tests",
                      .seconds_left = p.seconds_left,
-                     .detail = fmt::format("{} of {} done, {} gone wrong", p.done, p.tests, p.gone_wrong)});
+                     .detail = fmt::format("{} of {} done, {} without a result", p.done, p.tests, p.gone_wrong)});
             };
         }
         messages.stage(fmt::format("{}, {}", size_of(plan), counted(std::int64_t{workers}, "worker")));
         const CampaignOutcome outcome = run_campaign(plan, options, hooks);
         messages.make_room();
         if (!messages.quiet()) print_outcome(outcome, folder);
-        if (!outcome.interrupted) return exit_done;
+        if (outcome.progress.failures > 0) {
+            report_error(fmt::format("{}: {} ended with a system error ({}); run the same command again to repeat them",
+                                     folder.string(), counted(outcome.progress.failures, "test"), outcome.failure));
+        }
+        if (!outcome.interrupted) return exit_code_of(outcome.progress.gone_wrong, outcome.progress.failures);
     } catch (const TestInterrupted&) {
         messages.make_room();
     }
-    if (!messages.hosted()) report_error("interrupted; the same command goes on");
+    if (!messages.hosted()) report_error(words_of_resumable);
     return exit_interrupted;
 }
 
 const std::vector<Command>& campaign_studies() {
     static const std::vector<Command> all{
-        {"show", "what the packings of each point say: mean, scatter, interval", describe_campaign_show, campaign_show},
-        {"gather", "puts the shares of a campaign together", describe_campaign_gather, campaign_gather},
-        {"submit", "has Slurm run a campaign in shares", describe_campaign_submit, campaign_submit},
+        {"show", "statistics over the packings of each point: mean, scatter, interval", describe_campaign_show,
+         campaign_show},
+        {"gather", "merges the shares of a campaign", describe_campaign_gather, campaign_gather},
+        {"submit", "runs a campaign in shares with Slurm", describe_campaign_submit, campaign_submit},
     };
     return all;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle campaign submit PLAN.toml -o DIR --shards N` and `crackle campaign gather DIR`: a campaign in shares.
+// `crackle campaign submit PLAN.toml -o DIR --shards N` and `crackle campaign gather DIR`: runs a campaign in shares.
 // Tested by tests/tools/campaign/campaign_test.cpp.
 
 #include <fmt/format.h>
@@ -9,10 +9,11 @@
 
 #include <cmath>
 #include <cstring>
-#include <iostream>
 #include <string>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/campaign/campaign.hpp"
@@ -21,6 +22,7 @@
 #include "specimens/statistics/spoken.hpp"
 #include "tools/campaign/campaign.hpp"
 #include "tools/command_line/command_line.hpp"
+#include "tools/terminal/printable.hpp"
 #include "tools/terminal/shipped.hpp"
 
 namespace crackle::tools {
@@ -28,40 +30,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs `sbatch SCRIPT`, which prints the job's number. @throws InputError if there is none, or it refuses
+/// Runs `sbatch SCRIPT`, which prints the job id. @throws InputError if sbatch is missing or refuses the script
 void call_sbatch(const fs::path& script) {
     std::string program = "sbatch", file = script.string();
     char* words[] = {program.data(), file.data(), nullptr};
     pid_t process = 0;
     const int reason = ::posix_spawnp(&process, "sbatch", nullptr, nullptr, words, environ);
     if (reason != 0) {
-        throw InputError(fmt::format(
-            "sbatch: cannot be run ({}), expected Slurm's; {} is written, take it to the cluster, or see --dry-run",
-            std::strerror(reason), file));
+        fail_reading(reason,
+                     fmt::format("sbatch: cannot be run ({}), expected Slurm's sbatch; submit {} on the cluster",
+                                 std::strerror(reason), file));
     }
     int status = 0;
     while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
     }
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        throw InputError(fmt::format("sbatch: refused {}, expected a job's number; see what it says above", file));
+        throw InputError(
+            fmt::format("sbatch: refused {}, expected a job number; see the messages of sbatch above", file));
 }
 
 }  // namespace
 
 CommandLine describe_campaign_submit() {
     po::options_description options;
-    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")   //
-        ("shards", po::value<int>()->value_name("N"), "shares (default: five minutes of work each)")           //
-        ("workers", po::value<int>()->value_name("N")->default_value(1), "processes of a share, on one node")  //
-        ("verify", "as of crackle campaign")                                                                   //
-        ("retry", "as of crackle campaign")                                                                    //
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")    //
+        ("shards", po::value<int>()->value_name("N"), "number of shares (default: five minutes of work each)")  //
+        ("workers", po::value<int>()->value_name("N")->default_value(1),
+         "worker processes per share, all on one node")  //
+        ("verify", "as for crackle campaign")            //
+        ("retry", "as for crackle campaign")             //
         ("dry-run", "print the script; write and submit nothing");
     return {.synopses = {"crackle campaign submit PLAN.toml -o DIR [--shards N] [OPTIONS]"},
             .description =
-                "Writes DIR/shards/submit.sh, an array job of Slurm with one task a share, its time limit from what "
-                "tests have taken or are estimated to take, and submits it with sbatch. When it has ended, `crackle "
-                "campaign gather DIR` puts the shares together. The same --shard serves GNU parallel, Snakemake or "
-                "ssh. DIR must be seen by all nodes.",
+                "Writes DIR/shards/submit.sh, an array job of Slurm with one task per share, and submits it with "
+                "sbatch. The job's time limit follows from measured or estimated durations of the tests. When the job "
+                "has ended, `crackle campaign gather DIR` merges the shares. With GNU parallel, Snakemake or ssh, use "
+                "`crackle campaign --shard` instead. DIR must be accessible from all nodes.",
             .options = {{"options", options}},
             .operand = "PLAN.toml",
             .examples = {{"crackle campaign submit plan.toml -o out/plan --shards 20 --dry-run"},
@@ -79,17 +83,17 @@ int campaign_submit(const Invocation& given) {
     BatchRequest request;
     request.program = fs::read_symlink("/proc/self/exe");
     request.plan = fs::absolute(plan_file).lexically_normal();
-    request.folder = fs::absolute(values["output"].as<std::string>()).lexically_normal();
+    request.folder = fs::absolute(output_folder(values["output"].as<std::string>())).lexically_normal();
     request.workers = values["workers"].as<int>();
     if (request.workers < 1)
         throw InputError(fmt::format("crackle campaign submit: --workers: found {}, expected >= 1", request.workers));
-    check_campaign_folder(request.folder);
+    check_campaign_folder(request.folder, plan);
     const fs::path file = ledger_file(request.folder);
     const std::optional<CampaignLedger> ledger =
         is_file(file) ? std::optional(CampaignLedger::read(file)) : std::nullopt;
     request.seconds = estimate_plan(plan, ledger ? &*ledger : nullptr).seconds;
     const double worth = std::ceil(request.seconds / least_work_a_shard);
-    constexpr int most_shards = 1000;  // of an array, as Slurm is shipped
+    constexpr int most_shards = 1000;  // Slurm's default limit on the size of a job array
     request.shards = values.contains("shards")
                          ? values["shards"].as<int>()
                          : static_cast<int>(std::clamp(
@@ -102,11 +106,11 @@ int campaign_submit(const Invocation& given) {
     if (values.contains("retry")) request.options += " --retry";
     const std::string script = batch_script(request);
     if (values.contains("dry-run")) {
-        std::cout << script;
+        print_bytes(script);
         return exit_done;
     }
     if (request.shards > worth && request.shards > 1)
-        given.messages.notice(fmt::format("{} shares of {:.2g} s each: {:.0f} would have five minutes of work each",
+        given.messages.notice(fmt::format("{} shares take only {:.2g} s each; {:.0f} would take five minutes each",
                                           request.shards, request.seconds / request.shards, std::max(1.0, worth)));
     const fs::path path = request.folder / "shards" / "submit.sh";
     make_folder(path.parent_path());
@@ -119,8 +123,9 @@ CommandLine describe_campaign_gather() {
     return {
         .synopses = {"crackle campaign gather DIR"},
         .description =
-            "Adds what the shares in DIR/shards have run to DIR/campaign.sqlite. May be called any number of times; "
-            "on a network file system when the shares have ended.",
+            "Merges the results of the shares in DIR/shards into DIR/campaign.sqlite. It can be called any number of "
+            "times. On a network file system, call it only after all shares have ended. Exit codes are those of "
+            "crackle campaign. To repeat tests that ended with a system error, run the command of their share again.",
         .operand = "DIR",
         .examples = {{"crackle campaign gather out/plan"}}};
 }
@@ -130,10 +135,10 @@ int campaign_gather(const Invocation& given) {
     const fs::path folder = given.operands.front();
     const Gathered gathered = gather_shards(folder);
     if (!given.messages.quiet())
-        fmt::print("{} from {}; {} of {} done, {} gone wrong: crackle campaign show {}\n",
-                   counted(gathered.tests, "test"), counted(gathered.shards, "share"), gathered.counts.done,
-                   gathered.counts.tests, gathered.counts.gone_wrong, folder.string());
-    return exit_done;
+        print_out("{} from {}; {} of {} done, {}: crackle campaign show {}\n", counted(gathered.tests, "test"),
+                  counted(gathered.shards, "share"), gathered.counts.done, gathered.counts.tests,
+                  spoken_wrong(gathered.counts.gone_wrong, gathered.counts.failures), folder.string());
+    return exit_code_of(gathered.counts.gone_wrong, gathered.counts.failures);
 }
 
 }  // namespace crackle::tools

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle campaign show DIR`: means, scatter and intervals of a campaign's figures.
+// `crackle campaign show DIR`: prints means, scatter and intervals of a campaign's results.
 // Tested by tests/tools/campaign/campaign_test.cpp.
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -15,6 +14,7 @@
 #include "specimens/statistics/spoken.hpp"
 #include "tools/campaign/campaign.hpp"
 #include "tools/command_line/command_line.hpp"
+#include "tools/terminal/printable.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -22,25 +22,24 @@ namespace {
 std::string printed(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
 
 void print_point(const PointSummary& point, const std::vector<std::string>& figures) {
-    fmt::print("\n{}{}{}: {} of {} done{}\n", point.test, point.axes.empty() ? "" : ", ", point.at(), point.done,
-               counted(point.planned, "packing"),
-               point.gone_wrong > 0 ? fmt::format(", {} gone wrong", point.gone_wrong) : "");
+    print_out("\n{}{}{}: {} of {} done{}\n", point.test, point.axes.empty() ? "" : ", ", point.at(), point.done,
+              counted(point.planned, "packing"),
+              point.gone_wrong > 0 ? ", " + spoken_wrong(point.gone_wrong, point.failures) : "");
     if (point.unfailed > 0)
-        fmt::print(
-            "  notice: {} did not fail by loading.max_axial_strain: they have no strength and are in no mean of "
-            "it\n",
+        print_out(
+            "  notice: {} did not fail before loading.max_axial_strain, so they are excluded from the mean strength\n",
             point.unfailed);
-    fmt::print("  {:<26}{:>4}{:>12}{:>12}{:>8}{:>26}\n", "figure", "n", "mean", "deviation", "cv %", "95 % interval");
+    print_out("  {:<26}{:>4}{:>12}{:>12}{:>8}{:>26}\n", "figure", "n", "mean", "deviation", "cv %", "95 % interval");
     for (const std::string& figure : figures) {
         const MeanFigure& mean = point.figures.at(figure);
         const std::string unit = unit_of_figure(figure, point.area_units);
-        fmt::print("  {:<26}{:>4}{:>12}{:>12}{:>8}{:>26}\n",
-                   fmt::format("{}{}{}", figure, unit.empty() ? "" : " ", unit), mean.count, printed(mean.mean),
-                   printed(mean.deviation),
-                   std::isfinite(mean.variation()) ? fmt::format("{:.1f}", 100.0 * std::abs(mean.variation())) : "-",
-                   std::isfinite(mean.low) ? fmt::format("{:.4g} to {:.4g}", mean.low, mean.high) : "-");
+        print_out("  {:<26}{:>4}{:>12}{:>12}{:>8}{:>26}\n",
+                  fmt::format("{}{}{}", figure, unit.empty() ? "" : " ", unit), mean.count, printed(mean.mean),
+                  printed(mean.deviation),
+                  std::isfinite(mean.variation()) ? fmt::format("{:.1f}", 100.0 * std::abs(mean.variation())) : "-",
+                  std::isfinite(mean.low) ? fmt::format("{:.4g} to {:.4g}", mean.low, mean.high) : "-");
         const auto bias = point.biases.find(figure);
-        if (bias != point.biases.end()) fmt::print("  {:<26}{}\n", "", verdict_on(mean, bias->second));
+        if (bias != point.biases.end()) print_out("  {:<26}{}\n", "", verdict_on(mean, bias->second));
     }
 }
 
@@ -52,21 +51,21 @@ CommandLine describe_campaign_show() {
         "figure", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME..."),
         "figures of summary.json (default: youngs_modulus poissons_ratio peak_stress peak_strain)")  //
         ("all", "all figures")                                                                       //
-        ("csv", "the same as CSV")                                                                   //
-        ("tests", "as CSV, a row a test: axes, seed, variant, state and all figures")                //
-        ("wrong", "tests that have gone wrong, and why");
-    return {
-        .synopses = {"crackle campaign show DIR [OPTIONS]"},
-        .description =
-            "Prints what the packings of each point of a campaign's plan say: mean, standard deviation, coefficient "
-            "of variation and the 95 % interval of the mean (bootstrap over packings); with companions "
-            "(`crackle campaign --verify`) also by how much step and rate shift it. May be called while the "
-            "campaign runs.",
-        .options = {{"options", options}},
-        .operand = "DIR",
-        .examples = {{"crackle campaign show out/granite"},
-                     {"crackle campaign show out/granite --figure peak_stress failed_at"},
-                     {"crackle campaign show out/granite --tests > tests.csv"}}};
+        ("csv", "print the statistics as CSV")                                                       //
+        ("tests", "print CSV with one row per test: axes, seed, variant, state and all figures")     //
+        ("wrong", "print the tests that ended without a result, with the reason");
+    return {.synopses = {"crackle campaign show DIR [OPTIONS]"},
+            .description =
+                "Prints statistics over the packings of each point of a campaign's plan: mean, standard deviation, "
+                "coefficient of variation and the 95 % interval of the mean (bootstrap over packings). After `crackle "
+                "campaign --verify` it also prints how much the time step and the rate shift the mean. It can be "
+                "called while the campaign runs. Exit code 4: some tests ended with a system error and are excluded "
+                "from all means; `crackle campaign` repeats them.",
+            .options = {{"options", options}},
+            .operand = "DIR",
+            .examples = {{"crackle campaign show out/granite"},
+                         {"crackle campaign show out/granite --figure peak_stress failed_at"},
+                         {"crackle campaign show out/granite --tests > tests.csv"}}};
 }
 
 int campaign_show(const Invocation& given) {
@@ -82,15 +81,17 @@ int campaign_show(const Invocation& given) {
             "SELECT DISTINCT test.identity, test.state, test.message FROM plan JOIN test USING(identity) WHERE "
             "test.state <> 'done' ORDER BY plan.row");
         for (const auto& row : wrong.rows) {
-            const auto* message = std::get_if<std::string>(&row[2]);
-            fmt::print("{} {}: {}\n", std::get<std::string>(row[0]), std::get<std::string>(row[1]),
-                       message != nullptr ? *message : "");
+            const auto text = [&](std::size_t k) {
+                const auto* found = std::get_if<std::string>(&row[k]);
+                return found != nullptr ? *found : "";
+            };
+            print_out("{} {}: {}\n", text(0), text(1), text(2));
         }
         return exit_done;
     }
     const LedgerTable results = ledger.results();
     if (values.contains("tests")) {
-        std::cout << tests_csv(results);
+        print_text(tests_csv(results));
         return exit_done;
     }
     const std::vector<std::string> known = numeric_figures(results);
@@ -103,16 +104,17 @@ int campaign_show(const Invocation& given) {
         figures = usual_figures(results);
     }
     const std::vector<PointSummary> points = summarise(results, figures);
-    if (values.contains("csv")) {
-        std::cout << points_csv(points, figures);
-        return exit_done;
-    }
     const LedgerCounts counts = ledger.counts();
-    fmt::print("{}: {} of {} done, {} gone wrong{}; {:.3g} s of a processor\n", ledger.meta("title"), counts.done,
-               counted(counts.tests, "test"), counts.gone_wrong, counts.gone_wrong > 0 ? " (--wrong says why)" : "",
-               counts.processor_seconds);
+    const int code = counts.failures > 0 ? exit_system_fails : exit_done;
+    if (values.contains("csv")) {
+        print_text(points_csv(points, figures));
+        return code;
+    }
+    print_out("{}: {} of {} done, {}{}; {:.3g} s of processor time\n", ledger.meta("title"), counts.done,
+              counted(counts.tests, "test"), spoken_wrong(counts.gone_wrong, counts.failures),
+              counts.gone_wrong > 0 ? " (--wrong prints why)" : "", counts.processor_seconds);
     for (const PointSummary& point : points) print_point(point, figures);
-    return exit_done;
+    return code;
 }
 
 }  // namespace crackle::tools

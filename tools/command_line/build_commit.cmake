@@ -1,9 +1,9 @@
-# Writes OUTPUT, the C++ source that defines build_commit (build_commit.hpp) for the checkout SOURCES. An OUTPUT that says
-# the same already stays as it is, so that nothing is compiled again.
+# Writes OUTPUT, the C++ source that defines build_commit (build_commit.hpp) for the checkout SOURCES. The file is left
+# untouched if it already has this content, so that nothing is recompiled.
 #   cmake -DGIT=/usr/bin/git -DSOURCES=FOLDER -DOUTPUT=FILE -P build_commit.cmake
 set(commit "unknown: built without git or outside of a git checkout")
 if(GIT)
-  # Empty at the top of a checkout only. Sources that lie within another project's checkout have none of its commits.
+  # The path is empty only at the top of a checkout. Sources inside another project's checkout must not report its commit.
   execute_process(COMMAND ${GIT} -C ${SOURCES} rev-parse --show-cdup
                   RESULT_VARIABLE failed OUTPUT_VARIABLE way_to_top OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
   if(failed EQUAL 0 AND way_to_top STREQUAL "")

@@ -16,23 +16,24 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/utf8.hpp"
 #include "tools/terminal/terminal.hpp"
 
 namespace crackle::tools {
 namespace {
 
-constexpr const char* operand_name = "operand";  // of the parser; no option of a user
+constexpr const char* operand_name = "operand";  // internal name used by the parser, not an option for users
 constexpr std::size_t help_columns = 100;
 
 po::options_description common_options(const CommandLine& line) {
     po::options_description options;
-    options.add_options()("quiet,q", "nothing but errors and the result itself")                  //
-        ("verbose,v", ("says more" + (line.verbose.empty() ? "" : ": " + line.verbose)).c_str())  //
-        ("help,h", "this text");
+    options.add_options()("quiet,q", "print only errors and the result")                           //
+        ("verbose,v", ("print more" + (line.verbose.empty() ? "" : ": " + line.verbose)).c_str())  //
+        ("help,h", "print this text");
     return options;
 }
 
-/// "FILE (=in_gm.dat)" as its two parts.
+/// Splits "FILE (=in_gm.dat)" into its two parts.
 std::pair<std::string, std::string> split_argument(const std::string& name) {
     const std::size_t at = name.find(" (=");
     if (at == std::string::npos) return {name, ""};
@@ -60,14 +61,8 @@ OptionGroup facts_of(const OptionSection& section, const std::vector<Choices>& c
     return group;
 }
 
-/// Letters, not bytes.
-std::size_t letters_of(const std::string& text) {
-    return static_cast<std::size_t>(std::count_if(
-        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
 std::string padded(const std::string& text, std::size_t letters) {
-    return text + std::string(std::max(letters_of(text), letters) - letters_of(text), ' ');
+    return text + std::string(std::max(count_letters(text), letters) - count_letters(text), ' ');
 }
 
 void print_options(const CommandLine& line) {
@@ -79,7 +74,7 @@ void print_options(const CommandLine& line) {
                            option.several ? "..." : "");
     };
     for (const OptionGroup& group : groups) {
-        for (const OptionFacts& option : group.options) widest = std::max(widest, letters_of(term(option)) + 2);
+        for (const OptionFacts& option : group.options) widest = std::max(widest, count_letters(term(option)) + 2);
     }
     for (const OptionGroup& group : groups) {
         std::cout << '\n' << styled(group.caption + ':', Style::heading, Stream::out) << '\n';
@@ -100,7 +95,7 @@ void print_examples(const std::vector<Example>& examples) {
     std::cout << '\n' << styled("examples:", Style::heading, Stream::out) << '\n';
     std::size_t widest = 0;
     for (const Example& example : examples) {
-        if (!example.remark.empty()) widest = std::max(widest, letters_of(example.command));
+        if (!example.remark.empty()) widest = std::max(widest, count_letters(example.command));
     }
     for (const Example& example : examples) {
         std::cout << "  "
@@ -109,7 +104,7 @@ void print_examples(const std::vector<Example>& examples) {
     }
 }
 
-/// Changes of a letter that lead from one word to the other.
+/// Smallest number of character changes that turn one word into the other.
 std::size_t distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -125,7 +120,7 @@ std::size_t distance(const std::string& a, const std::string& b) {
     return row[b.size()];
 }
 
-/// What an option takes, in words; empty: any text.
+/// Description of the values that an option accepts; empty if any text is accepted.
 std::string kind_of_value(const po::option_description& option) {
     const auto* const typed = dynamic_cast<const po::typed_value_base*>(option.semantic().get());
     if (typed == nullptr) return {};
@@ -138,7 +133,7 @@ std::string kind_of_value(const po::option_description& option) {
     return std::ranges::any_of(whole, is_it) ? ", expected a whole number" : "";
 }
 
-/// The parser's complaint in our words.
+/// The parser's error, reworded for this program.
 std::string complaint(const po::error& error, const CommandLine& line) {
     if (const auto* const invalid = dynamic_cast<const po::invalid_option_value*>(&error)) {
         std::string expected;
@@ -167,7 +162,7 @@ void expect_companions(const std::string& name, const CommandLine& line, const p
         if (std::ranges::any_of(one.one_of, [&](const std::string& other) { return is_given(values, other); }))
             continue;
         const std::string others = "--" + fmt::format("{}", fmt::join(one.one_of, " or --"));
-        throw InputError(fmt::format("{0}: --{1}: found without {2}, where it has no effect; leave it out, or add {2}",
+        throw InputError(fmt::format("{0}: --{1}: found without {2}, but has no effect alone; leave it out, or add {2}",
                                      name, one.option, others));
     }
 }
@@ -175,7 +170,7 @@ void expect_companions(const std::string& name, const CommandLine& line, const p
 }  // namespace
 
 InputError without_effect(const std::string& name, const std::string& word, const std::string& input) {
-    return InputError(fmt::format("{}: {}: found with {}, where it has no effect; leave it out", name, word, input));
+    return InputError(fmt::format("{}: {}: found with {}, but has no effect there; leave it out", name, word, input));
 }
 
 void refuse_unused(const std::string& name, const po::variables_map& given, const std::string& input,
@@ -194,7 +189,7 @@ void expect_alone(const std::string& name, const Invocation& given, const std::s
 
 std::string suggestion(const std::string& found, const Arguments& known) {
     std::string best;
-    std::size_t fewest = found.size() / 3 + 2;  // more changes make another word
+    std::size_t fewest = found.size() / 3 + 2;  // words that need this many changes or more count as unrelated
     for (const std::string& word : known) {
         const std::size_t changes = distance(found, word);
         if (changes < fewest) {
@@ -215,7 +210,7 @@ Arguments wrapped(const std::string& text, std::size_t letters) {
         while (at < end) {
             const std::size_t blank = std::min(text.find(' ', at), end);
             const std::string word = text.substr(at, blank - at);
-            if (!line.empty() && letters_of(line) + 1 + letters_of(word) > letters) {
+            if (!line.empty() && count_letters(line) + 1 + count_letters(word) > letters) {
                 lines.push_back(std::move(line));
                 line.clear();
             }

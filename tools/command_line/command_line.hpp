@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a command is called, as data: the words are parsed by it, and --help, the completion of shells and the manual
-// page are made from it.
+// Description of a command's options and operands as data. It is used for parsing, --help, shell completion and the
+// manual page.
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
@@ -23,16 +23,16 @@ struct Example {
     std::string command, remark = {};
 };
 
-/// The words that an option understands.
+/// The words that an option accepts.
 struct Choices {
     std::string option;  ///< long name
     Arguments words;
 };
 
-/// An option that has an effect only beside one of others.
+/// An option that has an effect only together with at least one of several others.
 struct Companion {
-    std::string option;  ///< long name
-    Arguments one_of;    ///< long names
+    std::string option;  ///< its long name
+    Arguments one_of;    ///< long names of the others
 };
 
 struct OptionSection {
@@ -41,39 +41,41 @@ struct OptionSection {
 };
 
 struct CommandLine {
-    Arguments synopses = {};       ///< "crackle test CASE.toml -o OUT [OPTIONS]"
-    std::string description = {};  ///< paragraphs, an empty line between them
-    /// The command's own. --help, --quiet and --verbose come with every command that takes options.
+    Arguments synopses = {};       ///< for example "crackle test CASE.toml -o OUT [OPTIONS]"
+    std::string description = {};  ///< paragraphs, separated by empty lines
+    /// Options of the command itself. --help, --quiet and --verbose are added automatically if the command takes
+    /// options.
     std::vector<OptionSection> options = {};
-    bool takes_options = true;  ///< false: what follows are the words of another program
-    std::string operand = {};   ///< what the words that belong to no option are, "CASE.toml"; empty: there are none
+    bool takes_options = true;  ///< false if the words that follow are passed to another program
+    std::string operand =
+        {};  ///< name of the operand in texts, for example "CASE.toml"; empty if the command takes none
     bool several_operands = false;
-    Arguments operand_words = {};  ///< understood; empty: files
+    Arguments operand_words = {};  ///< accepted operands; empty if operands are file names
     std::vector<Choices> choices = {};
     std::vector<Companion> companions = {};
-    std::string verbose = {};  ///< what -v reports beside the usual
+    std::string verbose = {};  ///< what -v prints in addition
     std::vector<Example> examples = {};
-    Arguments notes = {};                        ///< paragraphs that follow the examples
-    Arguments (*prepared)(Arguments) = nullptr;  ///< the words as the parser takes them; absent: as they are
+    Arguments notes = {};                        ///< paragraphs after the examples
+    Arguments (*prepared)(Arguments) = nullptr;  ///< converts the words before parsing; null if this is not needed
 };
 
-/// A command as it was called.
+/// A command as invoked by the user.
 struct Invocation {
-    po::variables_map values;  ///< of the command's own options
+    po::variables_map values;  ///< values of the command's own options
     Arguments operands;
-    Arguments words;  ///< all that stood behind the command's name
+    Arguments words;  ///< all words after the command's name
     Messages& messages;
 };
 
-/// An option as users know it.
+/// An option as shown to the user.
 struct OptionFacts {
-    std::string name;         ///< without the dashes
-    char letter = '\0';       ///< none: 0
-    std::string argument;     ///< "FILE"; empty: it takes none
-    bool several = false;     ///< takes any number of arguments
-    std::string value;        ///< taken where it is not given; empty: none
-    std::string description;  ///< without that
-    Arguments words;          ///< understood; empty: anything
+    std::string name;         ///< without the leading dashes
+    char letter = '\0';       ///< one-letter name, or 0
+    std::string argument;     ///< for example "FILE"; empty if the option takes no argument
+    bool several = false;     ///< whether it takes any number of arguments
+    std::string value;        ///< default value, or empty
+    std::string description;  ///< without the default value
+    Arguments words;          ///< accepted words; empty if any text is accepted
 };
 
 struct OptionGroup {
@@ -81,10 +83,10 @@ struct OptionGroup {
     std::vector<OptionFacts> options;
 };
 
-/// All options, --help and its fellows last.
+/// All options; the common ones (--help, --quiet, --verbose) come last.
 std::vector<OptionGroup> option_groups(const CommandLine& line);
 
-/// The words between a command's name and the end of the line.
+/// Result of parsing the words after a command's name.
 struct ParsedWords {
     po::variables_map values;
     Arguments operands;
@@ -92,27 +94,30 @@ struct ParsedWords {
     bool help = false;
 };
 
-/// @param name as typed, "crackle campaign show". @throws InputError that names what is wrong and where to look
+/// @param name the command as typed by the user, for example "crackle campaign show" @throws InputError that states the
+/// invalid word and where to find help
 ParsedWords parse_words(const std::string& name, const CommandLine& line, const Arguments& words);
 
-/// An option or operand that has no effect on what is asked for. @param input "the folder of a campaign", "--check"
+/// Error for an option or operand that has no effect for a given kind of input. @param input description of it, for
+/// example "the folder of a campaign" or "--check"
 InputError without_effect(const std::string& name, const std::string& word, const std::string& input);
 
-/// Refuses options that were given and that have no effect on what is asked for.
-/// @param used long names of the options that have one. @throws without_effect() of the first other
+/// Refuses options that were given but have no effect.
+/// @param used long names of the options that have an effect @throws without_effect() for the first option given that
+/// is not among them
 void refuse_unused(const std::string& name, const po::variables_map& given, const std::string& input,
                    const Arguments& used);
 
-/// The same of an option that stands alone: without operands, too.
+/// Refuses further words next to an option that must be used alone.
 void expect_alone(const std::string& name, const Invocation& given, const std::string& option);
 
-/// The text of --help, on stdout.
+/// Prints the help text to stdout.
 void print_help(const CommandLine& line);
 
-/// The text cut into lines of at most so many letters where words end; its own line ends stay.
+/// The text wrapped at spaces to lines of at most `letters` characters; existing newlines are kept.
 Arguments wrapped(const std::string& text, std::size_t letters);
 
-/// ", did you mean X?" of the word that is most like the one found; empty where none is.
+/// ", did you mean X?" with the known word most similar to `found`; empty if none is similar.
 std::string suggestion(const std::string& found, const Arguments& known);
 
 }  // namespace crackle::tools

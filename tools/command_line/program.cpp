@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,6 +22,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/base/instruction_set.hpp"
+#include "solver/base/system_failure.hpp"
 #include "solver/base/version.hpp"
 #include "tools/command_line/build_commit.hpp"
 #include "tools/command_line/command_line.hpp"
@@ -28,8 +30,8 @@
 #include "tools/terminal/terminal.hpp"
 
 #ifdef __SANITIZE_ADDRESS__
-// What a command leaves behind when it ends goes back to the system; leaks of what it calls show in the unit tests.
-// Looking for them takes as long as all else of a short command.
+// Leak checking is off: it would double the time of a short command, and the operating system frees all memory when a
+// command ends. Unit tests check the functions for leaks.
 extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }  // NOLINT: the sanitizer's own name
 #endif
 
@@ -93,7 +95,7 @@ int call(const Command& command, const std::string& name, const Arguments& words
     return command.run({parsed.values, parsed.operands, words, messages});
 }
 
-/// What the words behind the program's name ask for. @throws what the command does
+/// Runs the command selected by the words after the program's name. @throws errors of the command
 int call(const Program& program, const Arguments& words) {
     if (words.empty()) {
         print_overview(program, std::cerr, Stream::err);
@@ -109,7 +111,7 @@ int call(const Program& program, const Arguments& words) {
                    results_version);
         return exit_done;
     }
-    // `crackle help campaign show` is `crackle campaign show --help`.
+    // `crackle help campaign show` means `crackle campaign show --help`.
     Arguments asked(words.begin() + (help ? 1 : 0), words.end());
     if (help) asked.emplace_back("--help");
     const Command* command = named(program.commands(), asked[0]);
@@ -122,10 +124,19 @@ int call(const Program& program, const Arguments& words) {
     return call(*command, fmt::format("{} {}", program.name, command->name), {asked.begin() + 1, asked.end()});
 }
 
-/// Of the standard output, a pipe.
+/// Whether standard output is a pipe whose reader has closed it.
 bool reader_is_gone() {
     pollfd output{STDOUT_FILENO, 0, 0};
     return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
+/// Refuses a stack limit that is too small for a thread. @throws SystemFailure
+void refuse_small_stack() {
+    constexpr rlim_t least = rlim_t{1} << 20;  // bytes; readers, solvers and fonts use between a tenth and a half of it
+    rlimit stack{};
+    if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur == RLIM_INFINITY || stack.rlim_cur >= least) return;
+    throw SystemFailure(fmt::format("found a stack of {} KiB, expected at least {}; raise the limit (ulimit -s {})",
+                                    stack.rlim_cur >> 10, least >> 10, least >> 10));
 }
 
 }  // namespace
@@ -133,18 +144,20 @@ bool reader_is_gone() {
 const std::vector<ExitCode>& exit_codes() {
     static const std::vector<ExitCode> all{
         {exit_done, "done"},
-        {exit_claim_fails, "a row of crackle-bench fails, a target of crackle calibrate is not reached"},
+        {exit_claim_fails,
+         "a row of crackle-bench fails, a target of crackle calibrate is not reached, tests of crackle campaign end "
+         "without a result"},
         {exit_bad_input, "bad input"},
-        {exit_unstable, "the run became unstable (its output so far is kept)"},
-        {exit_system_fails, "the system or a library failed (likewise)"},
-        {exit_interrupted, "interrupted (likewise)"},
+        {exit_unstable, "the run became unstable (the output so far is kept)"},
+        {exit_system_fails, "the operating system or a library failed (the output so far is kept)"},
+        {exit_interrupted, "interrupted (the output so far is kept)"},
     };
     return all;
 }
 
 int run_program(const Program& program, int argc, char** argv) {
-    // Arrays of large specimens go back to the system when they are freed. By itself glibc soon keeps them for good:
-    // a list of neighbours built again would then cost as much memory as the whole specimen.
+    // Makes glibc return freed arrays of large specimens to the operating system. By default it soon keeps them
+    // permanently, and rebuilding a neighbour list would then need as much memory as the whole specimen.
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
     mallopt(M_TRIM_THRESHOLD, 1 << 22);
     const auto all = std::span(argv, static_cast<std::size_t>(argc));
@@ -152,14 +165,15 @@ int run_program(const Program& program, int argc, char** argv) {
     name_program(program.name);
     make_writing_fail_by_error();
     try {
-        chosen_set();  // refuses an unknown CRACKLE_ISA before anything is done
+        refuse_small_stack();
+        chosen_set();  // refuses an invalid CRACKLE_ISA before any work is done
         const int code = call(program, {all.begin() + 1, all.end()});
-        // Fails if the result cannot be written: a full disk shows with its last bytes.
+        // Fails if the result cannot be written to stdout; a full disc may be noticed only with the last bytes.
         errno = 0;
         const bool written = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
         if (written || code != exit_done) return code;
-        if (reader_is_gone()) return exit_system_fails;  // `| head` has seen what it wanted
-        report_error(fmt::format("standard output: {}, expected one that takes all that is printed",
+        if (reader_is_gone()) return exit_system_fails;  // the reader, such as `| head`, needs no more output
+        report_error(fmt::format("standard output: {}, expected room for everything that is printed",
                                  errno != 0 ? std::generic_category().message(errno) : "cannot be written"));
         return exit_system_fails;
     } catch (const InputError& error) {
@@ -168,20 +182,24 @@ int run_program(const Program& program, int argc, char** argv) {
     } catch (const std::filesystem::filesystem_error& error) {
         report_error(fmt::format("{}: {}, expected a path that can be read and written; check its permissions",
                                  error.path1().string(), error.code().message()));
-        return exit_bad_input;
+        return is_about_the_path(error.code().value()) ? exit_bad_input : exit_system_fails;
     } catch (const std::bad_alloc&) {
-        report_error("found less memory than the input needs; make the specimen smaller");
-        return exit_bad_input;
+        report_error("found too little memory for this input; make the specimen smaller");
+        return exit_system_fails;
     } catch (const UnstableRun& error) {
         report_error(error.what());
         return exit_unstable;
-    } catch (const std::system_error& error) {
-        if (reader_is_gone()) return exit_system_fails;  // seen while printing still
-        report_error(fmt::format("{}: {}, expected to go on", called, error.what()));
+    } catch (const SystemFailure& error) {
+        report_error(error.what());
         return exit_system_fails;
-    } catch (const std::exception& error) {  // of a library, which does not know what it was asked for
-        report_error(fmt::format("{}: found '{}', expected to go on; please report it with the command and its files",
-                                 called, error.what()));
+    } catch (const std::system_error& error) {
+        if (reader_is_gone())
+            return exit_system_fails;  // the reader closed the pipe while the result was being printed
+        report_error(fmt::format("{}: {}", called, error.what()));
+        return exit_system_fails;
+    } catch (const std::exception& error) {  // thrown by a library, so the message lacks the context of the command
+        report_error(fmt::format("{}: unexpected error '{}'; please report it with the command and its files", called,
+                                 error.what()));
         return exit_system_fails;
     }
 }

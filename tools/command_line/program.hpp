@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A program of commands, as `crackle` and `crackle-bench` are: a table of commands, --help and --version, and what a
-// failure becomes: one message and an exit code.
+// A program with subcommands, such as `crackle` and `crackle-bench`: table of commands, --help and --version. Failures
+// are reported by one message and an exit code.
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
@@ -11,30 +11,33 @@ namespace crackle::tools {
 struct CommandLine;
 struct Invocation;
 
-/// One command: a line for --help of its program, how it is called, and the function that runs it. The function prints
-/// results to stdout and, by Messages, progress and notices to stderr; it returns the exit code and throws errors.
+/// One command: its line in the program's --help, its command line, and the function that runs it. The function prints
+/// results to stdout, and uses Messages for progress and notices on stderr. It returns the exit code, or throws an
+/// error.
 struct Command {
     const char* name;
     const char* summary;
     CommandLine (*describe)();
     int (*run)(const Invocation& given);
-    const std::vector<Command>& (*studies)() = nullptr;  ///< named by the next word; else run() has it
+    /// Table of subcommands that the next word can select; for any other word, run() is called. Null if there are none.
+    const std::vector<Command>& (*studies)() = nullptr;
 };
 
 struct Program {
-    const char* name;        ///< as typed
-    const char* summary;     ///< what it does, one line
-    const char* first_word;  ///< what its first word names: "command"
+    const char* name;        ///< as typed by the user
+    const char* summary;     ///< description in one line
+    const char* first_word;  ///< name of the first word in messages, for example "command"
     const std::vector<Command>& (*commands)();
 };
 
-// Exit codes of the programs; exit_codes() explains them.
+// Exit codes of the programs; exit_codes() returns their meanings.
 inline constexpr int exit_done = 0;
 inline constexpr int exit_claim_fails = 1;
-inline constexpr int exit_bad_input = 2;      // InputError, wrong options
-inline constexpr int exit_unstable = 3;       // UnstableRun
-inline constexpr int exit_system_fails = 4;   // the output cannot be written, a library gives up
-inline constexpr int exit_interrupted = 130;  // as a shell's own of SIGINT
+inline constexpr int exit_bad_input = 2;  // InputError, invalid options
+inline constexpr int exit_unstable = 3;   // UnstableRun
+// SystemFailure, out of memory, stdout cannot be written, failure in a library
+inline constexpr int exit_system_fails = 4;
+inline constexpr int exit_interrupted = 130;  // usual shell exit code for SIGINT
 
 struct ExitCode {
     int code;
@@ -42,7 +45,7 @@ struct ExitCode {
 };
 const std::vector<ExitCode>& exit_codes();
 
-/// Runs what the words of main() ask for. @return exit code; an error is reported before
+/// Runs the command selected by main()'s arguments. @return exit code; errors have already been reported
 int run_program(const Program& program, int argc, char** argv);
 
 }  // namespace crackle::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle bench STUDY`: starts crackle-bench, a program and a package of its own.
+// `crackle bench STUDY`: starts crackle-bench, which is a separate program and package.
 // Tested by tests/tools/commands/command_line_test.cpp.
 
 #include <unistd.h>
@@ -24,20 +24,21 @@ constexpr const char* bench_name = "crackle-bench";
 std::string bench_program() { return program_beside_or_on_path(bench_name); }
 
 CommandLine describe_bench() {
-    return {.synopses = {"crackle bench STUDY [OPTIONS]   (crackle-bench --help lists the studies)"},
-            .description =
-                "Starts crackle-bench with the same words: studies of the engine, each of which can write its page. It "
-                "is a program of its own, looked for beside crackle and on the PATH.",
-            .takes_options = false,
-            .examples = {{"crackle bench accuracy --quick -o out/accuracy", "run time against error"},
-                         {"crackle bench stress --steps 1000", "numerical stability"}}};
+    return {
+        .synopses = {"crackle bench STUDY [OPTIONS]   (crackle-bench --help lists the studies)"},
+        .description =
+            "Starts crackle-bench with the same arguments. It contains studies of the engine, each of which can write "
+            "a page of results. It is a separate program, searched for in the folder of crackle and on the PATH.",
+        .takes_options = false,
+        .examples = {{"crackle bench accuracy --quick -o out/accuracy", "run time against error"},
+                     {"crackle bench stress --steps 1000", "numerical stability"}}};
 }
 
 int bench(const Invocation& given) {
     const std::string program = bench_program();
     if (program.empty()) {
         throw InputError(
-            "crackle bench: found no crackle-bench beside crackle or on the PATH, expected the program of that name; "
+            "crackle bench: found no crackle-bench, expected this program in the folder of crackle or on the PATH; "
             "install Debian's package crackle-bench, or build it in the sources: cmake --build --preset release "
             "--target crackle-bench");
     }

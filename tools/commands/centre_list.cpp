@@ -17,9 +17,9 @@
 namespace crackle::tools {
 namespace {
 
-/// The first line that holds anything; nothing where there is none.
+/// Values in the first line that contains any; empty if there is none.
 std::optional<std::vector<std::string>> first_values(std::string_view text) {
-    if (text.find('"') != std::string_view::npos) {  // a heading: numbers need no quotes
+    if (text.find('"') != std::string_view::npos) {  // quotes occur only in a heading, since numbers need none
         TableReader reader("", text, TableReader::Form::table);
         if (!reader.next()) return std::nullopt;
         return std::vector<std::string>(reader.values().begin(), reader.values().end());
@@ -40,7 +40,7 @@ double coordinate(const TableReader& reader, std::size_t place, const char* what
     return *value;
 }
 
-/// Where a list's columns are, and what they are together.
+/// The columns of a list, and a description of their order.
 struct Columns {
     std::size_t x = 0, y = 1;
     std::optional<std::size_t> z;
@@ -91,8 +91,8 @@ CentreList parse_centre_list(const std::string& name, std::string_view text) {
         if (!columns.z) continue;
         const double z = coordinate(reader, *columns.z, "z");
         if (z != plane.value_or(z))
-            reader.refuse(fmt::format("z = {} behind z = {}", z, *plane),
-                          "x y of one plane; take those of a section, without z");
+            reader.refuse(fmt::format("z = {} after z = {}", z, *plane),
+                          "centres in one plane; give the centres of a plane section");
         plane = z;
     }
     if (list.places.empty()) throw InputError(fmt::format("{}: found no centres, expected lines of x y", name));

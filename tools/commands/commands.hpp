@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The subcommands of `crackle`, one file each; commands.cpp has their table.
+// The subcommands of `crackle`, each in a file of its own; commands.cpp has their table.
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
@@ -38,7 +38,7 @@ namespace crackle::tools {
 
 namespace po = boost::program_options;
 
-/// In the order of a user's work.
+/// The commands, in the order of a typical workflow.
 const std::vector<Command>& commands();
 
 CommandLine describe_pack();
@@ -75,34 +75,35 @@ int completion(const Invocation& given);
 CommandLine describe_manual();
 int manual(const Invocation& given);
 
-/// Where crackle-bench is: beside this program, else on the PATH; empty: nowhere.
+/// Path of crackle-bench: in the folder of this program, or on the PATH; empty if it was not found.
 std::string bench_program();
 
-// What the commands do, without their printing: for callers that want values (tools/python).
+// Functions that do the work of commands without printing, for callers that need the values (tools/python).
 
-/// @throws InputError naming the option
+/// @throws InputError that states the invalid option
 PackingRequest packing_request(const po::variables_map& values, Messages& messages);
-/// Of the option --kind. @throws InputError where it is not given
+/// The kind of mesh that --kind selects. @throws InputError if it is not given
 MeshKind mesh_kind(const po::variables_map& values);
-/// Polygons from the text of a packing or of a list of centres. @param name of it, for errors @param of_joints lines on
-/// the traces and on the mesh without them, where there are some @param interrupted as of MeshRequest
+/// Makes polygons from the text of a packing or of a list of centres. @param name name of the text, for errors @param
+/// of_joints receives the report lines about traces, if there are any, before and after meshing @param interrupted as
+/// in MeshRequest
 /// @throws TestInterrupted
 Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values, MeshKind kind,
                    Messages& messages, MeshReport& report, std::vector<std::string>* of_joints = nullptr,
                    const std::function<bool()>& interrupted = {});
-/// What `crackle joints` does with the joints of a case. @param name of it, for errors
+/// Runs `crackle joints` for the joints of a case. @param name name of the case, for errors
 int joints_of(TestCase test, const std::string& name, const Invocation& given);
-/// Threads that are of use here, of those that are asked for.
+/// Limits options.most_threads to the number of threads worth using, at most `asked`.
 void limit_threads(TestOptions& options, std::int64_t asked);
-/// Threads that a test that is gone on with asks for: the options', else its case's. @throws InputError
+/// Number of threads for a resumed test: as given in the options, otherwise as in its case. @throws InputError
 std::int64_t threads_to_resume(const TestOptions& options);
-/// How far a test is, as the program shows it.
+/// Progress of a test as shown by the program.
 Progress shown_progress(const TestProgress& test);
-/// What `crackle test --check --json` prints. @param indent spaces a level; -1: all on one line
+/// Output of `crackle test --check --json`. @param indent spaces per level; -1 for a single line
 std::string check_as_json(const TestCheck& check, int indent = -1);
-/// The case as the linear solution takes it; a notice of each thing that it leaves out.
+/// The case as used for the linear solution. @param notices receives a notice for each part of the case that is ignored
 TestCase elastic_case(TestCase description, std::vector<std::string>& notices);
-/// What `crackle elastic --json` prints. @param indent as of check_as_json()
+/// Output of `crackle elastic --json`. @param indent as in check_as_json()
 std::string elastic_as_json(const VirtualTest& test, const ElasticAnalysis& analysis,
                             const std::optional<JointedCompliance>& compliance, double seconds, int indent = -1);
 

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle completion SHELL`: a script by which a shell completes commands, options, the words they take, and files.
+// `crackle completion SHELL`: prints a script that makes a shell complete commands, options, option arguments and file
+// names.
 // Tested by tests/tools/commands/command_line_test.cpp.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iostream>
 
 #include "solver/base/errors.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/build_info.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/terminal/printable.hpp"
 
 namespace crackle::tools {
 namespace {
 
-/// A command or a study with what can follow it.
+/// A command or subcommand, with the words that can follow it.
 struct Completed {
-    std::string name;  ///< "mesh", "campaign show"
+    std::string name;  ///< for example "mesh" or "campaign show"
     std::string summary;
     CommandLine line;
     Arguments studies;
@@ -61,7 +62,7 @@ std::string pattern_of(const std::string& command, const OptionFacts& option) {
     return pattern;
 }
 
-// Names hold neither quotes nor blanks: they stand between quotes as they are.
+// Names contain neither quotes nor blanks, so they can be placed between quotes unchanged.
 constexpr const char* bash_script =
     R"(# Completion of crackle {version} for {shell}, made by `crackle completion {shell}`.
 {prelude}_crackle() {{
@@ -110,7 +111,7 @@ std::string bash_completion(const std::string& shell) {
     std::string studies, arguments, lists, options;
     for (const Completed& command : completed_commands()) {
         if (!command.studies.empty()) {
-            // A file, or an option, may stand in the place of a study.
+            // A file or an option may be given instead of a subcommand.
             studies += fmt::format(
                 "        {0})\n"
                 "            if [ \"$COMP_CWORD\" -eq 2 ] && [ \"${{word#-}}\" = \"$word\" ]; then\n"
@@ -142,7 +143,7 @@ std::string bash_completion(const std::string& shell) {
                        fmt::arg("arguments", arguments), fmt::arg("lists", lists), fmt::arg("options", options));
 }
 
-/// Between single quotes, as fish reads them.
+/// The text in single quotes, for the fish shell.
 std::string quoted(const std::string& text) {
     std::string out = "'";
     for (const char letter : text) {
@@ -191,22 +192,22 @@ std::string fish_completion() {
 CommandLine describe_completion() {
     return {.synopses = {"crackle completion bash|zsh|fish"},
             .description =
-                "Prints a script by which the shell completes commands, options, the words that options "
-                "take, and files. cmake --install puts it where shells look by themselves.",
+                "Prints a script with which the shell completes commands, options, the words that options "
+                "take, and files. cmake --install installs it where shells find it.",
             .operand = "SHELL",
             .operand_words = {"bash", "zsh", "fish"},
             .examples = {{"source <(crackle completion bash)", "in this shell"},
-                         {"crackle completion bash >> ~/.bash_completion", "in every one from now on"},
-                         {"crackle completion zsh >> ~/.zshrc", "zsh, likewise"},
+                         {"crackle completion bash >> ~/.bash_completion", "in all future shells"},
+                         {"crackle completion zsh >> ~/.zshrc", "the same for zsh"},
                          {"crackle completion fish > ~/.config/fish/completions/crackle.fish"}}};
 }
 
 int completion(const Invocation& given) {
     const std::string shell = given.operands.empty() ? "nothing" : given.operands.front();
     if (shell == "fish") {
-        std::cout << fish_completion();
+        print_text(fish_completion());
     } else if (shell == "bash" || shell == "zsh") {
-        std::cout << bash_completion(shell);
+        print_text(bash_completion(shell));
     } else {
         throw InputError(fmt::format("crackle completion: found {}, expected bash, zsh or fish", shell));
     }

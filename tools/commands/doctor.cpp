@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle doctor`: what this build is made of, what it can do, and what is missing.
+// `crackle doctor`: prints the components and capabilities of this build, and what is missing.
 // Tested by tests/tools/commands/command_line_test.cpp.
 
 #include <fmt/format.h>
@@ -8,17 +8,17 @@
 
 #include <Spectra/Util/Version.h>
 #include <cereal/version.hpp>
-#include <iostream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "solver/base/instruction_set.hpp"
-#include "solver/base/processors_lent.hpp"
+#include "solver/machine/processors_lent.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/build_info.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/page_template.hpp"
+#include "tools/terminal/printable.hpp"
 #include "tools/terminal/programs.hpp"
 #include "tools/terminal/shipped.hpp"
 #include "tools/terminal/terminal.hpp"
@@ -26,40 +26,40 @@
 namespace crackle::tools {
 namespace {
 
-/// "x86-64-v3 of x86-64-v2, x86-64-v3, x86-64-v4 that the kernels are built for".
+/// Text such as "x86-64-v3, chosen from x86-64-v2, x86-64-v3, x86-64-v4; ...".
 std::string instructions() {
     std::string built_in;
     for (const InstructionSet set : built_in_sets())
         built_in += fmt::format("{}{}", built_in.empty() ? "" : ", ", name_of(set));
-    return fmt::format("{}, chosen from {}; CRACKLE_ISA names another; results are the same by any",
+    return fmt::format("{}, chosen from {}; CRACKLE_ISA selects another; results are the same with each",
                        name_of(chosen_set()), built_in);
 }
 
-void line(const char* what, const std::string& text) { fmt::print("{:<14}{}\n", what, text); }
+void line(const char* what, const std::string& text) { print_out("{:<14}{}\n", what, text); }
 
-/// What would do more, and how to get it.
+/// Missing components that would be useful, and how to get them.
 std::vector<std::string> missing_parts(bool page, bool gnuplot_for_bench) {
     std::vector<std::string> missing;
     if (!page) {
         missing.emplace_back(
-            "the report page: configure with -DCRACKLE_VIEWER=ON; that takes Node 18 or later, and npm");
+            "the report page: configure with -DCRACKLE_VIEWER=ON; this needs Node 18 or later, and npm");
     }
     if (!gnuplot_for_bench)
-        missing.emplace_back("gnuplot: apt-get install gnuplot-nox; pictures of crackle-bench want it");
-    if (build_info::sanitizers)
-        missing.emplace_back("speed: build the preset `release`, this one has the sanitizers in");
+        missing.emplace_back("gnuplot: apt-get install gnuplot-nox; crackle-bench draws pictures with it");
+    if (build_info::sanitizers) missing.emplace_back("speed: build the preset `release`; this build has sanitizers");
     if (std::string(build_info::build_type) != "Release" && !build_info::sanitizers)
-        missing.emplace_back("speed: build the preset `release`, this one is not optimised");
+        missing.emplace_back("speed: build the preset `release`; this build is not optimised");
     return missing;
 }
 
 }  // namespace
 
 CommandLine describe_doctor() {
-    return {.synopses = {"crackle doctor"},
-            .description = "What this build is made of, what it can do, and what is missing and how to get it.",
-            .verbose = "the flags it was compiled with",
-            .examples = {{"crackle doctor"}}};
+    return {
+        .synopses = {"crackle doctor"},
+        .description = "Prints the components and capabilities of this build, and what is missing and how to get it.",
+        .verbose = "the compiler flags of this build",
+        .examples = {{"crackle doctor"}}};
 }
 
 int doctor(const Invocation& given) {
@@ -77,7 +77,7 @@ int doctor(const Invocation& given) {
     for (const build_info::Library& library : build_info::libraries) {
         line("library", fmt::format("{} {}: {}", library.name, library.version, library.serves));
     }
-    // Those whose version CMake does not know.
+    // Libraries whose versions are stated only in their headers.
     line("library", fmt::format("Spectra {}.{}.{}: vibration modes", SPECTRA_MAJOR_VERSION, SPECTRA_MINOR_VERSION,
                                 SPECTRA_PATCH_VERSION));
     line("library",
@@ -87,14 +87,14 @@ int doctor(const Invocation& given) {
     line("library",
          fmt::format("ISA-L {}.{}.{}: frames written", ISAL_MAJOR_VERSION, ISAL_MINOR_VERSION, ISAL_PATCH_VERSION));
     line("report page", page == 0
-                            ? "absent: `crackle report` and `crackle view` can write none"
+                            ? "absent: `crackle report` and `crackle view` cannot write pages"
                             : fmt::format("embedded, {} KiB: `crackle report` works without a network", page / 1024));
     const std::string shipped = shipped_folder();
-    line("shipped", shipped.empty() ? "found no cases: `crackle test specimens/...` finds them where they are alone"
+    line("shipped", shipped.empty() ? "found no cases: `crackle test specimens/...` needs the path of an existing case"
                                     : "specimens/... is also looked for in " + shipped);
     line("crackle-bench",
-         studies.empty() ? "found none: `crackle bench` says where to get it" : studies + ": studies of the engine");
-    line("gnuplot", gnuplot.empty() ? "found none on the PATH: `crackle-bench` leaves tables and scripts, no pictures"
+         studies.empty() ? "not found: `crackle bench` prints where to get it" : studies + ": studies of the engine");
+    line("gnuplot", gnuplot.empty() ? "not found on the PATH: `crackle-bench` leaves tables and scripts, no pictures"
                                     : gnuplot + ": draws the pictures of `crackle-bench`");
     const bool coloured = !styled("", Style::heading, Stream::out).empty();
     line("terminal", !is_terminal(Stream::out) ? "none: no colours, no progress line"

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle elastic CASE.toml`: what the linear solution gives for a specimen, without time stepping.
+// `crackle elastic CASE.toml`: prints the linear solution for a specimen, without time stepping.
 
 #include <fmt/format.h>
 
 #include <chrono>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/elastic/analysis.hpp"
 #include "specimens/elastic/jointed_compliance.hpp"
 #include "specimens/loading/prepare.hpp"
-#include "specimens/results/json_number.hpp"
 #include "specimens/statistics/spoken.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/terminal/printable.hpp"
 #include "tools/terminal/shipped.hpp"
 
 namespace crackle::tools {
@@ -46,33 +46,34 @@ std::string event_text(const VirtualTest& test, const ElasticAnalysis& a, const 
 }
 
 void print(const VirtualTest& test, const ElasticAnalysis& a, double seconds) {
-    fmt::print("{}, {}: {} particles, {} bonds, {} unknowns, {:.0f} ms\n", test.setup.specimen,
-               test.description.loading.kind, test.setup.particles, a.bonds.size(), a.unknowns, 1e3 * seconds);
+    print_out("{}, {}: {} particles, {} bonds, {} unknowns, {:.0f} ms\n", name_of(test.setup.specimen),
+              name_of(test.description.loading.kind), test.setup.particles, a.bonds.size(), a.unknowns, 1e3 * seconds);
     if (test.setup.uniaxial)
-        fmt::print("  Young's modulus   {}, Poisson's ratio {:.4g} (residual {:.1e})\n",
-                   spoken_stress(a.youngs_modulus, test.description.stress_unit(), 6), a.poissons_ratio, a.residual);
+        print_out("  Young's modulus   {}, Poisson's ratio {:.4g} (residual {:.1e})\n",
+                  spoken_stress(a.youngs_modulus, test.description.stress_unit(), 6), a.poissons_ratio, a.residual);
     else
-        fmt::print("  nominal modulus   {}, stress over strain as this kind defines them (residual {:.1e})\n",
-                   spoken_stress(a.youngs_modulus, test.description.stress_unit(), 6), a.residual);
-    fmt::print("  first slip        {}\n", event_text(test, a, a.first_slip));
-    fmt::print("  first break       {} (linear, no slip)\n", event_text(test, a, a.first_break));
-    fmt::print("  stable time step  {:.6g} s{}; bound {:.3f} of it; a test takes {:.3f} of it\n", a.stable_time_step,
-               a.stable_time_step_proved ? ", proved"
-               : test.world.settings.segment_law != SegmentLaw::rounded
-                   ? " (a bound: the law's stiffness is unsymmetric)"
-                   : " (at most 2 % below the exact one, which was not proved)",
-               a.time_step_bound / a.stable_time_step, a.time_step / a.stable_time_step);
+        print_out(
+            "  nominal modulus   {}, stress divided by strain as this kind of test defines them (residual {:.1e})\n",
+            spoken_stress(a.youngs_modulus, test.description.stress_unit(), 6), a.residual);
+    print_out("  first slip        {}\n", event_text(test, a, a.first_slip));
+    print_out("  first break       {} (linear, no slip)\n", event_text(test, a, a.first_break));
+    print_out("  stable time step  {:.6g} s{}; guaranteed bound {:.3f} of it; a test uses {:.3f} of it\n",
+              a.stable_time_step,
+              a.stable_time_step_proved ? ", proved"
+              : test.world.settings.segment_law != SegmentLaw::rounded
+                  ? " (a lower bound, since the contact law's stiffness is unsymmetric)"
+                  : " (not proved; at most 2 % below the exact value)",
+              a.time_step_bound / a.stable_time_step, a.time_step / a.stable_time_step);
     if (a.free.count > 0) {
         std::string ids;
         constexpr std::size_t shown = 12;
         for (std::size_t k = 0; k < a.free_ids.size() && k < shown; ++k) ids += fmt::format(" {}", a.free_ids[k]);
-        fmt::print("  {} motions store no energy; bodies{}{}\n", a.free.count, ids,
-                   a.free_ids.size() > shown
-                       ? fmt::format(" and {} more (--json lists them)", a.free_ids.size() - shown)
-                       : "");
+        print_out("  {} motions store no energy; they move bodies{}{}\n", a.free.count, ids,
+                  a.free_ids.size() > shown ? fmt::format(" and {} more (--json lists them)", a.free_ids.size() - shown)
+                                            : "");
     }
     for (std::size_t k = 0; k < a.frequencies.size(); ++k)
-        fmt::print("  mode {:<3} {:.6g} rad/s\n", k + 1, a.frequencies[k]);
+        print_out("  mode {:<3} {:.6g} rad/s\n", k + 1, a.frequencies[k]);
 }
 
 std::string bonds_table(const ElasticAnalysis& a) {
@@ -88,14 +89,14 @@ std::string bonds_table(const ElasticAnalysis& a) {
 }  // namespace
 
 TestCase elastic_case(TestCase description, std::vector<std::string>& notices) {
-    if (description.loading.platens == "frictional") {
-        notices.push_back("the linear solution knows bonded platens alone: taken in place of " +
-                          description.loading.platens);
-        description.loading.platens = "bonded";
+    if (description.loading.platens == PlatenKind::frictional) {
+        notices.push_back(fmt::format("the linear solution supports only bonded platens, which are used in place of {}",
+                                      name_of(description.loading.platens)));
+        description.loading.platens = PlatenKind::bonded;
     }
     if (description.confined()) {
-        notices.push_back("the linear solution is of the specimen without confining pressure");
-        description.loading.kind = "compression";
+        notices.push_back("the linear solution is for the specimen without confining pressure");
+        description.loading.kind = LoadingKind::compression;
         description.confinement = {};
     }
     return description;
@@ -121,18 +122,19 @@ Json compliance_as_json(const JointedCompliance& found) {
 
 void print(const JointedCompliance& found, const std::string& stress) {
     const auto print_row = [&](const char* name, std::size_t k) {
-        fmt::print("    {:<8} {:>11.5g} {:>11.5g}", name, 1.0 / found.jointed[k][k], 1.0 / found.welded[k][k]);
-        if (found.expected) fmt::print(" {:>11.5g}", 1.0 / (*found.expected)[k][k]);
-        fmt::print("\n");
+        print_out("    {:<8} {:>11.5g} {:>11.5g}", name, 1.0 / found.jointed[k][k], 1.0 / found.welded[k][k]);
+        if (found.expected) print_out(" {:>11.5g}", 1.0 / (*found.expected)[k][k]);
+        print_out("\n");
     };
-    fmt::print("  of the rock without platens, {}; the whole tensor: --json\n", stress);
-    fmt::print("             with joints      welded{}\n", found.expected ? "   by theory" : "");
+    print_out("  moduli of the rock without platens, {} (--json prints the full tensor)\n", stress);
+    print_out("             with joints      welded{}\n", found.expected ? "   by theory" : "");
     print_row("E along x", 0);
     print_row("E along y", 1);
     print_row("G", 2);
-    fmt::print("    {}\n", found.expected
-                               ? "by theory: the welded rock and what persistent joints add (Amadei and Goodman)"
-                               : "no theory beside it: " + found.why_not);
+    print_out("    {}\n",
+              found.expected
+                  ? "by theory: compliance of the welded rock plus that of persistent joints (Amadei and Goodman)"
+                  : "no theory for comparison: " + found.why_not);
 }
 
 }  // namespace
@@ -140,16 +142,16 @@ void print(const JointedCompliance& found, const std::string& stress) {
 std::string elastic_as_json(const VirtualTest& test, const ElasticAnalysis& a,
                             const std::optional<JointedCompliance>& compliance, double seconds, int indent) {
     Json json{{"title", test.description.title},
-              {"kind", test.description.loading.kind},
-              {"platens", test.description.loading.platens},
-              {"specimen", test.setup.specimen},
+              {"kind", name_of(test.description.loading.kind)},
+              {"platens", name_of(test.description.loading.platens)},
+              {"specimen", name_of(test.setup.specimen)},
               {"particles", test.setup.particles},
               {"bonds", a.bonds.size()},
-              {test.setup.uniaxial ? "youngs_modulus" : "nominal_modulus", finite_or_null(a.youngs_modulus)},
-              {"poissons_ratio", finite_or_null(a.poissons_ratio)},
-              {"stable_time_step", finite_or_null(a.stable_time_step)},
+              {test.setup.uniaxial ? "youngs_modulus" : "nominal_modulus", a.youngs_modulus},
+              {"poissons_ratio", a.poissons_ratio},
+              {"stable_time_step", a.stable_time_step},
               {"stable_time_step_proved", a.stable_time_step_proved},
-              {"time_step_bound", finite_or_null(a.time_step_bound)},
+              {"time_step_bound", a.time_step_bound},
               {"time_step", a.time_step},
               {"first_break_stress", stress_of(a.first_break)},
               {"first_break", event(a, a.first_break)},
@@ -164,58 +166,58 @@ std::string elastic_as_json(const VirtualTest& test, const ElasticAnalysis& a,
     if (compliance) json["compliance"] = compliance_as_json(*compliance);
     const std::string stress = test.description.stress_unit();
     json["units"] = {
-        {"youngs_modulus", stress +
-                               ", small strain, all bonds intact and sticking; nominal_modulus in its place where the "
-                               "test is not between platens: stress over strain as its kind defines them"},
+        {"youngs_modulus", stress + ", small strain, all bonds intact and sticking; replaced by nominal_modulus if the "
+                                    "test is not between platens: stress divided by strain as its kind defines them"},
         {"poissons_ratio", "-, by the definition of the curve's lateral strain"},
         {"stable_time_step", "s, exact: 4M - 2dt C - dt^2 K positive definite below it, checked by Cholesky if proved"},
-        {"time_step_bound", "s, guaranteed stable below, found without an eigenvalue solve"},
-        {"time_step", "s, what crackle test takes"},
-        {"first_break_stress", stress + ", axial, when the first bond fails (linear, no slip); null: none"},
-        {"first_slip_stress", stress + ", axial, when the first point reaches its Coulomb limit; null: none"},
+        {"time_step_bound", "s, guaranteed stable below this value, found without an eigenvalue solve"},
+        {"time_step", "s, time step that crackle test uses"},
+        {"first_break_stress", stress + ", axial, when the first bond fails (linear, no slip); null if none fails"},
+        {"first_slip_stress",
+         stress + ", axial, when the first contact point reaches its Coulomb limit; null if none does"},
         {"bond_strength", "N"},
         {"x", "m"},
         {"y", "m"},
         {"zero_energy_modes", "motions that store no energy: floating particles, particles on one circle contact"},
-        {"zero_energy_bodies", "ids of those that take part"},
-        {"residual", "|f - Ku| over |f|, the numerical error of the solve"},
-        {"angular_frequencies", "rad/s, lowest modes that store energy, platens held"},
-        {"seconds", "bonding, exact step, assembly, solves and eigenvalues, without making the specimen"}};
+        {"zero_energy_bodies", "ids of the bodies that move in these modes"},
+        {"residual", "|f - Ku| / |f|, the numerical error of the solve"},
+        {"angular_frequencies", "rad/s, of the lowest modes that store energy, with the platens held"},
+        {"seconds", "s, for bonding, exact time step, assembly, solves and eigenvalues, without making the specimen"}};
     if (compliance)
         json["units"]["compliance"] = fmt::format(
-            "1/({0}), of the jointed rock without platens, rows strain x, strain y, shear strain; columns stress x, "
-            "stress y, shear stress, tensile positive; welded: its traces as the rock; expected: that and what "
-            "persistent traces add (Amadei and Goodman); moduli: {0}, along x, along y, in shear",
+            "1/({0}), of the jointed rock without platens; rows: strain x, strain y, shear strain; columns: stress x, "
+            "stress y, shear stress; tension positive; welded: with the rock's properties on the traces; expected: "
+            "welded plus the compliance of persistent traces (Amadei and Goodman); moduli: {0}, along x, along y, in "
+            "shear",
             stress);
-    return json.dump(indent);
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 CommandLine describe_elastic() {
     po::options_description options;
     options.add_options()("json", "print one JSON object")  //
         ("strain", po::value<double>()->value_name("X")->default_value(1e-4, "1e-4"),
-         "axial strain at which --bonds gives forces")  //
+         "axial strain of the forces that --bonds writes")  //
         ("bonds", po::value<std::string>()->value_name("FILE"),
-         "CSV file to write: forces in all bonds, compression positive, shear as on body_i along the normal from i to "
-         "j turned by +90 degrees; strains of break and slip, inf: never; a bond that cannot break has the strength "
-         "inf")                         //
-        ("force", "replace that file")  //
+         "CSV file to write: forces in all bonds, compression positive. The shear force acts on body_i, along the "
+         "normal from i to j turned by +90 degrees. Strains of break and slip are inf if they never occur; the "
+         "strength of an unbreakable bond is inf")      //
+        ("force", "replace an existing file of bonds")  //
         ("modes", po::value<int>()->value_name("N")->default_value(0), "lowest vibration modes to find");
-    return {
-        .synopses = {"crackle elastic CASE.toml [OPTIONS]"},
-        .description =
-            "Makes and bonds the specimen of CASE.toml with its platens, assembles its sparse stiffness and solves "
-            "it: small-strain Young's modulus and Poisson's ratio, the bond that breaks first (linear, no slip) and "
-            "the one that slips first, the exact stable time step, motions without energy; of a jointed rock the "
-            "compliance, beside that of persistent sets. Takes no time step; "
-            "writes nothing unless asked.",
-        .options = {{"options", options}},
-        .operand = "CASE.toml",
-        .companions = {{"strain", {"bonds"}}, {"force", {"bonds"}}},
-        .verbose = "seconds of each stage, bodies and contacts, unknowns",
-        .examples = {{"crackle elastic specimens/guide_rock/circles_tension.toml"},
-                     {"crackle elastic case.toml --json --modes 5"},
-                     {"crackle elastic case.toml --strain 1e-4 --bonds bonds.csv"}}};
+    return {.synopses = {"crackle elastic CASE.toml [OPTIONS]"},
+            .description =
+                "Makes and bonds the specimen of CASE.toml with its platens, and solves the linear equations of its "
+                "stiffness matrix. Prints small-strain Young's modulus and Poisson's ratio, and the bonds that break "
+                "first (linear, no slip) and slip first. Also prints the exact stable time step and the number of "
+                "motions that store no energy. For a jointed rock it also prints the moduli, and those predicted for "
+                "persistent joint sets. Takes no time step; writes nothing unless an option requests it.",
+            .options = {{"options", options}},
+            .operand = "CASE.toml",
+            .companions = {{"strain", {"bonds"}}, {"force", {"bonds"}}},
+            .verbose = "seconds of each stage, bodies and contacts, unknowns",
+            .examples = {{"crackle elastic specimens/guide_rock/circles_tension.toml"},
+                         {"crackle elastic case.toml --json --modes 5"},
+                         {"crackle elastic case.toml --strain 1e-4 --bonds bonds.csv"}}};
 }
 
 int elastic(const Invocation& given) {
@@ -230,7 +232,7 @@ int elastic(const Invocation& given) {
     if (modes < 0) throw InputError(fmt::format("crackle elastic: --modes: found {}, expected a number >= 0", modes));
     TestCase description = read_case(given_or_shipped(given.operands.front()));
     if (values.contains("bonds"))
-        refuse_replacing(values["bonds"].as<std::string>(), values.contains("force"), files_read(description));
+        output_file(values["bonds"].as<std::string>(), values.contains("force"), files_read(description));
     TestHooks hooks;
     if (!values.contains("json") || messages.verbose())
         hooks.stage = [&messages](const std::string& text) { messages.stage(text); };
@@ -246,7 +248,7 @@ int elastic(const Invocation& given) {
     if (modes > 0) messages.progress().step(0.0, fmt::format("solving the linear system, {} modes", modes));
     const ElasticAnalysis analysis = analyse_elastic(test.world, test.setup, moduli_of(test), strain, modes);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count() - test.specimen_seconds;
-    TestHooks quietly = hooks;  // the same specimen again
+    TestHooks quietly = hooks;  // for making the same specimen again without messages
     quietly.stage = quietly.detail = {};
     const std::optional<JointedCompliance> compliance = jointed_compliance(description, quietly);
     messages.make_room();
@@ -255,7 +257,7 @@ int elastic(const Invocation& given) {
         for (const std::string& notice : test.setup.notices) hooks.stage("notice: " + notice);
     if (values.contains("bonds")) replace_file(values["bonds"].as<std::string>(), bonds_table(analysis));
     if (values.contains("json"))
-        std::cout << elastic_as_json(test, analysis, compliance, seconds, 2) << '\n';
+        print_text(elastic_as_json(test, analysis, compliance, seconds, 2) + '\n');
     else
         print(test, analysis, seconds);
     if (compliance && !values.contains("json")) print(*compliance, test.description.stress_unit());

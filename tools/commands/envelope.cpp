@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle envelope OUT...`: strength over confinement, of tests and of campaigns.
+// `crackle envelope OUT...`: prints strength against confinement, from tests or campaigns.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,23 +7,23 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/envelope/measured_strengths.hpp"
 #include "specimens/envelope/strength_envelope.hpp"
-#include "specimens/results/json_number.hpp"
 #include "specimens/statistics/mean.hpp"
 #include "specimens/statistics/spoken.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/plot/envelope_panels.hpp"
 #include "tools/plot/figure_options.hpp"
+#include "tools/terminal/printable.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -32,16 +32,17 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 using plot::EnvelopeFigure;
 
-/// Of strength over tension, from m: Hoek & Martin, J. Rock Mech. Geotech. Eng. 6, 2014.
+/// Ratio of unconfined to tensile strength as a function of m: Hoek & Martin, J. Rock Mech. Geotech. Eng. 6, 2014.
 double hoek_martin(double m) { return 8.62 + 0.7 * m; }
 
-constexpr std::size_t enough_confinements = 5;  // for Hoek-Brown's two numbers (Hoek & Brown 2019)
-constexpr double largest_share = 0.5;           // of the unconfined strength, likewise
-constexpr double trusted_misfit = 0.1;          // about what packings scatter by
-constexpr double trusted_factor = 1.5;          // between ratio and hoek_martin(): about the spread of their rocks
-constexpr double smallest_m = 4.0, largest_m = 35.0;  // of intact rocks in their tables
+constexpr std::size_t enough_confinements = 5;  // needed to fit the two parameters of Hoek-Brown (Hoek & Brown 2019)
+constexpr double largest_share = 0.5;   // of the unconfined strength: largest confinement for Hoek-Brown (ibid.)
+constexpr double trusted_misfit = 0.1;  // about as large as the scatter between packings
+constexpr double trusted_factor =
+    1.5;  // accepted factor between a strength ratio and hoek_martin(), about the scatter of its data
+constexpr double smallest_m = 4.0, largest_m = 35.0;  // range of m for intact rocks in Hoek and Brown's tables
 
-/// What a reader of the numbers should know, a sentence each.
+/// Notices about the fitted parameters for the user, one sentence each.
 std::vector<std::string> notices_on(const EnvelopeFigure& e) {
     const StrengthEnvelope& laws = e.laws;
     std::vector<std::string> all;
@@ -49,49 +50,49 @@ std::vector<std::string> notices_on(const EnvelopeFigure& e) {
          {std::pair("Mohr-Coulomb", laws.misfit), std::pair("Hoek-Brown", laws.hoek_brown_misfit)}) {
         if (misfit > trusted_misfit)
             all.push_back(fmt::format(
-                "{} misses the means by {:.2g} of them: the rock does not follow it over these pressures, and "
-                "its numbers hold for no other",
+                "{} deviates from the mean strengths by {:.2g} of their values; this rock does not follow the law in "
+                "this range of pressures, and the fitted parameters are not valid for other ranges",
                 law, misfit));
     }
     const double unconfined = laws.hoek_brown_strength.value, last = laws.strengths.back().confinement;
     const bool has_unconfined = laws.strengths.front().confinement == 0.0;
     const double strength = has_unconfined ? laws.strengths.front().mean : unconfined;
     if (last > largest_share * strength * (1.0 + 1e-9)) {
-        all.push_back(
-            fmt::format("the largest pressure is {:.2g} of the unconfined strength, beyond the half up to which "
-                        "Hoek-Brown is meant",
-                        last / strength));
+        all.push_back(fmt::format(
+            "the largest pressure is {:.2g} of the unconfined strength; Hoek-Brown applies only up to half of it",
+            last / strength));
     }
-    if (!has_unconfined) all.emplace_back("no unconfined compression: the unconfined strength is extrapolated");
+    if (!has_unconfined) all.emplace_back("no unconfined compression tests; the unconfined strength is extrapolated");
     if (laws.strengths.size() < enough_confinements) {
-        all.push_back(fmt::format("{}; Hoek and Brown ask for {} or more, 0 among them",
+        all.push_back(fmt::format("{}; Hoek and Brown require at least {}, including 0",
                                   counted(laws.strengths.size(), "confinement"), enough_confinements));
     }
     if (!(laws.slope.value > 1.0))
-        all.emplace_back("the strength grows by less than the confinement: the friction angle is not positive");
+        all.emplace_back("the strength increases less than the confinement, so the friction angle is not positive");
     const double m = laws.hoek_brown_m.value;
     if (m < smallest_m || m > largest_m) {
-        all.push_back(fmt::format("m = {:.3g}; intact rocks have {:g} to {:g}", m, smallest_m, largest_m));
+        all.push_back(fmt::format("m = {:.3g}; for intact rocks it is {:g} to {:g}", m, smallest_m, largest_m));
     }
     if (e.tension.count == 0) {
-        all.emplace_back("no tension: m is not checked against the tensile strength");
+        all.emplace_back("no tension tests; m is not checked against the tensile strength");
     } else {
         const double factor = unconfined / e.tension.mean / hoek_martin(m);
         if (factor > trusted_factor || factor < 1.0 / trusted_factor) {
             all.push_back(
-                fmt::format("unconfined over tensile strength is {:.2g} times what Hoek and Martin find at this m: one "
-                            "of the three is not a rock's",
+                fmt::format("the ratio of unconfined to tensile strength is {:.2g} times that of Hoek and Martin for "
+                            "this m; at least one of the three values is unrealistic for rock",
                             factor));
         }
     }
     for (const std::string& one : e.tests.left_out) all.push_back("left out: " + one);
+    if (e.tests.failures > 0)
+        all.push_back(fmt::format("{} ended with a system error; run `crackle campaign` again to repeat them",
+                                  counted(e.tests.failures, "test")));
     return all;
 }
 
 Json interval_of(const FittedNumber& number) {
-    return {{"value", finite_or_null(number.value)},
-            {"low", finite_or_null(number.low)},
-            {"high", finite_or_null(number.high)}};
+    return {{"value", number.value}, {"low", number.low}, {"high", number.high}};
 }
 
 Json as_json(const EnvelopeFigure& e, const std::vector<std::string>& notices) {
@@ -101,9 +102,9 @@ Json as_json(const EnvelopeFigure& e, const std::vector<std::string>& notices) {
         strengths.push_back({{"confining_pressure", at.confinement},
                              {"tests", at.tests},
                              {"mean", at.mean},
-                             {"deviation", finite_or_null(at.deviation)},
-                             {"low", finite_or_null(at.low)},
-                             {"high", finite_or_null(at.high)},
+                             {"deviation", at.deviation},
+                             {"low", at.low},
+                             {"high", at.high},
                              {"mohr_coulomb", laws.mohr_coulomb(at.confinement)},
                              {"hoek_brown", laws.hoek_brown(at.confinement)}});
     }
@@ -111,7 +112,7 @@ Json as_json(const EnvelopeFigure& e, const std::vector<std::string>& notices) {
     Json json{{"measure", measure.strain ? Json({{"strain", *measure.strain}}) : Json({{"figure", measure.figure}})},
               {"unit", e.tests.unit},
               {"packings", laws.packings},
-              {"variation", finite_or_null(laws.variation)},
+              {"variation", laws.variation},
               {"strengths", strengths},
               {"mohr_coulomb",
                {{"strength", interval_of(laws.strength)},
@@ -128,26 +129,25 @@ Json as_json(const EnvelopeFigure& e, const std::vector<std::string>& notices) {
     if (e.tension.count > 0) {
         json["tension"] = {{"tests", e.tension.count},
                            {"mean", e.tension.mean},
-                           {"deviation", finite_or_null(e.tension.deviation)},
-                           {"low", finite_or_null(e.tension.low)},
-                           {"high", finite_or_null(e.tension.high)},
+                           {"deviation", e.tension.deviation},
+                           {"low", e.tension.low},
+                           {"high", e.tension.high},
                            {"strength_ratio", laws.hoek_brown_strength.value / e.tension.mean},
                            {"strength_ratio_by_m", hoek_martin(laws.hoek_brown_m.value)}};
     }
     json["notices"] = notices;
     const std::string stress = e.tests.unit;
     json["units"] = {
-        {"measure", "what is taken for the strength: a figure of summary.json, or the stress at an axial strain"},
-        {"strengths",
-         stress + ", means of tests; low and high: their 95 % interval; mohr_coulomb, hoek_brown: what the laws have"},
+        {"measure", "quantity used as the strength: a key of summary.json, or the stress at an axial strain"},
+        {"strengths", stress + ", means of tests; low and high: their 95 % interval; mohr_coulomb, hoek_brown: "
+                               "strengths by the fitted laws"},
         {"variation", "-, pooled coefficient of variation of the packings"},
-        {"mohr_coulomb", stress + ", degrees of friction_angle: strength + slope * confining_pressure"},
+        {"mohr_coulomb", stress + ", friction_angle in degrees: strength + slope * confining_pressure"},
         {"hoek_brown", stress + ": confining_pressure + sqrt(m strength confining_pressure + strength^2)"},
         {"low, high",
-         "95 % intervals of the laws' numbers: by drawing packings again, of fewer than 8 packings Student's t over "
-         "them"},
-        {"misfit", "-, root mean square of what the law misses the means by, over them"},
-        {"strength_ratio", "-, Hoek-Brown's strength over the mean tensile strength"},
+         "95 % intervals of the fitted parameters, by resampling packings; for fewer than 8 packings, by Student's t"},
+        {"misfit", "-, root mean square of the law's deviations from the means, relative to the means"},
+        {"strength_ratio", "-, ratio of Hoek-Brown's unconfined strength to the mean tensile strength"},
         {"strength_ratio_by_m", "-, 8.62 + 0.7 m, Hoek & Martin 2014"}};
     return json;
 }
@@ -167,33 +167,33 @@ void print(const EnvelopeFigure& e) {
         if (!std::isfinite(n.low)) return fmt::format("{:.4g} (no interval)", n.value / by);
         return fmt::format("{:.4g} ({:.4g} to {:.4g})", n.value / by, n.low / by, n.high / by);
     };
-    fmt::print("{} of {} in {}, which scatter by {:.2g} of their mean\n", e.tests.measure.spoken(),
-               counted(laws.packings, "packing"), unit, laws.variation);
-    fmt::print("  {:>10}{:>7}{:>10}{:>11}{:>20}{:>14}{:>12}\n", "pressure", "tests", "mean", "deviation",
-               "95 % interval", "Mohr-Coulomb", "Hoek-Brown");
+    print_out("{} of {} in {}; coefficient of variation {:.2g}\n", e.tests.measure.spoken(),
+              counted(laws.packings, "packing"), unit, laws.variation);
+    print_out("  {:>10}{:>7}{:>10}{:>11}{:>20}{:>14}{:>12}\n", "pressure", "tests", "mean", "deviation",
+              "95 % interval", "Mohr-Coulomb", "Hoek-Brown");
     for (const StrengthAt& at : laws.strengths) {
-        fmt::print("  {:>10}{:>7}{:>10}{:>11}{:>20}{:>14}{:>12}\n", stress(at.confinement), at.tests, stress(at.mean),
-                   stress(at.deviation), range(at.low, at.high), stress(laws.mohr_coulomb(at.confinement)),
-                   stress(laws.hoek_brown(at.confinement)));
+        print_out("  {:>10}{:>7}{:>10}{:>11}{:>20}{:>14}{:>12}\n", stress(at.confinement), at.tests, stress(at.mean),
+                  stress(at.deviation), range(at.low, at.high), stress(laws.mohr_coulomb(at.confinement)),
+                  stress(laws.hoek_brown(at.confinement)));
     }
     if (e.tension.count > 0) {
-        fmt::print("  {:>10}{:>7}{:>10}{:>11}{:>20}{:>14}{:>12}\n", "tension", e.tension.count, stress(e.tension.mean),
-                   stress(e.tension.deviation), range(e.tension.low, e.tension.high), "",
-                   stress(-laws.hoek_brown_tension()));
+        print_out("  {:>10}{:>7}{:>10}{:>11}{:>20}{:>14}{:>12}\n", "tension", e.tension.count, stress(e.tension.mean),
+                  stress(e.tension.deviation), range(e.tension.low, e.tension.high), "",
+                  stress(-laws.hoek_brown_tension()));
     }
-    fmt::print("\nMohr-Coulomb, misfit {:.2g}\n", laws.misfit);
-    fmt::print("  friction angle       {} degrees\n", number(laws.friction_angle, 1.0));
-    fmt::print("  cohesion             {} {}\n", number(laws.cohesion, factor), unit);
-    fmt::print("  unconfined strength  {} {}\n", number(laws.strength, factor), unit);
-    fmt::print("  N                    {}\n", number(laws.slope, 1.0));
-    fmt::print("Hoek-Brown, misfit {:.2g}\n", laws.hoek_brown_misfit);
-    fmt::print("  m                    {}\n", number(laws.hoek_brown_m, 1.0));
-    fmt::print("  unconfined strength  {} {}\n", number(laws.hoek_brown_strength, factor), unit);
+    print_out("\nMohr-Coulomb, misfit {:.2g}\n", laws.misfit);
+    print_out("  friction angle       {} degrees\n", number(laws.friction_angle, 1.0));
+    print_out("  cohesion             {} {}\n", number(laws.cohesion, factor), unit);
+    print_out("  unconfined strength  {} {}\n", number(laws.strength, factor), unit);
+    print_out("  N                    {}\n", number(laws.slope, 1.0));
+    print_out("Hoek-Brown, misfit {:.2g}\n", laws.hoek_brown_misfit);
+    print_out("  m                    {}\n", number(laws.hoek_brown_m, 1.0));
+    print_out("  unconfined strength  {} {}\n", number(laws.hoek_brown_strength, factor), unit);
     if (e.tension.count > 0) {
         const FittedNumber& m = laws.hoek_brown_m;
-        fmt::print("  over the tensile     {:.3g}; 8.62 + 0.7 m = {:.3g} ({:.3g} to {:.3g}) after Hoek and Martin\n",
-                   laws.hoek_brown_strength.value / e.tension.mean, hoek_martin(m.value), hoek_martin(m.low),
-                   hoek_martin(m.high));
+        print_out("  ratio to tensile     {:.3g}; Hoek and Martin: 8.62 + 0.7 m = {:.3g} ({:.3g} to {:.3g})\n",
+                  laws.hoek_brown_strength.value / e.tension.mean, hoek_martin(m.value), hoek_martin(m.low),
+                  hoek_martin(m.high));
     }
 }
 
@@ -207,7 +207,7 @@ StrengthMeasure measure_of(const po::variables_map& values) {
     return measure;
 }
 
-/// @throws InputError of too little, with what was left out
+/// Fits both laws. @throws InputError if there are too few tests; the message lists the tests that were left out
 EnvelopeFigure fitted_to(const MeasuredStrengths& tests) {
     try {
         return {fit_envelope(tests.compressions), tests, mean_of(tests.tensions)};
@@ -235,31 +235,33 @@ CommandLine describe_envelope() {
     po::options_description options;
     options.add_options()("json", "print one JSON object")  //
         ("figure", po::value<std::string>()->value_name("NAME")->default_value("peak_stress"),
-         "stress of summary.json taken for the strength of compressions: largest_stress of tests that harden")  //
+         "stress in summary.json used as the strength of compression tests, such as largest_stress for tests that "
+         "harden")  //
         ("strain", po::value<double>()->value_name("X"),
-         "take the stress of the curve at this axial strain in its place, of tests that reach it")  //
+         "use the stress at this axial strain as the strength instead, for tests that reach it")  //
         ("output,o", po::value<std::string>()->value_name("FIGURE"),
-         "figure to write: .svg, .pdf or .png; strengths with both laws over confinement and, beside or below, Mohr "
-         "circles with both envelopes");
+         "figure to write: .svg, .pdf or .png; it shows strengths and both laws against confinement, and Mohr circles "
+         "with both envelopes");
     plot::add_figure_options(options, 2);
-    options.add_options()("force", "replace a figure that is there");
+    options.add_options()("force", "replace an existing figure");
     std::vector<Companion> companions{{"force", {"output"}}};
     for (const std::string& option : plot::figure_options()) companions.push_back({option, {"output"}});
     return {
         .synopses = {"crackle envelope OUT... [OPTIONS]"},
         .description =
-            "Strength over confining pressure from folders that `crackle test` or `crackle campaign` wrote: "
-            "compressions without and under pressure (kind = \"biaxial\") of one rock, of two packings and three "
-            "pressures at least. Mohr-Coulomb and Hoek-Brown by least squares, with 95 % intervals by drawing packings "
-            "again, and what they miss the means by; tensile strength beside them where there are tensions. Tests "
-            "without a strength are left out and named; of tests that harden --figure or --strain takes a stress.",
+            "Prints strength against confining pressure, from folders that `crackle test` or `crackle campaign` wrote. "
+            "It needs compression tests of one rock without and with confining pressure (kind = \"biaxial\"), at least "
+            "two packings and three pressures. Mohr-Coulomb and Hoek-Brown are fitted by least squares; their "
+            "parameters have 95 % intervals from resampled packings. The tensile strength is printed if there are "
+            "tension tests. Tests without a strength are left out and listed. For tests that harden, use --figure or "
+            "--strain. Exit code 4: some tests were left out because they ended with a system error.",
         .options = {{"options", options}},
         .operand = "OUT",
         .several_operands = true,
         .companions = companions,
         .examples = {{"crackle envelope out/granite-envelope", "a campaign: specimens/plans/granite_envelope.toml"},
                      {"crackle envelope out/granite-envelope -o envelope.pdf"},
-                     {"crackle envelope out/soil --strain 0.02", "of tests that harden"},
+                     {"crackle envelope out/soil --strain 0.02", "the strength is the stress at a strain of 0.02"},
                      {"crackle envelope out/unconfined-1 out/unconfined-2 out/confined-1 out/confined-2 --json"}}};
 }
 
@@ -273,7 +275,7 @@ int envelope(const Invocation& given) {
     plot::Format format = plot::Format::svg;
     if (!output.empty()) {
         format = plot::format_of_output("envelope", output);
-        refuse_replacing(output, values.contains("force"));
+        output_file(output, values.contains("force"));
     }
     const plot::FigureLook look = plot::figure_look("envelope", values, format);
     const MeasuredStrengths tests =
@@ -282,12 +284,12 @@ int envelope(const Invocation& given) {
     const std::vector<std::string> notices = notices_on(fitted);
     if (!output.empty()) draw(fitted, output, look, format);
     if (values.contains("json")) {
-        std::cout << as_json(fitted, notices).dump(2) << '\n';
+        print_text(as_json(fitted, notices).dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
     } else {
         print(fitted);
-        for (const std::string& notice : notices) fmt::print("notice: {}\n", notice);
+        for (const std::string& notice : notices) print_out("notice: {}\n", notice);
     }
-    return exit_done;
+    return tests.failures > 0 ? exit_system_fails : exit_done;
 }
 
 }  // namespace crackle::tools

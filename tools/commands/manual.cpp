@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle man`: the manual page, in the man macros of roff.
+// `crackle man`: prints the manual page in roff, with the man macros.
 // Tested by tests/tools/commands/command_line_test.cpp.
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <iostream>
+#include <cstddef>
 #include <string_view>
 
+#include "solver/base/utf8.hpp"
+#include "specimens/results/output_folder.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/build_info.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/terminal/printable.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -21,37 +23,18 @@ struct Term {
     const char* text;
 };
 
-constexpr Term result_files[] = {
-    {"case.toml", "the case with every value in the open, and the hashes of its inputs; it can be run again"},
-    {"curve.csv", "one row an observed step: strain, stress, energies"},
-    {"events.csv", "one row a broken bonded point"},
-    {"summary.json", "figures of the whole test, with their units"},
-    {"frames/", "frames.pvd for ParaView: particles, contacts and cracks at start, peak, end and in between"},
-    {"checkpoint", "the complete state, for --resume"},
-};
-
 constexpr Term variables[] = {
-    {"NO_COLOR", "where it is set to anything: no colours"},
-    {"TERM", "where it is dumb or not set: neither colours nor a progress line"},
+    {"NO_COLOR", "if set to any value, disables colours"},
+    {"TERM", "if unset or \"dumb\", disables colours and the progress line"},
 };
 
-/// One letter of UTF-8 at `at`, which is moved behind it.
-std::uint32_t letter_at(std::string_view text, std::size_t& at) {
-    const auto byte = [&](std::size_t k) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[k])); };
-    const std::uint32_t first = byte(at++);
-    if (first < 0x80) return first;
-    const int more = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : 1;
-    std::uint32_t letter = first & (0x3FU >> more);
-    for (int k = 0; k < more && at < text.size(); ++k) letter = letter << 6U | (byte(at++) & 0x3FU);
-    return letter;
-}
-
-/// Text that roff shows as it is: nothing in it is a request, hyphens stay what one types.
+/// Text escaped so that roff prints it unchanged: no line is read as a request, and hyphens can be copied as typed.
 std::string literal(std::string_view text) {
     std::string out;
     bool line_begins = true;
-    for (std::size_t at = 0; at < text.size();) {
-        const std::uint32_t letter = letter_at(text, at);
+    while (!text.empty()) {
+        const auto [bytes, letter] = first_letter(text);
+        text.remove_prefix(std::max<std::size_t>(bytes, 1));
         if (line_begins && (letter == '.' || letter == '\'')) out += "\\&";
         line_begins = letter == '\n';
         if (letter == '\\') {
@@ -75,7 +58,7 @@ std::string literal(std::string_view text) {
     return out;
 }
 
-/// Paragraphs, an empty line between them in the text.
+/// The paragraphs of a text, which are separated by empty lines.
 std::string paragraphs(const std::string& text) {
     std::string out = ".PP\n";
     std::size_t begin = 0;
@@ -122,7 +105,7 @@ std::string command_text(const std::string& name, const CommandLine& line) {
 }
 
 std::string manual_page() {
-    // Adjusted to the left: names of files and options stretch no line, and cause no warning where they fill one.
+    // Left-aligned, so that long names of files and options neither stretch lines nor cause warnings.
     std::string out = fmt::format(
         ".\\\" Made by `crackle man`.\n.TH CRACKLE 1 \"\" \"crackle {}\" \"Virtual rock tests\"\n.ad l\n.nh\n"
         ".SH NAME\ncrackle \\- makes bonded rock specimens and tests them\n"
@@ -131,9 +114,9 @@ std::string manual_page() {
         ".SH DESCRIPTION\n",
         literal(build_info::version));
     out += literal(
-        "A random packing of circles becomes bonded discs, Delaunay triangles or Voronoi polygons, platens pull or "
-        "squeeze it until it breaks, and out come stress-strain curves, every single bond break, and pictures of the "
-        "broken specimen. Decks of DEMseg run as well.\n");
+        "A random packing of circles becomes bonded discs, Delaunay triangles or Voronoi polygons. Platens pull or "
+        "squeeze it until it breaks. The results are stress-strain curves, every single bond break, and pictures of "
+        "the broken specimen. DEMseg decks can be run as well.\n");
     out += ".SH COMMANDS\n";
     for (const Command& command : commands()) {
         out += command_text(command.name, command.describe());
@@ -141,8 +124,9 @@ std::string manual_page() {
         for (const Command& study : command.studies())
             out += command_text(fmt::format("{} {}", command.name, study.name), study.describe());
     }
-    out += ".SH FILES\nWhat\n.B crackle test\nleaves in its folder OUT:\n";
-    for (const Term& file : result_files) out += tagged(fmt::format("\\fI{}\\fR", literal(file.name)), file.text);
+    out += ".SH FILES\nFiles that\n.B crackle test\nwrites to its folder OUT:\n";
+    for (const ResultFile& file : result_files())
+        out += tagged(fmt::format("\\fI{}\\fR", literal(file.name)), file.holds);
     out += ".SH ENVIRONMENT\n";
     for (const Term& variable : variables)
         out += tagged(fmt::format("\\fB{}\\fR", literal(variable.name)), variable.text);
@@ -154,15 +138,15 @@ std::string manual_page() {
 }  // namespace
 
 CommandLine describe_manual() {
-    return {.synopses = {"crackle man"},
-            .description =
-                "Prints the manual page of the program, all commands with all options. cmake --install puts "
-                "it where man(1) looks.",
-            .examples = {{"crackle man | man -l -", "reads it"}, {"crackle man > crackle.1"}}};
+    return {
+        .synopses = {"crackle man"},
+        .description =
+            "Prints the manual page, with all commands and options. cmake --install installs it where man(1) finds it.",
+        .examples = {{"crackle man | man -l -", "shows it"}, {"crackle man > crackle.1"}}};
 }
 
 int manual(const Invocation&) {
-    std::cout << manual_page();
+    print_text(manual_page());
     return exit_done;
 }
 

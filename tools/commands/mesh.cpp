@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle mesh IN`: polygon particles from a packing of circles or a list of centres.
+// `crackle mesh IN`: makes polygon particles from a packing of circles or a list of centres.
 
 #include "mesher/mesher.hpp"
 
@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -17,6 +16,7 @@
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "solver/files/file_kind.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "solver/files/text_lines.hpp"
@@ -29,13 +29,14 @@
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/centre_list.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/terminal/printable.hpp"
 
 namespace crackle::tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The four numbers after --domain as one value: a negative one would be taken for an option.
+/// Joins the four numbers after --domain into one value, since a negative number would be parsed as an option.
 Arguments join_domain(Arguments words) {
     const auto found = std::find(words.begin(), words.end(), "--domain");
     if (found == words.end()) return words;
@@ -61,20 +62,20 @@ Domain parse_domain(const std::string& text) {
     return domain;
 }
 
-/// What is to be meshed.
+/// Centres to be meshed, and their origin.
 struct Source {
-    Scene scene;  ///< materials and domain of the result; no bodies
+    Scene scene;  ///< contains materials and domain of the result, but no bodies
     std::vector<CellCentre> centres;
-    std::vector<int> materials;       ///< of each centre
-    std::vector<std::string> origin;  ///< of each centre, as the user knows it
-    std::optional<double> thick;      ///< of the deck
+    std::vector<int> materials;       ///< by centre: index of its material
+    std::vector<std::string> origin;  ///< by centre: its description in messages
+    std::optional<double> thick;      ///< m, gap between facing edges as given in the deck
 };
 
 Source centres_of_list(const std::string& name, const std::string& text, const po::variables_map& values,
                        Messages& messages) {
     const CentreList list = parse_centre_list(name, text);
     if (list.form != "x y")
-        messages.notice(fmt::format("{}: read as a list of {}; polygons are made of x y alone", name, list.form));
+        messages.notice(fmt::format("{}: read as a list of {}; polygons are made from x and y only", name, list.form));
     Source source;
     for (std::size_t k = 0; k < list.places.size(); ++k) {
         source.centres.push_back({list.places[k].x, list.places[k].y});
@@ -115,19 +116,19 @@ Source centres_of_deck(const std::string& name, const std::string& text, const p
          {"domain", "bounding-box", "density", "normal-stiffness", "shear-stiffness", "friction-angle"}) {
         if (values.contains(option) && !values[option].defaulted()) {
             throw InputError(
-                fmt::format("crackle mesh: --{}: found with {}, read as a particle file that states its own; leave it "
-                            "out, or give a list of centres, x y a line",
+                fmt::format("crackle mesh: --{}: found with {}, a particle file, which states this value itself; leave "
+                            "the option out, or give a list of centres with x y on each line",
                             option, name));
         }
     }
     Source source;
     for (const Body& body : circles.bodies) {
         if (body.circle_count != 1) {
-            throw InputError(fmt::format(
-                "{}: found body {}, a {}, expected bodies of one circle each to take their centres", name, body.id,
-                body.circle_count > 1 ? "clump"
-                : body.closed         ? "polygon"
-                                      : "chain of segments"));
+            throw InputError(fmt::format("{}: found body {}, a {}, expected bodies that are single circles", name,
+                                         body.id,
+                                         body.circle_count > 1 ? "clump"
+                                         : body.closed         ? "polygon"
+                                                               : "chain of segments"));
         }
         const Vec2 centre = circles.circles[body.first_circle].centre;
         source.centres.push_back({centre.x, centre.y});
@@ -138,12 +139,12 @@ Source centres_of_deck(const std::string& name, const std::string& text, const p
     source.thick = circles.thick;
     source.scene.bodies.clear();
     source.scene.circles.clear();
-    // The circles' step means nothing to polygons: 0 has it derived from their stiffness bound.
+    // The time step for the circles does not apply to polygons; 0 means that it is chosen from their stable bound.
     source.scene.time_step = 0.0;
     return source;
 }
 
-/// @param joints  whose traces the request has; of none without traces
+/// @param joints the joints whose traces are in the request; empty if it has no traces
 Mesh mesh_source(const Source& source, const MeshRequest& request, const JointNetwork& joints) {
     const Domain& domain = source.scene.domain;
     try {
@@ -173,7 +174,7 @@ bool is_first(const po::variables_map& values, const char* option, const char* f
     return word == first;
 }
 
-/// Both where none is asked for, as volonoi.f makes them.
+/// The kinds of mesh to make: both if none is given, as in volonoi.f.
 std::vector<MeshKind> kinds_of(const po::variables_map& values) {
     if (!values.contains("kind")) return {MeshKind::delaunay, MeshKind::voronoi};
     return {mesh_kind(values)};
@@ -186,13 +187,14 @@ MeshRequest request_of(const po::variables_map& values, MeshKind kind, const Sou
     if (kind == MeshKind::voronoi && request.boundary == Boundary::centres) {
         if (values.contains("kind")) {
             throw InputError(
-                "--boundary: found centres with --kind voronoi, expected domain: Voronoi cells always fill it");
+                "--boundary: found centres with --kind voronoi, expected domain, which Voronoi cells always fill");
         }
         request.boundary = Boundary::domain;
     }
     if (!values.contains("thick") && !source.thick) {
         throw InputError(
-            "--thick: found nothing, expected the gap between facing edges in m: a list of centres has no thick");
+            "--thick: found nothing, expected the gap between facing edges in m, which a list of centres does not "
+            "state");
     }
     request.mesh_gap = values.contains("thick") ? values["thick"].as<double>() : *source.thick;
     if (values.contains("inset")) request.inset = values["inset"].as<double>();
@@ -200,25 +202,26 @@ MeshRequest request_of(const po::variables_map& values, MeshKind kind, const Sou
     return request;
 }
 
-/// Of the option --joints.
+/// The case that defines the traces, given by the option --joints.
 std::optional<TestCase> joints_case(const po::variables_map& values) {
     if (!values.contains("joints")) return std::nullopt;
     const fs::path file = values["joints"].as<std::string>();
     TestCase test = CaseFiles(file).joints();
     if (!test.jointed())
-        throw InputError(fmt::format("{}: found no [[joint_set]] and no [[trace]], expected one", file.string()));
+        throw InputError(
+            fmt::format("{}: found no [[joint_set]] and no [[trace]], expected at least one", file.string()));
     return test;
 }
 
-/// One file for each of the kinds.
+/// Paths of the output files, in the order of `kinds`.
 std::vector<fs::path> output_paths(const po::variables_map& values, const std::vector<MeshKind>& kinds,
                                    const fs::path& input) {
     const fs::path asked = values.contains("output") ? values["output"].as<std::string>() : "";
     const bool folder = asked.empty() || fs::is_directory(asked);
     if (!folder && kinds.size() > 1) {
         throw InputError(
-            fmt::format("--output: found {}, which is no folder, expected one for in_gm_tri.dat and in_gm_volo.dat, or "
-                        "--kind for one file",
+            fmt::format("--output: found {}, which is not a folder, expected a folder for in_gm_tri.dat and "
+                        "in_gm_volo.dat; give --kind to write one file",
                         asked.string()));
     }
     std::vector<fs::path> inputs{input};
@@ -229,41 +232,39 @@ std::vector<fs::path> output_paths(const po::variables_map& values, const std::v
     std::vector<fs::path> paths;
     for (const MeshKind kind : kinds) {
         const char* usual = kind == MeshKind::delaunay ? "in_gm_tri.dat" : "in_gm_volo.dat";
-        paths.push_back(folder ? asked / usual : asked);
-        refuse_replacing(paths.back(), values.contains("force"), inputs);
+        paths.push_back(output_file(folder ? asked / usual : asked, values.contains("force"), inputs));
     }
     return paths;
 }
 
-/// A mesh on its way to its file.
+/// A mesh, with its deck and its report lines.
 struct Meshed {
     MeshKind kind = MeshKind::voronoi;
     fs::path output;
     MeshReport report;
     Domain domain;
     double gap = 0.0;
-    std::string deck;                // its text
-    std::vector<std::string> lines;  // on its joints
+    std::string deck;                // text of the deck to write
+    std::vector<std::string> lines;  // report lines about its joints
 };
 
-/// @param from  where the gap is from, in brackets; empty: the command line
+/// @param from source of the gap, in brackets; empty if the command line gave it
 void print_report(const Meshed& made, const std::string& from) {
     const MeshReport& report = made.report;
     const Domain& domain = made.domain;
-    std::cout << fmt::format("centres          {} in x {:.6g} to {:.6g}, y {:.6g} to {:.6g}\n", report.centres,
-                             domain.x1, domain.x2, domain.y1, domain.y2)
-              << fmt::format("gap              {:.6g}{}\n", made.gap, from)
-              << fmt::format("cells            {} ({})\n", report.cells,
-                             made.kind == MeshKind::delaunay ? "delaunay" : "voronoi")
-              << fmt::format("segments         {}\n", report.segments)
-              << fmt::format("shortest edge    {:.6g}\n", report.shortest_edge)
-              << fmt::format("smallest angle   {:.4g} degrees\n", report.smallest_angle)
-              << fmt::format("cells destroyed  {}{}\n", report.cells_destroyed,
-                             report.cells_destroyed > 0 ? " (merged)" : "")
-              << fmt::format("area             {:.9g}, {:.9g} after the inset\n", report.area_before_inset,
-                             report.area_after_inset)
-              << fmt::format("written          {}\n", made.output.string());
-    for (const std::string& line : made.lines) std::cout << line << '\n';
+    print_text(
+        fmt::format("centres          {} in x {:.6g} to {:.6g}, y {:.6g} to {:.6g}\n", report.centres, domain.x1,
+                    domain.x2, domain.y1, domain.y2) +
+        fmt::format("gap              {:.6g}{}\n", made.gap, from) +
+        fmt::format("cells            {} ({})\n", report.cells, name_of(made.kind)) +
+        fmt::format("segments         {}\n", report.segments) +
+        fmt::format("shortest edge    {:.6g}\n", report.shortest_edge) +
+        fmt::format("smallest angle   {:.4g} degrees\n", report.smallest_angle) +
+        fmt::format("cells destroyed  {}{}\n", report.cells_destroyed, report.cells_destroyed > 0 ? " (merged)" : "") +
+        fmt::format("area             {:.9g}, {:.9g} after the inset\n", report.area_before_inset,
+                    report.area_after_inset) +
+        fmt::format("written          {}\n", made.output.string()));
+    for (const std::string& line : made.lines) print_text(line + '\n');
 }
 
 }  // namespace
@@ -313,19 +314,19 @@ CommandLine describe_mesh() {
     const auto number = [] { return po::value<double>()->value_name("X"); };
     const auto word = [](const char* name) { return po::value<std::string>()->value_name(name); };
     po::options_description options, plain;
-    options.add_options()("kind", word("KIND"), "delaunay or voronoi (default: both files, as volonoi.f made them)")  //
-        ("thick", number(), "gap between facing edges (default: thick of the in_gm.dat)")                             //
-        ("inset", number(), "move edges inwards by so much instead of half the gap, m")                               //
+    options.add_options()("kind", word("KIND"),
+                          "delaunay or voronoi (default: both, in two files, as by DEMseg's volonoi.f)")  //
+        ("thick", number(), "gap between facing edges (default: thick of the in_gm.dat)")                 //
+        ("inset", number(), "depth by which edges move inwards, m (default: half the gap)")               //
         ("boundary", word("WHICH")->default_value("domain"),
-         "of triangles. domain: flat faces, made by projecting the outer centres, for platens; centres: between "
-         "centres "
-         "only, as volonoi.f made the guide's 537 triangles of 304 circles")                               //
-        ("merge", "give the place of cells that the inset destroys to neighbours, instead of an error")    //
-        ("joints", word("FILE"), "traces of this file of joints become edges (crackle joints)")            //
+         "outer edge of triangles. domain: flat faces for platens, made by projecting the outer centres; centres: the "
+         "outermost centres, as volonoi.f made the 537 triangles from 304 circles in DEMseg's guide")      //
+        ("merge", "merge cells that the inset destroys into neighbours, instead of an error")              //
+        ("joints", word("FILE"), "file of joints, whose traces become edges (see crackle joints)")         //
         ("output,o", word("FILE"), "file to write, or folder (default: in_gm_tri.dat or in_gm_volo.dat)")  //
-        ("force", "replace the output if it is there");
+        ("force", "replace an existing output");
     plain.add_options()("domain", word("X1 X2 Y1 Y2"), "the domain, m")               //
-        ("bounding-box", "take the centres' bounding box as the domain")              //
+        ("bounding-box", "use the bounding box of the centres as the domain")         //
         ("density", number()->default_value(usual.density), "kg/m2")                  //
         ("normal-stiffness", number()->default_value(usual.normal_stiffness), "N/m")  //
         ("shear-stiffness", number()->default_value(usual.shear_stiffness), "N/m")    //
@@ -333,11 +334,10 @@ CommandLine describe_mesh() {
     return {
         .synopses = {"crackle mesh IN [--kind delaunay|voronoi] [--thick T] [OPTIONS]"},
         .description =
-            "Makes polygons of the centres of the circles in IN, an in_gm.dat, or of a list of centres, one x y a "
-            "line (or x y r of circles). Each polygon is inset along every edge, so that facing edges stand T apart, "
-            "and T/2 from the "
-            "domain's faces. Writes particle files of polygons (in_gm_tri.dat, in_gm_volo.dat). Lengths in the "
-            "units of IN.",
+            "Makes polygons from the centres of the circles in IN. IN is an in_gm.dat, or a list of centres with one x "
+            "y per line (or x y r of circles). Each polygon is inset along every edge, so that facing edges stand T "
+            "apart, and T/2 from the domain's faces. Writes particle files of polygons (in_gm_tri.dat, "
+            "in_gm_volo.dat). Lengths are in the units of IN.",
         .options = {{"options", options}, {"options for a list of centres", plain}},
         .operand = "IN",
         .choices = {{"kind", {"delaunay", "voronoi"}}, {"boundary", {"domain", "centres"}}},
@@ -345,11 +345,11 @@ CommandLine describe_mesh() {
         .examples = {{"crackle mesh in_gm.dat", "cells of both kinds, as volonoi.f makes them"},
                      {"crackle mesh in_gm.dat --kind voronoi --thick 1e-3", "the cells of a packing"},
                      {"crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --boundary centres",
-                      "triangles between circles only"},
+                      "triangles between the circles' centres only"},
                      {"crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --joints specimens/jointed/two_sets.toml",
                       "triangles along joints"},
                      {"crackle mesh centres.txt --kind voronoi --thick 0 --domain 0 1 0 2",
-                      "cells of your own centres, no gaps"}},
+                      "cells around your own centres, without gaps"}},
         .prepared = join_domain};
 }
 
@@ -365,7 +365,7 @@ int mesh(const Invocation& given) {
     Messages& messages = given.messages;
     messages.progress().begin("reading " + name, 3.0, "");
     const std::string text = read_text(name);
-    // All are made before the first is written: what one refuses leaves the other's file as it was.
+    // All meshes are made before the first is written, so that an error in one of them leaves both files unchanged.
     std::vector<Meshed> made;
     for (std::size_t k = 0; k < kinds.size(); ++k) {
         Meshed& one = made.emplace_back();

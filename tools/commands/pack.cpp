@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle pack`: random circles in a box, compressed to equilibrium, as an in_gm.dat.
+// `crackle pack`: packs random circles in a box, compresses them to equilibrium and writes an in_gm.dat.
 
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <iostream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "solver/base/errors.hpp"
 #include "solver/demseg/geometry.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/packing/packing.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/terminal/printable.hpp"
 #include "tools/terminal/threads.hpp"
 
 namespace crackle::tools {
@@ -32,7 +33,7 @@ SizeDistribution sizes_of(const po::variables_map& values) {
     const auto deviation = optional_value<double>(values, "lognormal-deviation");
     if (values.contains("sieve")) {
         if (low || high || median || deviation)
-            throw InputError("--sieve: found other sizes beside it, expected the curve alone");
+            throw InputError("--sieve: found with other options for sizes, expected --sieve alone");
         return read_sieve_curve(values["sieve"].as<std::string>());
     }
     if (median || deviation) {
@@ -41,30 +42,29 @@ SizeDistribution sizes_of(const po::variables_map& values) {
         return LognormalRadii{*median, *deviation, low.value_or(0.0), high.value_or(0.0)};
     }
     if (!low || !high)
-        throw InputError("sizes: found none, expected --radius-min and --radius-max, a lognormal, or --sieve FILE");
+        throw InputError(
+            "sizes: found no option, expected --radius-min and --radius-max, the --lognormal options, or --sieve FILE");
     return UniformRadii{*low, *high};
 }
 
 void print_report(const PackingReport& r, const std::string& output) {
-    std::cout << fmt::format("circles          {}, radii {:.6g} to {:.6g} m\n", r.circles, r.radius_min, r.radius_max)
-              << fmt::format("box              {:.9g} m x {:.9g} m\n", r.width, r.height)
-              << fmt::format("void ratio       {:.6g}\n", r.void_ratio)
-              << fmt::format("mean overlap     {:.6g} m (circles, bottom and top)\n", r.mean_overlap)
-              << fmt::format("contacts         {} between circles; walls {} left, {} right, {} bottom, {} top\n",
-                             r.circle_contacts, r.wall_contacts[0], r.wall_contacts[1], r.wall_contacts[2],
-                             r.wall_contacts[3])
-              << fmt::format(
-                     "coordination     {:.4g} of all circles, {:.4g} of those that carry load, walls included\n",
-                     r.coordination, r.coordination_of_carrying)
-              << fmt::format("floating         {} circles without contact\n", r.floating)
-              << fmt::format("stress           x {:.6g}, y {:.6g} N/m; anisotropy {:.2g}\n", r.stress_x, r.stress_y,
-                             r.anisotropy)
-              << fmt::format("unbalanced       {:.2g} of the mean contact force {:.6g} N, at most\n", r.residual,
-                             r.mean_contact_force);
-    if (r.radius_scale != 1.0)
-        std::cout << fmt::format("radii            drawn sizes times {:.6f}, to fill the box\n", r.radius_scale);
-    for (const std::string& notice : packing_notices(r)) std::cout << "notice           " << notice << '\n';
-    std::cout << "written          " << output << '\n';
+    print_text(fmt::format("circles          {}, radii {:.6g} to {:.6g} m\n", r.circles, r.radius_min, r.radius_max) +
+               fmt::format("box              {:.9g} m x {:.9g} m\n", r.width, r.height) +
+               fmt::format("void ratio       {:.6g}\n", r.void_ratio) +
+               fmt::format("mean overlap     {:.6g} m (circles, bottom and top)\n", r.mean_overlap) +
+               fmt::format("contacts         {} between circles; walls {} left, {} right, {} bottom, {} top\n",
+                           r.circle_contacts, r.wall_contacts[0], r.wall_contacts[1], r.wall_contacts[2],
+                           r.wall_contacts[3]) +
+               fmt::format("coordination     {:.4g} of all circles, {:.4g} of those that carry load, walls included\n",
+                           r.coordination, r.coordination_of_carrying) +
+               fmt::format("floating         {} circles without contact\n", r.floating) +
+               fmt::format("stress           x {:.6g}, y {:.6g} N/m; anisotropy {:.2g}\n", r.stress_x, r.stress_y,
+                           r.anisotropy) +
+               fmt::format("unbalanced       at most {:.2g} of the mean contact force, {:.6g} N\n", r.residual,
+                           r.mean_contact_force));
+    if (r.radius_scale != 1.0) print_out("radii            scaled by {:.6f} to fill the box\n", r.radius_scale);
+    for (const std::string& notice : packing_notices(r)) print_out("notice           {}\n", notice);
+    print_out("written          {}\n", output);
 }
 
 }  // namespace
@@ -93,22 +93,24 @@ CommandLine describe_pack() {
     const Material usual{2500.0, 1.0e7, 2.5e6, 0.0, 0.0, {}, 27.0};
     const auto number = [] { return po::value<double>()->value_name("X"); };
     po::options_description options, material;
-    options.add_options()("count", po::value<std::int64_t>()->value_name("N"), "number of circles; the box follows")  //
-        ("height-to-width", number(), "shape of the box, with --count (2 if not given)")                              //
-        ("width", number(), "of the box, m; met exactly, by scaling the radii within 0.5 %")                          //
-        ("height", number(), "of the box, m; likewise")                                                               //
-        ("radius-min", number(), "smallest radius, m (alone with --radius-max: uniform)")                             //
-        ("radius-max", number(), "largest radius, m")                                                                 //
-        ("lognormal-median", number(), "median radius, m")                                                            //
-        ("lognormal-deviation", number(), "standard deviation of ln(radius)")                                         //
+    options.add_options()("count", po::value<std::int64_t>()->value_name("N"),
+                          "number of circles, which determines the size of the box")                               //
+        ("height-to-width", number(), "ratio of height to width of the box, with --count (default: 2)")            //
+        ("width", number(), "width of the box, m; met exactly by scaling the radii by at most 0.5 %")              //
+        ("height", number(), "height of the box, m; met like the width")                                           //
+        ("radius-min", number(), "smallest radius, m (uniform distribution, unless lognormal options are given)")  //
+        ("radius-max", number(), "largest radius, m")                                                              //
+        ("lognormal-median", number(), "median radius, m")                                                         //
+        ("lognormal-deviation", number(), "standard deviation of ln(radius)")                                      //
         ("sieve", po::value<std::string>()->value_name("FILE"),
-         "grading curve, a table with the columns size (diameter, m) and passing_by_mass")                       //
-        ("mean-overlap", number(), "target: mean over circles and bottom and top wall, m")                       //
-        ("void-ratio", number(), "target: (box - circles) / circles")                                            //
-        ("seed", po::value<std::int64_t>()->value_name("N")->default_value(1), "of the random numbers")          //
-        ("threads", po::value<int>()->value_name("N")->default_value(1), "never change a byte")                  //
+         "grading curve, a table with the columns size (diameter, m) and passing_by_mass")                    //
+        ("mean-overlap", number(), "target: mean over circles and bottom and top wall, m")                    //
+        ("void-ratio", number(), "target: (box - circles) / circles")                                         //
+        ("seed", po::value<std::int64_t>()->value_name("N")->default_value(1), "seed of the random numbers")  //
+        ("threads", po::value<int>()->value_name("N")->default_value(1),
+         "number of threads; does not affect the results")                                                       //
         ("output,o", po::value<std::string>()->value_name("FILE")->default_value("in_gm.dat"), "file to write")  //
-        ("force", "replace the output if it is there");
+        ("force", "replace an existing output");
     material.add_options()("density", number()->default_value(usual.density), "kg/m2")  //
         ("normal-stiffness", number()->default_value(usual.normal_stiffness), "N/m")    //
         ("shear-stiffness", number()->default_value(usual.shear_stiffness), "N/m")      //
@@ -120,7 +122,7 @@ CommandLine describe_pack() {
             "Packs random circles between four smooth walls to mechanical equilibrium and writes them as an "
             "in_gm.dat.",
         .options = {{"options", options}, {"material of the file", material}},
-        .verbose = "seconds of each stage, draws of the packing",
+        .verbose = "seconds of each stage, packing attempts",
         .examples = {
             {"crackle pack --count 304 --radius-min 1.333e-2 --radius-max 2.667e-2 --mean-overlap 7.74e-5 -o "
              "in_gm.dat"},
@@ -131,31 +133,31 @@ CommandLine describe_pack() {
 
 int pack(const Invocation& given) {
     const po::variables_map& values = given.values;
-    const std::string output = values["output"].as<std::string>();
     std::vector<std::filesystem::path> inputs;
     if (values.contains("sieve")) inputs.emplace_back(values["sieve"].as<std::string>());
-    refuse_replacing(output, values.contains("force"), inputs);
+    const std::filesystem::path output =
+        output_file(values["output"].as<std::string>(), values.contains("force"), inputs);
     Messages& messages = given.messages;
     const PackingRequest request = packing_request(values, messages);
     std::string stage;
     const Packing packing = make_packing(request, [&](const PackingProgress& p) {
         if (messages.verbose() && p.stage != stage) {
             stage = p.stage;
-            messages.detail(fmt::format("draw {}: {}", p.attempt, stage));
+            messages.detail(fmt::format("attempt {}: {}", p.attempt, stage));
         }
         if (!messages.progress().shown()) return;
-        messages.progress().draw({.detail = fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force",
-                                                        p.stage, p.attempt, p.residual)});
+        messages.progress().draw(
+            {.detail = fmt::format("{} (attempt {}): unbalanced by {:.1e} of the mean contact force", p.stage,
+                                   p.attempt, p.residual)});
     });
     messages.make_room();
-    messages.detail(fmt::format("packed {} circles, {} contacts, in {} draws", packing.report.circles,
+    messages.detail(fmt::format("packed {} circles with {} contacts in {} attempts", packing.report.circles,
                                 packing.report.circle_contacts, packing.report.attempts));
     std::ostringstream deck;
     write_geometry(deck, packing.scene);
-    const std::filesystem::path folder = std::filesystem::path(output).parent_path();
-    if (!folder.empty()) make_folder(folder);
+    make_folder(folder_of(output));
     replace_file(output, deck.str());
-    if (!messages.quiet()) print_report(packing.report, output);
+    if (!messages.quiet()) print_report(packing.report, output.string());
     return exit_done;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle plot OUT... -o FILE`: figures for papers from the results of tests.
+// `crackle plot OUT... -o FILE`: draws figures for publications from the results of tests.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,6 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <iterator>
 #include <limits>
 #include <map>
@@ -17,6 +16,7 @@
 #include <span>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/recordings/distinct_names.hpp"
 #include "specimens/recordings/recording.hpp"
@@ -29,6 +29,7 @@
 #include "tools/plot/deck_panels.hpp"
 #include "tools/plot/figure_options.hpp"
 #include "tools/plot/panels.hpp"
+#include "tools/terminal/printable.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -37,7 +38,7 @@ namespace fs = std::filesystem;
 using namespace plot;
 using Words = std::vector<std::string>;
 
-/// How the figure looks, of whatever it is.
+/// Appearance of a figure, for all kinds of input.
 struct Look : FigureLook {
     Format format = Format::svg;
     DrawingStyle drawing;
@@ -51,7 +52,8 @@ Look look_of(const po::variables_map& given) {
     return look;
 }
 
-/// Refuses options that have no effect on a figure of `input`. @param used beside --output, --force and how it looks
+/// Refuses options that have no effect on figures of `input`. @param used options that have an effect, in addition to
+/// --output, --force and those for the appearance
 void expect_options(const po::variables_map& given, const std::string& input, Words used) {
     used.insert(used.end(), {"output", "force"});
     used.insert(used.end(), figure_options().begin(), figure_options().end());
@@ -64,12 +66,12 @@ std::string capitalised(std::string word) {
     return word;
 }
 
-/// «Circles, tension» where that distinguishes the tests, else as distinct_names() does.
+/// Labels such as «Circles, tension» if these distinguish the tests; otherwise those of distinct_names().
 Words default_labels(const std::vector<Recording>& tests) {
     Words labels;
     for (const Recording& test : tests)
-        labels.push_back(fmt::format("{}, {}", capitalised(test.results.summary.word("specimen")),
-                                     test.results.summary.word("kind")));
+        labels.push_back(fmt::format("{}, {}", capitalised(test.results.summary.about.specimen.name()),
+                                     test.results.summary.about.kind.name()));
     Words sorted = labels;
     std::sort(sorted.begin(), sorted.end());
     if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return labels;
@@ -84,7 +86,7 @@ std::string strain_text(double strain) {
     return strain == 0.0 ? "ε = 0" : fmt::format("ε = {:.3g}·10⁻³", 1e3 * strain);
 }
 
-/// The frame of a word (start, peak, end) or nearest to a strain.
+/// Index of the frame for a word (start, peak, end), or of the frame nearest to a given strain.
 std::size_t frame_at(const Recording& test, const std::string& at) {
     if (test.frames.empty())
         throw InputError(
@@ -99,7 +101,7 @@ std::size_t frame_at(const Recording& test, const std::string& at) {
     if (error != std::errc() || end != at.data() + at.size()) {
         const bool role = at == "start" || at == "peak" || at == "end";
         throw InputError(fmt::format("plot: --at: found '{}', {}", at,
-                                     role ? fmt::format("which {} has no frame of", test.name)
+                                     role ? fmt::format("for which {} has no frame", test.name)
                                           : std::string("expected a strain, start, peak or end")));
     }
     const double last = test.frames.back().axial_strain.value_or(0.0);
@@ -114,7 +116,7 @@ std::size_t frame_at(const Recording& test, const std::string& at) {
                                     test.frames.begin());
 }
 
-/// @param asked moments, else the usual ones, of which two may be the same
+/// @param asked the requested moments; if empty, the usual ones, two of which may coincide
 Panel drawings_of(const Recording& test, const fs::path& folder, const std::optional<Words>& asked,
                   const DrawingStyle& style) {
     std::vector<DrawnMoment> drawn;
@@ -123,7 +125,7 @@ Panel drawings_of(const Recording& test, const fs::path& folder, const std::opti
         if (!asked && std::ranges::find(drawn, frame, &DrawnMoment::frame) != drawn.end()) continue;
         const FrameHead& head = test.frames[frame];
         Words names = head.roles;
-        if (!test.results.summary.flag("failed"))
+        if (!test.results.summary.about.failed.value_or(false))
             std::replace(names.begin(), names.end(), std::string("peak"), std::string("peak so far"));
         Words caption{strain_text(head.axial_strain.value_or(0.0))};
         if (!names.empty()) caption.insert(caption.begin(), fmt::format("{}", fmt::join(names, ", ")));
@@ -132,11 +134,12 @@ Panel drawings_of(const Recording& test, const fs::path& folder, const std::opti
     return drawings(drawn, std::vector<fs::path>(drawn.size(), folder), style);
 }
 
-/// What there is: a test without frames has no drawing, and how the area changes is looked at in one compression.
+/// All parts that can be drawn. A test without frames has no drawing, and the area strain is drawn only for a single
+/// compression test.
 Words everything_of(const std::vector<Recording>& tests) {
     Words what{"curve"};
     const TestResults& first = tests.front().results;
-    if (tests.size() == 1 && first.summary.word("kind") != "tension" && has_area_strain(first))
+    if (tests.size() == 1 && first.summary.about.kind != LoadingKind::tension && has_area_strain(first))
         what.emplace_back("strain");
     what.emplace_back("ae");
     if (std::ranges::all_of(tests, [](const Recording& test) { return has_emission(test.results); }))
@@ -146,7 +149,7 @@ Words everything_of(const std::vector<Recording>& tests) {
     return what;
 }
 
-/// Magnitudes of all tests together, and rows of maps of those that have a frame.
+/// Adds one panel with the magnitudes of all tests, and rows of maps for the tests that have frames.
 void add_emission_panels(std::vector<Panel>& panels, const std::vector<Recording>& tests, const Words& folders,
                          const std::vector<PlottedTest>& plotted) {
     panels.push_back(magnitude_frequency(plotted));
@@ -165,7 +168,7 @@ void add_emission_panels(std::vector<Panel>& panels, const std::vector<Recording
     }
 }
 
-/// Of --what. @param of what the known words are
+/// Checks the values of --what. @param of the kind of input that has these values, for the message
 void expect_words(const Words& what, const Words& known, const char* of) {
     for (const std::string& word : what) {
         if (std::ranges::find(known, word) != known.end()) continue;
@@ -174,7 +177,7 @@ void expect_words(const Words& what, const Words& known, const char* of) {
     }
 }
 
-/// Refuses options of parts that are not drawn.
+/// Refuses options that refer to parts that are not drawn.
 void expect_parts_of(const po::variables_map& given, const Words& what) {
     const auto drawn = [&](const char* part) { return std::ranges::find(what, part) != what.end(); };
     const auto expect = [&](const char* option, bool used, const char* input) {
@@ -187,8 +190,7 @@ void expect_parts_of(const po::variables_map& given, const Words& what) {
 
 void plot_tests(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
     expect_options(given, "folders of tests", {"what", "at", "magnify", "labels"});
-    const fs::path output = given["output"].as<std::string>();
-    refuse_replacing(output, given.contains("force"));
+    const fs::path output = output_file(given["output"].as<std::string>(), given.contains("force"));
     Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
     expect_words(what, {"curve", "ae", "emission", "strain", "specimen", "all"}, "");
     std::vector<Recording> tests;
@@ -210,15 +212,15 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
         for (const Recording& test : tests) {
             if (has_emission(test.results)) continue;
             throw InputError(
-                fmt::format("plot: {}: found no ae.csv, expected that of a test that listened (output.emission of its "
-                            "case, and a linear solution: see notices of summary.json); leave emission out of --what",
+                fmt::format("plot: {}: found no ae.csv, expected one; it needs output.emission of the case and a "
+                            "linear solution (see notices of summary.json); leave emission out of --what",
                             test.name));
         }
     }
     expect_parts_of(given, what);
     Words labels = given.contains("labels") ? given["labels"].as<Words>() : default_labels(tests);
     if (labels.size() != tests.size())
-        throw InputError(fmt::format("plot: --labels: found {}, expected {}, one a test",
+        throw InputError(fmt::format("plot: --labels: found {}, expected {}, one per test",
                                      counted(labels.size(), "name"), tests.size()));
     std::vector<PlottedTest> plotted;
     for (std::size_t k = 0; k < tests.size(); ++k) plotted.push_back({&tests[k].results, labels[k], k, false});
@@ -236,11 +238,12 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
             if (tests.size() > 1) panels.back().title = labels[k];
         }
     }
-    // A figure of one test has no legend that names it.
+    // A figure of a single test has no legend, so its name is the title.
     if (tests.size() == 1)
-        panels.front().title = given.contains("labels") ? labels.front() : tests.front().results.summary.word("title");
+        panels.front().title =
+            given.contains("labels") ? labels.front() : tests.front().results.summary.about.title.value_or("");
     replace_file(output, figure(panels, look.title, look.width, look.format, look.sheet));
-    if (!messages.quiet()) std::cout << output.string() << '\n';
+    if (!messages.quiet()) print_text(output.string() + '\n');
 }
 
 const std::map<std::string, DeckWord>& deck_words() {
@@ -256,17 +259,17 @@ bool is_run_of_deck(const fs::path& path) {
     return fs::exists(folder / "output.dat") && !fs::exists(folder / "summary.json");
 }
 
-/// @throws InputError if only some are: their figures have no axis in common
+/// Whether all paths are deck runs. @throws InputError if only some are, since their diagrams have no axes in common
 bool are_runs_of_decks(const Words& paths) {
     const auto other = std::ranges::find_if(
         paths, [&](const std::string& path) { return is_run_of_deck(path) != is_run_of_deck(paths.front()); });
     if (other == paths.end()) return is_run_of_deck(paths.front());
     const bool first = is_run_of_deck(paths.front());
-    throw InputError(fmt::format("plot: {}: found the run of a deck beside {}, expected runs of decks or tests alone",
+    throw InputError(fmt::format("plot: {}: found the run of a deck and {}, expected either runs of decks or tests",
                                  first ? paths.front() : *other, first ? *other : paths.front()));
 }
 
-/// Numbers of the bodies that a run has curves of.
+/// Ids of the bodies for which a run has curves.
 std::vector<int> watched_bodies(const Recording& deck) {
     std::vector<int> all;
     const auto id = [](const auto& curve) { return curve.id; };
@@ -275,17 +278,17 @@ std::vector<int> watched_bodies(const Recording& deck) {
     return all;
 }
 
-/// Those of --bodies, else the first ones.
+/// Bodies selected by --bodies; if not given, the first few.
 std::vector<int> drawn_bodies(const po::variables_map& given, const Recording& deck, Messages& messages) {
-    constexpr std::size_t most = 8;  // curves that can be told apart
+    constexpr std::size_t most = 8;  // number of curves that can be distinguished
     std::vector<int> watched = watched_bodies(deck);
     if (given.contains("bodies")) {
         std::vector<int> bodies = given["bodies"].as<std::vector<int>>();
         for (const int id : bodies) {
             if (std::ranges::find(watched, id) != watched.end()) continue;
-            throw InputError(fmt::format("plot: --bodies: found {}, expected one that the run of {} wrote rows of: {}",
-                                         id, deck.name,
-                                         watched.empty() ? "none" : fmt::format("{}", fmt::join(watched, ", "))));
+            throw InputError(
+                fmt::format("plot: --bodies: found {}, expected a body for which the run of {} wrote rows: {}", id,
+                            deck.name, watched.empty() ? "none" : fmt::format("{}", fmt::join(watched, ", "))));
         }
         return bodies;
     }
@@ -297,7 +300,7 @@ std::vector<int> drawn_bodies(const po::variables_map& given, const Recording& d
     return watched;
 }
 
-/// What --what asks for; of `all` what there is to see.
+/// The parts selected by --what; `all` means everything that is worth drawing.
 std::vector<DeckWord> words_of_decks(const Words& what, const std::vector<PlottedDeck>& decks) {
     std::vector<DeckWord> words;
     for (const std::string& word : what) {
@@ -308,7 +311,7 @@ std::vector<DeckWord> words_of_decks(const Words& what, const std::vector<Plotte
         }
         if (found == deck_words().end()) {
             const auto names = deck_words() | std::views::keys;
-            throw InputError(fmt::format("plot: --what: found '{}', expected of the run of a deck {} or all", word,
+            throw InputError(fmt::format("plot: --what: found '{}', expected {} or all for the run of a deck", word,
                                          fmt::join(names, ", ")));
         }
         words.push_back(found->second);
@@ -321,23 +324,22 @@ std::vector<DeckWord> words_of_decks(const Words& what, const std::vector<Plotte
                                                             : "f-d_curve.dat";
             throw InputError(fmt::format("plot: {}: found no rows in {}, expected {}", deck.recording->name, file,
                                          word == DeckWord::energy || word == DeckWord::velocity
-                                             ? "those of a run of at least a step"
+                                             ? "those of a run of at least one step"
                                              : "those of bodies that in_bc.dat lists (npfd)"));
         }
     }
     if (words.empty())
         throw InputError(
-            fmt::format("plot: {}: found nothing that changes, expected rows in energy.dat, f-d_curve.dat "
+            fmt::format("plot: {}: found no changing values, expected rows in energy.dat, f-d_curve.dat "
                         "or velocity_y.dat",
                         decks.front().recording->name));
     return words;
 }
 
-/// Curves of decks' runs, those of several in the same panels.
+/// Draws curves of deck runs; several runs share panels.
 void plot_decks(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
     expect_options(given, "runs of decks", {"what", "labels", "units", "bodies"});
-    const fs::path output = given["output"].as<std::string>();
-    refuse_replacing(output, given.contains("force"));
+    const fs::path output = output_file(given["output"].as<std::string>(), given.contains("force"));
     std::optional<UnitNames> units;
     if (given.contains("units")) units = units_named("plot: --units", given["units"].as<std::string>());
     std::vector<Recording> runs;
@@ -349,8 +351,8 @@ void plot_decks(const po::variables_map& given, const Words& folders, const Look
                    : runs.size() > 1        ? distinct_names(runs)
                                             : Words{""};
     if (labels.size() != runs.size())
-        throw InputError(fmt::format("plot: --labels: found {}, expected {}, one a run", counted(labels.size(), "name"),
-                                     runs.size()));
+        throw InputError(fmt::format("plot: --labels: found {}, expected {}, one per run",
+                                     counted(labels.size(), "name"), runs.size()));
     std::vector<PlottedDeck> decks;
     for (std::size_t k = 0; k < runs.size(); ++k)
         decks.push_back({&runs[k], labels[k], drawn_bodies(given, runs[k], messages)});
@@ -364,11 +366,11 @@ void plot_decks(const po::variables_map& given, const Words& folders, const Look
         panels.insert(panels.end(), added.begin(), added.end());
     }
     replace_file(output, figure(panels, look.title, look.width, look.format, look.sheet));
-    if (!messages.quiet()) std::cout << output.string() << '\n';
+    if (!messages.quiet()) print_text(output.string() + '\n');
 }
 
-/// All figures of a campaign, one below the other.
-void plot_campaign(const po::variables_map& given, const fs::path& folder, const Look& look, Messages& messages) {
+/// Draws all diagrams of a campaign, below each other. @return exit code
+int plot_campaign(const po::variables_map& given, const fs::path& folder, const Look& look, Messages& messages) {
     expect_options(given, "a campaign's folder", {"what", "figure", "test", "measured"});
     const Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
     expect_words(what, {"curve", "axes", "scatter", "all"}, " of a campaign");
@@ -379,8 +381,7 @@ void plot_campaign(const po::variables_map& given, const fs::path& folder, const
         throw without_effect("crackle plot", "--measured", "a figure without curves");
     if (given.contains("figure") && !is_drawn("axes") && !is_drawn("scatter"))
         throw without_effect("crackle plot", "--figure", "curves alone");
-    const fs::path output = given["output"].as<std::string>();
-    refuse_replacing(output, given.contains("force"));
+    const fs::path output = output_file(given["output"].as<std::string>(), given.contains("force"));
     CampaignRecord record = read_campaign(folder, given.contains("figure") ? given["figure"].as<Words>() : Words{},
                                           given.contains("test") ? given["test"].as<Words>() : Words{});
     if (given.contains("measured")) add_measured_curve(record, given["measured"].as<std::string>());
@@ -390,12 +391,16 @@ void plot_campaign(const po::variables_map& given, const fs::path& folder, const
     if (panels.empty())
         throw InputError(fmt::format("plot: {}: found nothing to draw, expected figures or curves", folder.string()));
     replace_file(output, figure(panels, look.title, look.width, look.format, look.sheet));
-    if (!messages.quiet()) std::cout << output.string() << '\n';
+    if (!messages.quiet()) print_text(output.string() + '\n');
+    const std::string failures = notice_on_failures(record);
+    if (failures.empty()) return exit_done;
+    messages.notice(failures);
+    return exit_system_fails;
 }
 
 constexpr int first_guide_figure = 26, last_guide_figure = 29;
 
-/// These figures of the guide: its circles, the partitions made of them, and what these bear.
+/// Draws figures 26 to 29 of DEMseg's guide: the circle packing, the meshes made from it, and their curves and cracks.
 void plot_guide(const po::variables_map& given, const Look& look, Messages& messages) {
     expect_options(given, "--guide", {"guide", "format", "magnify"});
     const fs::path folder = given["guide"].as<std::string>(), output = given["output"].as<std::string>();
@@ -405,7 +410,7 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
                                      output.string()));
     const auto file_of = [&](int number) { return output / fmt::format("figure{}.{}", number, extension); };
     for (int number = first_guide_figure; number <= last_guide_figure; ++number)
-        refuse_replacing(file_of(number), given.contains("force"));
+        output_file(file_of(number), given.contains("force"));
     std::map<std::string, Recording> tests;
     for (const char* specimen : {"circles", "delaunay", "voronoi"}) {
         for (const char* kind : {"tension", "compression"}) {
@@ -434,7 +439,7 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
         return row({at(specimen + "_tension", "end", "end of tension"),
                     at(specimen + "_compression", "end", "end of compression")});
     };
-    // The guide's letters of figure 26: (a) the packing, (b) what is left of it, (c) the curves, (d) the breaks.
+    // Parts of figure 26 in DEMseg's guide: (a) the packing, (b) the broken specimen, (c) the curves, (d) the breaks.
     auto broken = at("circles_tension", "end", "end of tension");
     broken.first.lettered = true;
     const std::map<int, std::vector<Panel>> figures{
@@ -451,7 +456,7 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
     for (const auto& [number, panels] : figures) {
         const fs::path file = file_of(number);
         replace_file(file, figure(panels, look.title, look.width, look.format, look.sheet));
-        if (!messages.quiet()) std::cout << file.string() << '\n';
+        if (!messages.quiet()) print_text(file.string() + '\n');
     }
 }
 
@@ -462,44 +467,45 @@ CommandLine describe_plot() {
     options.add_options()("output,o", po::value<std::string>()->value_name("FIGURE"),
                           "figure to write: .svg, .pdf or .png; with --guide a folder")  //
         ("what", po::value<Words>()->multitoken()->value_name("WORD"),
-         "curve, ae (breaks), emission (acoustic events: magnitudes of all tests together, and maps), strain (of the "
-         "area, and what of it is cracks), specimen, or all, one below the other (default: all); of a campaign curve "
-         "(bands), axes (figures over the plan's axes), scatter (of the packings), or all; of the run of a deck "
-         "energy, displacement, height, velocity, force (over time), curve (force over displacement)")  //
+         "diagrams, one below the other (default: all). For tests: curve, ae (bond breaks), emission (acoustic events: "
+         "magnitudes of all tests together, and maps), strain (area strain and the part due to cracks), specimen. For "
+         "a campaign: curve (bands), axes (results against the axes of the plan), scatter (of the packings). For the "
+         "run of a deck: energy, displacement, height, velocity, force (against time), curve (force against "
+         "displacement)")  //
         ("at", po::value<Words>()->multitoken()->value_name("STRAIN"),
-         "strains of the specimens, or start, peak, end (default: start peak end); the nearest frame is drawn");
+         "strains at which to draw specimens, or start, peak, end (default: start peak end); the nearest frame is "
+         "drawn");
     add_figure_options(options, 1);
     options.add_options()("magnify", po::value<double>()->value_name("FACTOR")->default_value(1.0),
-                          "draw displacements so many times as large")  //
+                          "magnification of displacements")  //
         ("labels", po::value<Words>()->multitoken()->value_name("NAME"),
-         "names of the tests, in their order, in legends and above specimens (default: what tells them apart; of one "
-         "test "
-         "its title)")  //
+         "names of the tests in legends and above specimens, one per test (default: what distinguishes them, or the "
+         "title of a single test)")  //
         ("units", po::value<std::string>()->value_name("UNITS"),
-         "of the run of a deck: what its units are called, si, cgs (cm, dyn, erg) or mm-g-s (mm, uN, nJ); a deck "
-         "states none")  //
+         "units in labels for the run of a deck, whose files state no units: si, cgs (cm, dyn, erg) or mm-g-s (mm, uN, "
+         "nJ)")  //
         ("bodies", po::value<std::vector<int>>()->multitoken()->value_name("NUMBER"),
-         "of the run of a deck: bodies that are drawn, of those that in_bc.dat lists (default: the first eight)")  //
+         "bodies to draw for the run of a deck, out of those listed in in_bc.dat (default: the first eight)")  //
         ("guide", po::value<std::string>()->value_name("FOLDER"),
-         "folder of the six tests of tools/quickstart: figures 26 to 29 of DEMseg's guide")  //
+         "folder with the six tests of tools/quickstart, from which figures 26 to 29 of DEMseg's guide are drawn")  //
         ("format", po::value<std::string>()->value_name("FORMAT")->default_value("pdf"),
-         "of the guide's figures: svg, pdf or png")  //
+         "format of the guide's figures: svg, pdf or png")  //
         ("figure", po::value<Words>()->multitoken()->value_name("NAME"),
-         "of a campaign: figures of summary.json that are drawn (default: moduli and strength)")  //
+         "keys of summary.json to draw for a campaign (default: moduli and strength)")  //
         ("test", po::value<Words>()->multitoken()->value_name("NAME"),
-         "of a campaign: tests that are drawn (default: all)")  //
+         "tests of a campaign to draw (default: all)")  //
         ("measured", po::value<std::string>()->value_name("FILE"),
-         "of a campaign: CSV with axial_strain and axial_stress, drawn over the curves of its test")  //
-        ("force", "replace figures that are there");
+         "CSV with axial_strain and axial_stress, drawn over the curves of a campaign's test")  //
+        ("force", "replace existing figures");
     return {
         .synopses = {"crackle plot OUT... -o FIGURE [OPTIONS]", "crackle plot --guide FOLDER -o FOLDER [OPTIONS]"},
         .description =
-            "Figures for a paper from the folders that `crackle test` wrote: axial stress over axial strain with "
-            "the breaks beneath, the strain of the area and of the cracks in it, bonds broken along the loading (what "
-            "acoustic emission hears), magnitudes and places of acoustic events, specimens at given strains with their "
-            "cracks. Of a campaign's folder: bands of curves, distributions, figures over its axes. Of the folder of a "
-            "deck's run: energies, and displacements, heights, velocities and forces of the bodies that its in_bc.dat "
-            "lists, as in figures 6, 10, 12 and 14 of DEMseg's guide.",
+            "Draws figures for a paper from the folders that `crackle test` wrote. They show axial stress against "
+            "axial strain with bond breaks below it, area strain, and broken bonds. They also show magnitudes and "
+            "positions of acoustic events, and specimens at given strains with their cracks. For a campaign's folder, "
+            "figures show bands of curves, distributions, and results against the axes of the plan. For the run of a "
+            "deck, they show energies, and displacements, heights, velocities and forces of the bodies listed in "
+            "in_bc.dat, as in figures 6, 10, 12 and 14 of DEMseg's guide.",
         .options = {{"options", options}},
         .operand = "OUT",
         .several_operands = true,
@@ -508,7 +514,7 @@ CommandLine describe_plot() {
                       "displacement", "height", "velocity", "force"}},
                     {"units", unit_sets()},
                     {"at", {"start", "peak", "end"}},
-                    {"format", {"svg", "pdf", "png"}}},
+                    {"format", crackle::names_of<Format>()}},
         .verbose = "cells, bonds and frames read",
         .examples = {
             {"crackle plot out/pulled out/squeezed -o curves.pdf --what curve"},
@@ -519,8 +525,9 @@ CommandLine describe_plot() {
             {"crackle plot out/slope -o energy.pdf --units cgs", "the run of a deck"},
             {"crackle plot out/wave_chain -o wave.pdf --what displacement --units cgs --bodies 11 13 15",
              "figure 10 of DEMseg's guide"},
-            {"crackle plot out/soft out/stiff -o rolling.pdf --what velocity --labels soft stiff", "figure 12"},
-            {"crackle plot --guide out/guide_rock -o out/figures", "figures 26 to 29 of the guide, after quickstart"}}};
+            {"crackle plot out/soft out/stiff -o rolling.pdf --what velocity --labels soft stiff",
+             "figure 12 of DEMseg's guide"},
+            {"crackle plot --guide out/guide_rock -o out/figures", "figures of DEMseg's guide (tools/quickstart)"}}};
 }
 
 int plot(const Invocation& given) {
@@ -538,7 +545,7 @@ int plot(const Invocation& given) {
     if (values.contains("guide"))
         plot_guide(values, look, given.messages);
     else if (of_campaign)
-        plot_campaign(values, given.operands.front(), look, given.messages);
+        return plot_campaign(values, given.operands.front(), look, given.messages);
     else if (are_runs_of_decks(given.operands))
         plot_decks(values, given.operands, look, given.messages);
     else

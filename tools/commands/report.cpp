@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle report OUT... -o report.html`: the results of one or several tests on one self-contained page.
+// `crackle report OUT... -o report.html`: writes the results of one or several tests to one self-contained page.
 
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <iostream>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/recordings/test_results.hpp"
@@ -15,32 +15,33 @@
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/report_page.hpp"
+#include "tools/terminal/printable.hpp"
 
 namespace crackle::tools {
 
 namespace {
 
-/// The page of a campaign's folder.
+/// Writes the page of a campaign's folder.
 int report_campaign(const Invocation& given) {
     const std::filesystem::path folder = given.operands.front();
     if (given.operands.size() > 1)
-        throw InputError(fmt::format("report: found {} folders, expected a campaign's by itself: {}",
+        throw InputError(fmt::format("report: found {} folders, expected only one if it is a campaign's: {}",
                                      given.operands.size(), folder.string()));
-    const std::filesystem::path output = given.values.contains("output")
-                                             ? std::filesystem::path(given.values["output"].as<std::string>())
-                                             : folder / "report.html";
-    if (is_there(output) && !is_report_page(output))
-        throw InputError(fmt::format("{}: found a file that is no report, expected a page to write; choose another -o",
-                                     output.string()));
+    const std::filesystem::path output =
+        output_page(given.values.contains("output") ? std::filesystem::path(given.values["output"].as<std::string>())
+                                                    : folder / "report.html");
     const po::variables_map& values = given.values;
     refuse_unused("crackle report", values, "a campaign's folder", {"output", "title", "test", "measured"});
     CampaignRecord record = read_campaign(
         folder, {},
         values.contains("test") ? values["test"].as<std::vector<std::string>>() : std::vector<std::string>());
     if (values.contains("measured")) add_measured_curve(record, values["measured"].as<std::string>());
-    replace_file(output, campaign_page(record, given.values["title"].as<std::string>(), output.parent_path()));
-    if (!given.messages.quiet()) std::cout << output.string() << '\n';
-    return exit_done;
+    replace_file(output, campaign_page(record, given.values["title"].as<std::string>(), folder_of(output)));
+    if (!given.messages.quiet()) print_text(output.string() + '\n');
+    const std::string failures = notice_on_failures(record);
+    if (failures.empty()) return exit_done;
+    given.messages.notice(failures);
+    return exit_system_fails;
 }
 
 }  // namespace
@@ -52,16 +53,18 @@ CommandLine describe_report() {
         ("title", po::value<std::string>()->value_name("TEXT")->default_value("", ""),
          "heading; default: the test's title")  //
         ("frames", po::value<std::size_t>()->value_name("N")->default_value(default_page_frames),
-         "show at most so many frames of a test, evenly chosen; start, peak and end always")  //
+         "largest number of frames per test, evenly spaced; start, peak and end are always included")  //
         ("test", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME"),
-         "of a campaign: tests that are shown (default: all)")  //
+         "tests of a campaign to show (default: all)")  //
         ("measured", po::value<std::string>()->value_name("FILE"),
-         "of a campaign: CSV with axial_strain and axial_stress, drawn over the curves of its test");
+         "CSV with axial_strain and axial_stress, drawn over the curves of a campaign's test");
     return {.synopses = {"crackle report OUT... [-o report.html]"},
             .description =
-                "One self-contained page from the folders that `crackle test` wrote: stress-strain curves with bond "
-                "breaks beneath, each specimen in motion and at start, peak and end, a table of the summaries. Opens "
-                "in any browser, needs no network. Of a campaign's folder: its means, distributions, bands of curves.",
+                "Writes one self-contained page from the folders that `crackle test` wrote. It shows stress-strain "
+                "curves with bond breaks below, each specimen in motion and at start, peak and end, and a table of the "
+                "summaries. It opens in any browser and needs no network. The page of a campaign's folder shows its "
+                "means, distributions and bands of curves. Exit code 4: some tests ended with a system error and are "
+                "excluded from every mean.",
             .options = {{"options", options}},
             .operand = "OUT",
             .several_operands = true,
@@ -89,7 +92,7 @@ int report(const Invocation& given) {
                                          : folders.size() == 1 ? std::filesystem::path(folders.front()) / "report.html"
                                                                : std::filesystem::path("report.html");
     write_page(output, {given.values["title"].as<std::string>(), PageView::report}, tests, messages);
-    if (!messages.quiet()) std::cout << output.string() << '\n';
+    if (!messages.quiet()) print_text(output.string() + '\n');
     return exit_done;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle test CASE.toml -o OUT`: one virtual test; `--check`: what it will give and cost.
+// `crackle test CASE.toml -o OUT`: runs one virtual test; `--check` estimates its results and cost.
 
 #include <fmt/format.h>
 
@@ -10,92 +10,87 @@
 #include <string>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/loading/check.hpp"
 #include "specimens/loading/run.hpp"
 #include "specimens/measures/verdicts.hpp"
 #include "specimens/observers/profile_report.hpp"
 #include "specimens/results/describe_files.hpp"
-#include "specimens/results/json_number.hpp"
 #include "specimens/results/output_folder.hpp"
-#include "specimens/results/summary_keys.hpp"
 #include "specimens/statistics/spoken.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/interrupt.hpp"
+#include "tools/terminal/printable.hpp"
 #include "tools/terminal/shipped.hpp"
 #include "tools/terminal/threads.hpp"
 
 namespace crackle::tools {
 namespace {
 
-std::string shown_value(const nlohmann::ordered_json& summary, const std::string& key) {
-    const auto value = summary.find(key);
-    if (value == summary.end() || value->is_null()) return "-";
-    return value->is_number() ? fmt::format("{:.4g}", value->get<double>()) : value->dump();
+constexpr const char* nothing_written = "interrupted before loading began; nothing was written";
+
+template <class T>
+std::string shown(const Stated<T>& value) {
+    return value ? fmt::format("{:.4g}", value.or_nan()) : "-";
 }
 
-/// A stress or modulus, and the same in three dimensions where the case gives a thickness.
-std::string stress(const nlohmann::ordered_json& summary, const std::string& key) {
-    const bool area = summary.value("material_units", "point") == "area";
-    const auto value = summary.find(key), converted = summary.find(key + converted_suffix);
-    if (value == summary.end() || !value->is_number()) return "-";
-    std::string in_plane = spoken_stress(value->get<double>(), area ? "Pa" : "N/m");
-    const bool thick = summary.contains("out_of_plane_thickness") && summary["out_of_plane_thickness"].is_number();
-    if (area || !thick || converted == summary.end() || !converted->is_number()) return in_plane;
-    return fmt::format("{} ({})", in_plane, spoken_stress(converted->get<double>(), "Pa"));
+/// A stress or modulus as text, with the three-dimensional value if the case gives a thickness.
+std::string shown(const Stress& value, const Summary& s) {
+    const bool area = s.about.material_units == StiffnessUnits::area;
+    if (!value) return "-";
+    std::string in_plane = spoken_stress(*value, area ? "Pa" : "N/m");
+    if (area || !s.out_of_plane_thickness || !value.converted) return in_plane;
+    return fmt::format("{} ({})", in_plane, spoken_stress(*value.converted, "Pa"));
+}
+
+void print_stated_errors(const ErrorsByFigure& errors, bool converged) {
+    const auto of = [](const Stated<ErrorFigures>& one) { return shown(one.value_or(ErrorFigures{}).stated); };
+    print_out("  stated errors: strength {}, its strain {}{} of their values; {}\n", of(errors.peak_stress),
+              of(errors.peak_strain),
+              errors.crack_initiation_stress
+                  ? fmt::format(", crack initiation {}, damage {}", of(errors.crack_initiation_stress),
+                                of(errors.crack_damage_stress))
+                  : "",
+              converged ? "the peak is converged" : "the peak jumps between branches");
 }
 
 void print_figures(const TestOutcome& outcome) {
-    const auto& s = outcome.summary.json();
-    const bool failed = s.value("failed", false);
-    const std::string so_far = failed ? "" : "_so_far";
-    std::cout << fmt::format("{}, {}: {}\n", s.value("specimen", ""), s.value("kind", ""),
-                             failed ? "the specimen failed"
-                                    : "the specimen has not failed (ended by " + s.value("ended_by", "nothing") + ")");
-    std::cout << fmt::format("  {} {} at strain {}\n", failed ? "strength" : "largest stress so far",
-                             stress(s, "peak_stress" + so_far), shown_value(s, "peak_strain" + so_far));
-    if (failed && s.value("largest_stress", 0.0) > s.value("peak_stress", 0.0)) {
-        std::cout << fmt::format("  largest stress {} at strain {}: after the peak, no strength\n",
-                                 stress(s, "largest_stress"), shown_value(s, "strain_at_largest_stress"));
+    const Summary& s = outcome.summary;
+    const Strength& known = s.strength;
+    const bool failed = s.about.failed.value_or(false);
+    print_out("{}, {}: {}\n", s.about.specimen.name(), s.about.kind.name(),
+              failed ? "the specimen failed"
+                     : "the specimen has not failed (ended by " + s.about.ended_by.value_or("nothing") + ")");
+    print_out("  {} {} at strain {}\n", failed ? "strength" : "largest stress so far",
+              shown(failed ? known.peak_stress : known.peak_stress_so_far, s),
+              shown(failed ? known.peak_strain : known.peak_strain_so_far));
+    if (failed && known.largest_stress.or_nan() > known.peak_stress.or_nan()) {
+        print_out("  largest stress {} at strain {}: after the peak, no strength\n", shown(known.largest_stress, s),
+                  shown(known.strain_at_largest_stress));
     }
-    if (s.contains("initial_tangent_modulus")) {
-        std::cout << fmt::format("  modulus: small strain {}, initial tangent {}, at half the peak {}\n",
-                                 stress(s, "youngs_modulus"), stress(s, "initial_tangent_modulus"),
-                                 stress(s, "tangent_modulus_50"));
+    if (known.initial_tangent_modulus.stated()) {
+        print_out("  modulus: small strain {}, initial tangent {}, at half the peak {}\n",
+                  shown(known.youngs_modulus, s), shown(known.initial_tangent_modulus, s),
+                  shown(known.tangent_modulus_50, s));
     }
-    for (const auto& verdict : s["validity"]) {
-        if (verdict["holds"] == false)
-            std::cout << fmt::format("  not valid: {}\n", broken_claim(verdict["claim"].get<std::string>(),
-                                                                       verdict["found"].get<std::string>()));
-    }
-    std::cout << fmt::format("  bonds broken: {} of {} ({} interfaces of {})\n", shown_value(s, "bonds_broken"),
-                             shown_value(s, "bonds_initial"), shown_value(s, "interfaces_lost"),
-                             shown_value(s, "interfaces_initial"));
-    std::cout << fmt::format("  errors: energy balance {} of the work, platens out of balance by {} of the peak\n",
-                             shown_value(s, "energy_closing_error"), shown_value(s, "platen_out_of_balance"));
-    if (s.contains("peak_converged") && s["peak_converged"].is_boolean()) {
-        const auto& e = s["numerical_errors"];
-        std::cout << fmt::format(
-            "  stated errors: strength {}, its strain {}{} of their values; {}\n",
-            shown_value(e["peak_stress"], "stated"), shown_value(e["peak_strain"], "stated"),
-            e.contains("crack_initiation_stress")
-                ? fmt::format(", crack initiation {}, damage {}", shown_value(e["crack_initiation_stress"], "stated"),
-                              shown_value(e["crack_damage_stress"], "stated"))
-                : "",
-            s["peak_converged"].get<bool>() ? "the peak is converged" : "the peak jumps between branches");
-    }
-    std::cout << fmt::format("  {} steps in {} s: {} particle-steps/s\n", shown_value(s, "steps"),
-                             shown_value(s, "step_seconds"), shown_value(s, "particle_steps_per_second"));
-    if (s.contains("profile")) std::cout << profile_table(s["profile"]);
-    for (const auto& notice : s.value("notices", nlohmann::ordered_json::array())) {
-        std::cout << "  notice: " << notice.get<std::string>() << '\n';
-    }
-    std::cout << "  results in " << outcome.folder.string() << '\n';
+    for (const JudgedClaim& verdict : *s.validity.validity)
+        if (!verdict.holds.value_or(true)) print_out("  not valid: {}\n", broken_claim(*verdict.claim, *verdict.found));
+    print_out("  bonds broken: {} of {} ({} interfaces of {})\n", shown(s.damage.bonds_broken),
+              shown(s.specimen.bonds_initial), shown(s.damage.interfaces_lost), shown(s.specimen.interfaces_initial));
+    print_out("  errors: energy balance {} of the work, platens out of balance by {} of the peak\n",
+              shown(s.numerics.energy_closing_error), shown(s.numerics.platen_out_of_balance));
+    if (s.peak_converged) print_stated_errors(*s.numerical_errors, *s.peak_converged);
+    print_out("  {} steps in {} s: {} particle-steps/s\n", shown(s.numerics.steps), shown(s.run.step_seconds),
+              shown(s.run.particle_steps_per_second));
+    if (s.run.profile) print_text(profile_table(*s.run.profile));
+    for (const std::string& notice : *s.notices) print_out("  notice: {}\n", notice);
+    print_out("  results in {}\n", outcome.folder.string());
 }
 
-// Measured with two threads on two processors: 1,240 circles take twice as long, frames being drawn on a third thread;
-// 5,022 take 0.57 of the time.
+// Smallest number of bodies per thread. With fewer, a test takes longer than on one thread, because its frames are
+// drawn on a further thread.
 constexpr std::int64_t bodies_worth_a_thread = 2000;
 
 TestHooks hooks_for(Messages& messages) {
@@ -109,13 +104,12 @@ TestHooks hooks_for(Messages& messages) {
     return hooks;
 }
 
-/// What -v reports of a test that has ended.
+/// Prints the details of a finished test that -v shows.
 void report_details(Messages& messages, const TestOutcome& outcome) {
     if (!messages.verbose()) return;
-    const auto& s = outcome.summary.json();
-    messages.detail(fmt::format("{} steps in {} s on {} threads; mean time step {} s", shown_value(s, "steps"),
-                                shown_value(s, "step_seconds"), shown_value(s, "threads"),
-                                shown_value(s, "time_step_mean")));
+    const Summary& s = outcome.summary;
+    messages.detail(fmt::format("{} steps in {} s on {} threads; mean time step {} s", shown(s.numerics.steps),
+                                shown(s.run.step_seconds), shown(s.run.threads), shown(s.numerics.time_step_mean)));
     std::uintmax_t count = 0, bytes = 0;
     std::error_code vanished;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(outcome.folder, vanished)) {
@@ -131,26 +125,27 @@ int finish(const TestOutcome& outcome, const std::string& wanted, Messages& mess
     messages.make_room();
     report_details(messages, outcome);
     if (outcome.was_finished) {
-        if (!quiet) std::cout << outcome.folder.string() << ": the test is finished, nothing is left to do\n";
+        if (!quiet) print_out("{}: the test is finished; nothing is left to do\n", outcome.folder.string());
         const std::string newer = outcome.folder.string() + ".new";
         if (holds_test_results(newer))
-            messages.notice(
-                fmt::format("{0} holds one that was to replace it; go on with `crackle test --resume {0}`", newer));
+            messages.notice(fmt::format(
+                "{0} contains an unfinished test that was to replace it; resume that with `crackle test --resume {0}`",
+                newer));
         return exit_done;
     }
     if (!quiet) print_figures(outcome);
     if (outcome.unverified) {
-        report_error(fmt::format(
-            "the test is complete, its companions were interrupted and no error is stated; `crackle test --resume {} "
-            "--verify` runs them again",
-            outcome.folder.string()));
+        report_error(
+            fmt::format("the test is complete, but its companions were interrupted, so no errors are stated; run them "
+                        "again with `crackle test --resume {} --verify`",
+                        outcome.folder.string()));
         return exit_interrupted;
     }
     if (!outcome.interrupted) return exit_done;
-    if (outcome.folder != std::filesystem::path(wanted)) {
-        messages.notice(fmt::format("earlier results in {} are as they were", wanted));
+    if (outcome.folder != output_folder(wanted)) {
+        messages.notice(fmt::format("earlier results in {} are unchanged", wanted));
     }
-    report_error(fmt::format("interrupted; go on with `crackle test --resume {}`", outcome.folder.string()));
+    report_error(fmt::format("interrupted; resume with `crackle test --resume {}`", outcome.folder.string()));
     return exit_interrupted;
 }
 
@@ -166,7 +161,7 @@ Json run_as_json(const RunEstimate& run) {
 }
 
 std::string loss_text(const std::optional<FirstLoss>& loss, const char* unit) {
-    if (!loss) return "none by the linear solution";
+    if (!loss) return "none in the linear solution";
     return fmt::format("{} at strain {:.3e}, bodies {} and {}", spoken_stress(loss->stress, unit), loss->strain,
                        loss->body_i, loss->body_j);
 }
@@ -184,47 +179,47 @@ void print_check(const TestCheck& check) {
     const VirtualTest& test = check.test;
     const char* unit = test.description.stress_unit();
     const double slower = check.rate / check.slowest_rate;
-    fmt::print("{}, {}: {} particles, {:.3g} grains wide, {} bonds\n", test.setup.specimen,
-               test.description.loading.kind, test.setup.particles, check.grains_across, test.world.bonds.initial);
+    print_out("{}, {}: {} particles, {:.3g} grains wide, {} bonds\n", name_of(test.setup.specimen),
+              name_of(test.description.loading.kind), test.setup.particles, check.grains_across,
+              test.world.bonds.initial);
     if (std::isfinite(check.youngs_modulus) && !test.setup.uniaxial) {
-        fmt::print("  small strain   nominal stress over nominal strain {}\n",
-                   spoken_stress(check.youngs_modulus, unit));
+        print_out("  small strain   nominal modulus {}\n", spoken_stress(check.youngs_modulus, unit));
     } else if (std::isfinite(check.youngs_modulus)) {
-        fmt::print("  small strain   E {}, nu {:.3g}, over the gauge length {}\n",
-                   spoken_stress(check.youngs_modulus, unit), check.poissons_ratio,
-                   spoken_stress(check.gauge_modulus, unit));
+        print_out("  small strain   E {}, nu {:.3g}; E over the gauge length {}\n",
+                  spoken_stress(check.youngs_modulus, unit), check.poissons_ratio,
+                  spoken_stress(check.gauge_modulus, unit));
     } else {
-        fmt::print("  small strain   no linear solution, see the warnings\n");
+        print_out("  small strain   no linear solution (see the warnings)\n");
     }
-    fmt::print("  first slip     {}\n", loss_text(check.first_slip, unit));
-    fmt::print("  first break    {}\n", loss_text(check.first_break, unit));
+    print_out("  first slip     {}\n", loss_text(check.first_slip, unit));
+    print_out("  first break    {}\n", loss_text(check.first_break, unit));
     if (const auto& strength = check.strength) {
-        fmt::print(
-            "  strength       about {} at strain {:.2g}, within a factor of {:.2g}: where {:.3g} % of the bonds "
-            "have broken by the linear solution\n",
+        print_out(
+            "  strength       about {} at strain {:.2g}, within a factor of {:.2g}; {:.3g} % of the bonds have then "
+            "broken in the linear solution\n",
             spoken_stress(strength->stress, unit, 2), strength->strain, strength->factor, 100.0 * strength->share);
     } else {
-        fmt::print("  strength       no estimate: {}\n",
-                   test.description.confined() ? "the rule is of specimens without confining pressure"
-                   : !test.setup.uniaxial      ? "the rule is of specimens between platens"
-                                               : "too few bonds ever break by the linear solution");
+        print_out("  strength       no estimate: {}\n",
+                  test.description.confined() ? "the rule applies only without confining pressure"
+                  : !test.setup.uniaxial      ? "the rule applies only to specimens between platens"
+                                              : "too few bonds break in the linear solution");
     }
     if (check.disc)
-        fmt::print(
-            "  valid disc     strength over tensile strength about {:.2g}, within a factor of {:.2g}; 3 + N = {:.3g} "
-            "is needed\n",
+        print_out(
+            "  valid disc     ratio of strength to tensile strength about {:.2g}, within a factor of {:.2g}; at least "
+            "3 + N = {:.3g} is needed\n",
             check.disc->strength_ratio, check.disc->factor, check.disc->needed);
-    fmt::print("  run            {}{} to strain {:.3g}; time step {:.3g} s, rate {:.3g} 1/s{}, {:.3g} steps/s\n",
-               check.to_strength ? run_text(*check.to_strength) + " to that strength, " : "", run_text(check.to_end),
-               check.to_end.strain, test.world.stepping.time_step, check.rate,
-               slower > 1.0 ? fmt::format(" (up to {:.2g} times slower while bonds break)", slower) : "",
-               check.steps_per_second);
-    fmt::print("  memory         {:.0f} MB; making the specimen took {}\n", check.memory / 1e6,
-               time_text(test.specimen_seconds));
-    for (const std::string& warning : check.warnings) fmt::print("  warning: {}\n", warning);
+    print_out("  run            {}{} to strain {:.3g}; time step {:.3g} s, rate {:.3g} 1/s{}, {:.3g} steps/s\n",
+              check.to_strength ? run_text(*check.to_strength) + " to that strength, " : "", run_text(check.to_end),
+              check.to_end.strain, test.world.stepping.time_step, check.rate,
+              slower > 1.0 ? fmt::format(" (up to {:.2g} times slower while bonds break)", slower) : "",
+              check.steps_per_second);
+    print_out("  memory         {:.0f} MB; making the specimen took {}\n", check.memory / 1e6,
+              time_text(test.specimen_seconds));
+    for (const std::string& warning : check.warnings) print_out("  warning: {}\n", warning);
 }
 
-/// `--check`: nothing is loaded, and nothing written.
+/// Runs `--check`, which neither loads the specimen nor writes files.
 int check(const Invocation& given) {
     const po::variables_map& values = given.values;
     refuse_unused("crackle test", values, "--check", {"check", "json", "threads", "allow-unstable"});
@@ -234,10 +229,11 @@ int check(const Invocation& given) {
     if (values.contains("threads")) description.numerics.threads = values["threads"].as<int>();
     description.numerics.threads = threads_of_machine(static_cast<int>(description.numerics.threads), given.messages);
     watch_interrupts();
+    end_unheard(nothing_written);
     TestHooks hooks = hooks_for(given.messages);
     const bool json = values.contains("json");
     if (json && !given.messages.verbose()) hooks.stage = {};
-    // Notices stand among the warnings.
+    // Notices are printed together with the warnings.
     else if (hooks.stage)
         hooks.stage = [say = hooks.stage](const std::string& text) {
             if (!text.starts_with("notice: ")) say(text);
@@ -246,7 +242,7 @@ int check(const Invocation& given) {
         const TestCheck checked = check_test(description, hooks);
         given.messages.make_room();
         if (json)
-            std::cout << check_as_json(checked, 2) << '\n';
+            print_text(check_as_json(checked, 2) + '\n');
         else
             print_check(checked);
     } catch (const TestInterrupted& stop) {
@@ -270,7 +266,7 @@ Progress shown_progress(const TestProgress& test) {
 
 void limit_threads(TestOptions& options, std::int64_t asked) {
     options.fewest_bodies_a_thread = bodies_worth_a_thread;
-    // No more are tried than are asked for: many tests may run side by side.
+    // Tries only the number of threads requested, since many tests may run at the same time.
     const ThreadRoom room =
         room_for_threads(static_cast<int>(std::clamp<std::int64_t>(asked, 1, options.most_threads)));
     options.most_threads = room.threads;
@@ -279,7 +275,8 @@ void limit_threads(TestOptions& options, std::int64_t asked) {
 
 std::int64_t threads_to_resume(const TestOptions& options) {
     if (options.threads > 0) return options.threads;
-    const std::filesystem::path own_case = options.folder / "case.toml";  // elsewhere while results are being moved
+    // The case file is temporarily absent while results are being moved.
+    const std::filesystem::path own_case = options.folder / "case.toml";
     return is_file(own_case) ? read_case(own_case).numerics.threads : options.most_threads;
 }
 
@@ -287,15 +284,15 @@ std::string check_as_json(const TestCheck& check, int indent) {
     const VirtualTest& test = check.test;
     const std::string stress = test.description.stress_unit();
     Json json{{"title", test.description.title},
-              {"kind", test.description.loading.kind},
-              {"platens", test.description.loading.platens},
-              {"specimen", test.setup.specimen},
+              {"kind", name_of(test.description.loading.kind)},
+              {"platens", name_of(test.description.loading.platens)},
+              {"specimen", name_of(test.setup.specimen)},
               {"particles", test.setup.particles},
               {"grains_across", check.grains_across},
               {"bonds", test.world.bonds.initial},
-              {test.setup.uniaxial ? "youngs_modulus" : "nominal_modulus", finite_or_null(check.youngs_modulus)},
-              {"poissons_ratio", finite_or_null(check.poissons_ratio)},
-              {"gauge_modulus", finite_or_null(check.gauge_modulus)},
+              {test.setup.uniaxial ? "youngs_modulus" : "nominal_modulus", check.youngs_modulus},
+              {"poissons_ratio", check.poissons_ratio},
+              {"gauge_modulus", check.gauge_modulus},
               {"first_slip", loss_as_json(check.first_slip)},
               {"first_break", loss_as_json(check.first_break)},
               {"strength_estimate", nullptr},
@@ -323,29 +320,29 @@ std::string check_as_json(const TestCheck& check, int indent) {
     }
     json["units"] = {
         {"grains_across", "width over sqrt(width height / particles)"},
-        {"youngs_modulus", stress +
-                               ", small strain, all bonds intact and sticking; nominal_modulus in its place where the "
-                               "test is not between platens"},
-        {"gauge_modulus", stress + ", over the strain of the axial gauge length"},
-        {"first_slip", "strain; stress in " + stress + "; null: none by the linear solution"},
-        {"first_break", "likewise"},
+        {"youngs_modulus", stress + ", small strain, all bonds intact and sticking; replaced by nominal_modulus if the "
+                                    "test is not between platens"},
+        {"gauge_modulus", stress + ", with the strain over the axial gauge length"},
+        {"first_slip", "strain; stress in " + stress + "; null if none in the linear solution"},
+        {"first_break", "as first_slip"},
         {"strength_estimate",
-         "rough: modulus times the strain at which share_broken of the points that can break has broken by the linear "
-         "solution; within_factor: the most it was off by in the cases it is calibrated with"},
+         "rough estimate: modulus times the strain at which a fraction share_broken of the breakable points has broken "
+         "in the linear solution. within_factor: its largest error, as a factor, in the cases used to calibrate it"},
         {"time_step", "s"},
-        {"axial_strain_rate", "1/s, to begin with"},
+        {"axial_strain_rate", "1/s, at the start"},
         {"slowest_axial_strain_rate", "1/s, while many bonds break"},
         {"steps_per_second", "1/s, measured on this machine now"},
-        {"run_to_strength", "steps and seconds at the first rate; null without an estimate below max_axial_strain"},
-        {"run_to_max_axial_strain", "likewise, should the specimen not fail before"},
-        {"specimen_seconds", "s, making the specimen"},
-        {"memory", "bytes, largest of this check"}};
+        {"run_to_strength",
+         "steps and seconds at the initial rate; null if the estimated strength is not reached below max_axial_strain"},
+        {"run_to_max_axial_strain", "steps and seconds if the specimen does not fail before"},
+        {"specimen_seconds", "s, time to make the specimen"},
+        {"memory", "bytes, peak memory of this check"}};
     if (check.disc)
         json["units"]["valid_disc"] =
-            "strength_ratio: of the rock, over its tensile strength, both estimated by the linear solution of the "
-            "whole packing; needed: 3 + (1 + sin φ)/(1 - sin φ), φ friction_angle in degrees, mean of the bonds; "
-            "can_be_valid null: too rough to tell";
-    return json.dump(indent);
+            "strength_ratio: ratio of the rock's strength to its tensile strength, both estimated by the linear "
+            "solution of the whole packing. needed: 3 + (1 + sin φ)/(1 - sin φ) with φ = friction_angle in degrees, "
+            "the mean over the bonds. can_be_valid: null if the estimate is too rough to decide";
+    return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
 CommandLine describe_test() {
@@ -353,15 +350,16 @@ CommandLine describe_test() {
     options.add_options()("output,o", po::value<std::string>()->value_name("OUT"), "folder for the results")  //
         ("force", "replace the results in OUT once the new ones are complete")                                //
         ("resume", po::value<std::string>()->value_name("OUT"),
-         "go on with the test in this folder from its last checkpoint")                                          //
-        ("verify", "run the test's companions too (half step, half rate, half and double damping): error bars")  //
-        ("profile", "time the phases of a step: a table, and `profile` in summary.json")                         //
+         "resume the test in this folder from its last checkpoint")  //
+        ("verify",
+         "also run companion tests (half the time step, half the rate, half and double the damping) to state errors")  //
+        ("profile", "time the phases of a step; prints a table and adds `profile` to summary.json")  //
         ("threads", po::value<int>()->value_name("N"),
-         "threads (default: the case's); results do not depend on them")     //
-        ("long", "run it although it takes more than a day, or 1e10 steps")  //
+         "number of threads (default: as in the case); does not affect the results")  //
+        ("long", "run the test although it takes more than a day, or 1e10 steps")     //
         ("check",
          "make and bond the specimen, and print what to expect: moduli, first slip and break, a rough strength, steps, "
-         "seconds, memory, warnings; loads and writes nothing")                              //
+         "seconds, memory, warnings. Nothing is loaded or written")                          //
         ("json", "with --check: print one JSON object")                                      //
         ("allow-unstable", "accept a time step above the stable bound, and runaway energy")  //
         ("keys", "list all keys of a case")                                                  //
@@ -369,27 +367,26 @@ CommandLine describe_test() {
     return {.synopses = {"crackle test CASE.toml -o OUT [OPTIONS]", "crackle test --resume OUT [OPTIONS]",
                          "crackle test --check CASE.toml [--json]"},
             .description =
-                "Makes the specimen that CASE.toml describes, bonds it with its platens, loads it until it fails, and "
-                "writes into OUT: curve.csv, events.csv, summary.json, frames/ (ParaView), checkpoint, and case.toml "
-                "with every value in the open.",
+                "Makes the specimen that CASE.toml describes, bonds it with its platens, and loads it until it fails. "
+                "Writes into OUT: curve.csv, events.csv, summary.json, frames/ (ParaView), checkpoint, and case.toml "
+                "with every value stated.",
             .options = {{"options", options}},
             .operand = "CASE.toml",
             .companions = {{"json", {"check"}}},
-            .verbose = "seconds of each stage, bodies and contacts, the time step and why, bytes written",
+            .verbose = "seconds of each stage, bodies and contacts, the time step and how it was chosen, bytes written",
             .examples = {{"crackle test specimens/guide_rock/circles_tension.toml -o out/circles-tension"},
                          {"crackle test case.toml -o out/case --threads 2 -q"},
                          {"crackle test --check case.toml"},
                          {"crackle test case.toml -o out/case --verify"},
                          {"crackle test case.toml -o out/case --profile"},
                          {"crackle test --resume out/case",
-                          "goes on after an interrupt, to the bytes of an "
-                          "uninterrupted test"},
+                          "resumes after an interruption; results are identical to those of an uninterrupted test"},
                          {"crackle test --keys", "all keys of a case, with units, defaults and ranges"},
                          {"crackle test --files", "all columns, keys and arrays of the files in OUT"}}};
 }
 
 int test(const Invocation& given) {
-    TestOptions options;  // takes the time
+    TestOptions options;  // created first, since it starts the clock
     const po::variables_map& values = given.values;
     if (values.contains("keys")) {
         expect_alone("crackle test", given, "keys");
@@ -426,6 +423,8 @@ int test(const Invocation& given) {
     options.command = "crackle test";
     for (const std::string& word : given.words) options.command += ' ' + word;
     watch_interrupts();
+    end_unheard(nothing_written);
+    options.loading_begins = [] { end_unheard(nullptr); };
     const TestHooks hooks = hooks_for(given.messages);
     TestOutcome outcome;
     if (resume) {

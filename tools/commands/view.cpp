@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle view IN...`: a page in which particles, a deck's run or tests can be looked at.
+// `crackle view IN...`: writes a page that shows particles, a deck run or tests.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <optional>
 
 #include "solver/base/errors.hpp"
@@ -14,6 +13,7 @@
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/report_page.hpp"
+#include "tools/terminal/printable.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -30,22 +30,23 @@ std::filesystem::path default_output(const std::vector<std::string>& inputs) {
 CommandLine describe_view() {
     po::options_description options;
     options.add_options()("output,o", po::value<std::string>()->value_name("FILE"),
-                          "page to write; default: IN/view.html of a folder, IN with .html of a file, view.html of "
+                          "page to write; default: IN/view.html for a folder, IN with .html for a file, view.html for "
                           "several")  //
         ("title", po::value<std::string>()->value_name("TEXT")->default_value("", ""),
-         "heading; default: the test's title or the name of what is shown; of several 'Virtual rock tests'")  //
+         "heading; default: the title of the test or the name of the input; for several inputs 'Virtual rock tests'")  //
         ("frames", po::value<std::size_t>()->value_name("N")->default_value(default_page_frames),
-         "show at most so many frames of each, evenly chosen")  //
+         "largest number of frames per input, evenly spaced")  //
         ("seed", po::value<std::uint64_t>()->value_name("N")->default_value(1),
-         "of the circles that a particle file of mode 0 leaves to chance")  //
+         "seed of the circles that a particle file of mode 0 draws")  //
         ("units", po::value<std::string>()->value_name("UNITS"),
-         "of particle files and decks, which state none: what they are called, si, cgs (cm, dyn, erg) or mm-g-s (mm, "
-         "uN, nJ)");
+         "names of the units of particle files and decks, which state none: si, cgs (cm, dyn, erg) or mm-g-s (mm, uN, "
+         "nJ)");
     return {.synopses = {"crackle view IN... [-o view.html]"},
             .description =
-                "A page to look at particles, moving or not: IN is a particle file (in_gm.dat, in_gm_volo.dat, ...), "
-                "the folder of a deck's run (or one of its outputs), or that of a test. Opens in any browser, needs no "
-                "network.",
+                "Writes a page that shows particles at rest or in motion. IN is a particle file (in_gm.dat, "
+                "in_gm_volo.dat, ...), "
+                "the folder of a deck's run (or one of its outputs), or the folder of a test. The page opens in any "
+                "browser and needs no network.",
             .options = {{"options", options}},
             .operand = "IN",
             .several_operands = true,
@@ -60,7 +61,7 @@ int view(const Invocation& given) {
     const Arguments& inputs = given.operands;
     if (inputs.empty()) {
         throw InputError(
-            "view: found nothing to look at, expected a particle file or the folder of a run or test: crackle view IN "
+            "view: found no input, expected a particle file or the folder of a run or test: crackle view IN "
             "(see --help)");
     }
     const po::variables_map& values = given.values;
@@ -72,10 +73,9 @@ int view(const Invocation& given) {
         recordings.push_back(
             read_recording(input, values["frames"].as<std::size_t>(), values["seed"].as<std::uint64_t>()));
         if (units && recordings.back().kind == Recording::Kind::test)
-            throw InputError(
-                fmt::format("view: --units: found {}, a test, whose units are SI; expected particle files "
-                            "and runs of decks alone",
-                            input));
+            throw InputError(fmt::format(
+                "view: --units: found {}, a test, which is in SI units, expected particle files or runs of decks",
+                input));
         report_recording(messages, recordings.back());
         for (const std::string& notice : recordings.back().notices) messages.notice(notice);
     }
@@ -87,7 +87,7 @@ int view(const Invocation& given) {
     const std::filesystem::path output =
         values.contains("output") ? std::filesystem::path(values["output"].as<std::string>()) : default_output(inputs);
     write_page(output, {values["title"].as<std::string>(), PageView::view, units}, recordings, messages);
-    if (!messages.quiet()) std::cout << output.string() << '\n';
+    if (!messages.quiet()) print_text(output.string() + '\n');
     return exit_done;
 }
 

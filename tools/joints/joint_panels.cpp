@@ -14,9 +14,10 @@
 namespace crackle::plot {
 namespace {
 
-constexpr double trace_width = 0.6;    // pt
-constexpr double highest_share = 1.4;  // of the width that a map is high: a slim specimen is drawn smaller
-constexpr double rose_share = 0.55;    // of the width that a rose is high
+constexpr double trace_width = 0.6;  // pt
+constexpr double highest_share =
+    1.4;  // largest height of a map, relative to its width; a slender specimen is drawn smaller
+constexpr double rose_share = 0.55;  // height of a rose relative to its width
 constexpr double radians = std::numbers::pi / 180.0;
 
 std::vector<Legend::Entry> entries_of(const JointNetwork& network) {
@@ -26,7 +27,7 @@ std::vector<Legend::Entry> entries_of(const JointNetwork& network) {
     return entries;
 }
 
-/// Axes in m over the box, as large as the room allows with both at one scale.
+/// Axes of the box in m, drawn as large as possible with the same scale for both axes.
 struct MapAxes {
     Unit unit;
     Scale x, y;
@@ -76,7 +77,8 @@ Panel trace_map(const JointNetwork& network) {
         }
         canvas.unclip();
         const Rect& f = axes.frame;
-        canvas.line({{f.x, f.y}, {f.right(), f.y}, {f.right(), f.bottom()}}, ink, 0.5);  // the axes are the others
+        // The axes form the other two sides of the frame.
+        canvas.line({{f.x, f.y}, {f.right(), f.y}, {f.right(), f.bottom()}}, ink, 0.5);
         axes.draw(canvas, titled("<i>x</i>", scales.unit.name), titled("<i>y</i>", scales.unit.name));
     };
     return panel;
@@ -95,7 +97,7 @@ Panel trace_rose(const JointNetwork& network, const JointReport& report) {
         for (const double weight : report.all.rose.weights) largest = std::max(largest, weight);
         if (!(largest > 0.0)) return;
         const auto at = [&](double share, double angle) {
-            // The area of a petal out to r grows as r squared.
+            // The area of a petal is proportional to the square of its radius r.
             const double r = radius * std::sqrt(share / largest);
             return Point{centre.x + r * std::cos(angle), centre.y - r * std::sin(angle)};
         };

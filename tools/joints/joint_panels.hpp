@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Traces of joints as figures: where they lie in the box, and in which directions.
+// Diagrams of joint traces: their positions in the box, and their directions.
 // Tested by tests/tools/joints/joints_test.cpp.
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace crackle::plot {
 
-/// The box at equal scales, each source in a colour of its own.
+/// Map of the box, with the same scale on both axes and a colour for each source of traces.
 Panel trace_map(const JointNetwork& network);
 
-/// Length by direction, 10 degrees a petal, both ways: the area of a petal is its share of all length, sources one
-/// upon the other.
+/// Rose diagram of trace length by direction, in petals of 10 degrees that point both ways. The area of a petal is
+/// proportional to its fraction of the total length; sources are stacked.
 Panel trace_rose(const JointNetwork& network, const JointReport& report);
 
 }  // namespace crackle::plot

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle joints CASE.toml`: traces of joints, generated or read, reported and drawn.
+// `crackle joints CASE.toml`: generates or reads joint traces, and reports and draws them.
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,16 +12,17 @@
 #include <nlohmann/json.hpp>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/case/case_file.hpp"
 #include "specimens/joints/joint_network.hpp"
 #include "specimens/joints/joint_report.hpp"
 #include "specimens/joints/trace_files.hpp"
-#include "specimens/results/json_number.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/joints/joint_panels.hpp"
 #include "tools/plot/figure_options.hpp"
+#include "tools/terminal/printable.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr double most_grains = 1e9;
 
-/// The box of the case, or of the options, its lower left corner at the origin as a packing's.
+/// The box given by the case or the options. As in a packing, its lower left corner is the origin.
 Domain box_of(const TestCase& test, const po::variables_map& values) {
     Domain box{0.0, 0.0, 0.0, 0.0};
     const auto take = [&](double& to, const std::optional<double>& of_case, const char* option, const char* key) {
@@ -42,7 +42,7 @@ Domain box_of(const TestCase& test, const po::variables_map& values) {
         } else if (of_case) {
             to = *of_case;
         } else {
-            throw InputError(fmt::format("{}: found nothing, expected the size of the box; write it, or give --{}",
+            throw InputError(fmt::format("{}: found nothing, expected the size of the box; state it, or give --{}",
                                          test.at(std::string("packing.") + key), option));
         }
     };
@@ -51,7 +51,7 @@ Domain box_of(const TestCase& test, const po::variables_map& values) {
     return box;
 }
 
-/// Of the option --grain; 0 without it.
+/// Number of grains in the box, for the mean spacing given by --grain; 0 without this option.
 std::size_t grains_in(const Domain& box, const po::variables_map& values) {
     if (!values.contains("grain")) return 0;
     const double grain = values["grain"].as<double>();
@@ -69,21 +69,21 @@ using Json = nlohmann::ordered_json;
 Json json_of(const SourceReport& r) {
     Json json{{"name", r.name},
               {"traces", r.traces},
-              {"p10", finite_or_null(r.p10)},
-              {"p20", finite_or_null(r.p20)},
+              {"p10", r.p10},
+              {"p20", r.p20},
               {"p21", r.p21},
-              {"scan_line", finite_or_null(r.scan_line)},
-              {"mean_length", finite_or_null(r.mean_length)},
+              {"scan_line", r.scan_line},
+              {"mean_length", r.mean_length},
               {"longest", r.longest},
-              {"direction", finite_or_null(r.direction)},
-              {"kappa", finite_or_null(r.kappa)},
+              {"direction", r.direction},
+              {"kappa", r.kappa},
               {"rose", r.rose.weights}};
     Json asked = nullptr;
     if (r.amount) {
         asked = {{r.amount->key, r.amount->value},
-                 {"mean_length", finite_or_null(r.mean_length_asked)},
-                 {"direction", finite_or_null(r.direction_asked)},
-                 {"kappa", finite_or_null(r.kappa_asked)}};
+                 {"mean_length", r.mean_length_asked},
+                 {"direction", r.direction_asked},
+                 {"kappa", r.kappa_asked}};
     }
     json["asked"] = asked;
     return json;
@@ -97,8 +97,8 @@ Json as_json(const JointNetwork& network, const JointReport& report) {
             {"sources", sources},
             {"all", json_of(report.all)},
             {"blocks", report.blocks ? Json(*report.blocks) : Json()},
-            {"largest_block", finite_or_null(report.largest_block)},
-            {"median_block", finite_or_null(report.median_block)},
+            {"largest_block", report.largest_block},
+            {"median_block", report.median_block},
             {"snap", network.cleaning.snap},
             {"points_left_out", network.cleaning.points_left_out},
             {"brought_together", network.cleaning.brought_together},
@@ -109,47 +109,50 @@ Json as_json(const JointNetwork& network, const JointReport& report) {
               {"p20", "1/m2, midpoints per area"},
               {"p21", "m/m2, length per area"},
               {"scan_line, direction", "degrees from +x, counter-clockwise; direction: mean, by length"},
-              {"mean_length", "m, of traces with their midpoint in the box, before that cut them"},
-              {"longest", "m, in the box"},
-              {"kappa", "-, of an axial von Mises law fitted to the traces, each counted once"},
-              {"snap", "m, within which nodes and points were brought together; 0: none"},
-              {"largest_displacement", "m, of what was brought together or left out"},
-              {"rose", "m of traces within 5 degrees of 0, 10, ... 170"},
-              {"largest_block, median_block", "-, shares of the box's area, as if all traces were open"}}}};
+              {"mean_length", "m, of traces with their midpoint in the box, before they are cut by the box"},
+              {"longest", "m, of the part in the box"},
+              {"kappa", "-, concentration of an axial von Mises distribution fitted to the traces, each counted once"},
+              {"snap", "m, distance within which nodes and points were merged; 0 if traces were left unchanged"},
+              {"largest_displacement", "m, largest displacement caused by merging nodes and leaving out points"},
+              {"rose", "m, total length of traces within 5 degrees of 0, 10, ..., 170 degrees"},
+              {"largest_block, median_block",
+               "-, block areas as fractions of the box's area, as if all traces were open"}}}};
 }
 
 std::string beside(double reached, double asked) {
     if (std::isnan(reached)) return "-";
-    return std::isnan(asked) ? fmt::format("{:.4g}", reached) : fmt::format("{:.4g} (asked {:.4g})", reached, asked);
+    return std::isnan(asked) ? fmt::format("{:.4g}", reached)
+                             : fmt::format("{:.4g} (requested {:.4g})", reached, asked);
 }
 
 void print(const SourceReport& r) {
     const auto asked = [&](const char* key) {
         return r.amount && r.amount->key == key ? r.amount->value : SourceReport::none;
     };
-    fmt::print("{}\n", r.name);
-    fmt::print("  traces       {}\n", beside(static_cast<double>(r.traces), asked("number")));
+    print_out("{}\n", r.name);
+    print_out("  traces       {}\n", beside(static_cast<double>(r.traces), asked("number")));
     if (r.traces == 0) return;
-    fmt::print("  P10          {} 1/m along {:.4g} degrees\n", beside(r.p10, asked("p10")), r.scan_line);
-    if (!std::isnan(r.p20)) fmt::print("  P20          {} 1/m2\n", beside(r.p20, asked("p20")));
-    fmt::print("  P21          {} m/m2\n", beside(r.p21, asked("p21")));
-    fmt::print("  mean length  {} m; longest in the box {:.4g} m\n", beside(r.mean_length, r.mean_length_asked),
-               r.longest);
-    fmt::print("  direction    {} degrees; kappa {}\n", beside(r.direction, r.direction_asked),
-               std::isinf(r.kappa) ? "infinite: parallel" : beside(r.kappa, r.kappa_asked));
+    print_out("  P10          {} 1/m along {:.4g} degrees\n", beside(r.p10, asked("p10")), r.scan_line);
+    if (!std::isnan(r.p20)) print_out("  P20          {} 1/m2\n", beside(r.p20, asked("p20")));
+    print_out("  P21          {} m/m2\n", beside(r.p21, asked("p21")));
+    print_out("  mean length  {} m; longest in the box {:.4g} m\n", beside(r.mean_length, r.mean_length_asked),
+              r.longest);
+    print_out("  direction    {} degrees; kappa {}\n", beside(r.direction, r.direction_asked),
+              std::isinf(r.kappa) ? "infinite: parallel" : beside(r.kappa, r.kappa_asked));
 }
 
 void print(const JointNetwork& network, const JointReport& report) {
-    fmt::print("box {:.6g} m x {:.6g} m\n", network.box.x2 - network.box.x1, network.box.y2 - network.box.y1);
-    if (const std::string cleaning = cleaning_text(network.cleaning); !cleaning.empty()) fmt::print("{}\n", cleaning);
+    print_out("box {:.6g} m x {:.6g} m\n", network.box.x2 - network.box.x1, network.box.y2 - network.box.y1);
+    if (const std::string cleaning = cleaning_text(network.cleaning); !cleaning.empty()) print_out("{}\n", cleaning);
     for (const SourceReport& r : report.sources) print(r);
     if (report.sources.size() > 1) print(report.all);
     if (!report.blocks) {
-        fmt::print("blocks         -\n");
+        print_out("blocks         -\n");
         return;
     }
-    fmt::print("blocks         {} if all were open; the largest has {:.3g} of the area, the median one {:.3g}\n",
-               *report.blocks, report.largest_block, report.median_block);
+    print_out(
+        "blocks         {} if all traces were open; the largest has {:.3g} of the area, the median block {:.3g}\n",
+        *report.blocks, report.largest_block, report.median_block);
 }
 
 void draw(const JointNetwork& network, const JointReport& report, const fs::path& output, const plot::FigureLook& look,
@@ -172,34 +175,35 @@ std::string text_of(const JointNetwork& network) {
 CommandLine describe_joints() {
     const auto number = [] { return po::value<double>()->value_name("X"); };
     po::options_description options;
-    options.add_options()("json", "print one JSON object")                               //
-        ("seed", po::value<std::int64_t>()->value_name("N"), "in place of joints.seed")  //
-        ("box-width", number(), "of the box, m, where the case has no packing.width")    //
-        ("box-height", number(), "of the box, m, where the case has no packing.height")  //
+    options.add_options()("json", "print one JSON object")                                    //
+        ("seed", po::value<std::int64_t>()->value_name("N"), "seed in place of joints.seed")  //
+        ("box-width", number(), "width of the box, m, if the case has no packing.width")      //
+        ("box-height", number(), "height of the box, m, if the case has no packing.height")   //
         ("grain", number(),
-         "mean spacing of the grains, m: the traces as a mesh of such grains has them, by joints.snap and shortest")  //
-        ("traces", po::value<std::string>()->value_name("FILE"), "writes the traces in the box: x1 y1 x2 y2 ...")     //
+         "mean spacing of the grains, m: prepares traces as for a mesh of such grains (joints.snap, shortest)")  //
+        ("traces", po::value<std::string>()->value_name("FILE"),
+         "file for the traces in the box, one line x1 y1 x2 y2 ... per trace")  //
         ("output,o", po::value<std::string>()->value_name("FIGURE"),
-         "figure to write: .svg, .pdf or .png; the traces in the box and their rose");
+         "figure to write: .svg, .pdf or .png; it shows the traces in the box and a rose of their directions");
     plot::add_figure_options(options, 2);
-    options.add_options()("force", "replace files that are there");
+    options.add_options()("force", "replace existing files");
     std::vector<Companion> companions{{"force", {"output", "traces"}}};
     for (const std::string& option : plot::figure_options()) companions.push_back({option, {"output"}});
     return {.synopses = {"crackle joints CASE.toml [OPTIONS]"},
             .description =
-                "Traces of joints in the box of a specimen, from [[joint_set]] and [[trace]] of a case, or of a file "
-                "that has nothing else and that cases include: what was asked for and what was reached (P10, P20, "
-                "P21, lengths, directions), and the blocks that they would cut out if all of them were open. The same "
-                "seed gives the same traces. With joints.snap in the file, or with --grain, rows of a file that are "
-                "segments of one fault are joined, and nodes that nearly coincide are brought together, as for a mesh; "
-                "what moved, and how far, is printed.",
+                "Generates or reads traces of joints in the box of a specimen. They are defined by [[joint_set]] and "
+                "[[trace]] of a case, or of a file with only these tables that cases include. Prints requested and "
+                "reached amounts (P10, P20, P21, lengths, directions), and the blocks that the traces would cut out if "
+                "all of them were open. The same seed gives the same traces. With joints.snap in the file, or with "
+                "--grain, traces are prepared as for a mesh. Segments of one fault are then joined, and nodes that "
+                "nearly coincide are merged; the changes are printed.",
             .options = {{"options", options}},
             .operand = "CASE.toml",
             .companions = companions,
             .examples = {{"crackle joints specimens/jointed/two_sets.toml", "amounts, directions, blocks"},
                          {"crackle joints specimens/jointed/two_sets.toml -o traces.svg"},
                          {"crackle joints specimens/jointed/two_sets.toml --seed 7 --traces traces.txt"},
-                         {"crackle joints specimens/jointed/survey.toml --grain 0.05", "as cells of 5 cm have them"}}};
+                         {"crackle joints specimens/jointed/survey.toml --grain 0.05", "for cells of 5 cm"}}};
 }
 
 int joints(const Invocation& given) {
@@ -227,22 +231,22 @@ int joints_of(TestCase test, const std::string& name, const Invocation& given) {
     const std::string table = values.contains("traces") ? values["traces"].as<std::string>() : "";
     if (!figure.empty()) {
         format = plot::format_of_output("joints", figure);
-        refuse_replacing(figure, values.contains("force"), inputs);
+        output_file(figure, values.contains("force"), inputs);
     }
     const plot::FigureLook look = plot::figure_look("joints", values, format);
-    if (!table.empty()) refuse_replacing(table, values.contains("force"), inputs);
+    if (!table.empty()) output_file(table, values.contains("force"), inputs);
     const Domain box = box_of(test, values);
     const JointNetwork network = make_joints(test, box, grains_in(box, values));
     const JointReport report = report_joints(test, network);
     if (!figure.empty()) draw(network, report, figure, look, format);
     if (!table.empty()) replace_file(table, text_of(network));
     if (values.contains("json")) {
-        std::cout << as_json(network, report).dump(2) << '\n';
+        print_text(as_json(network, report).dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
         return exit_done;
     }
     if (!given.messages.quiet()) {
         print(network, report);
-        for (const std::string& notice : report.notices) fmt::print("notice: {}\n", notice);
+        for (const std::string& notice : report.notices) print_out("notice: {}\n", notice);
     }
     return exit_done;
 }

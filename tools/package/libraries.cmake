@@ -1,4 +1,4 @@
-# The libraries with their headers, for find_package(crackle): include/crackle is the folder that includes begin in.
+# Installs the libraries and their headers for find_package(crackle). Paths in #include are relative to include/crackle.
 include(CMakePackageConfigHelpers)
 set(CRACKLE_CONFIG_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/crackle)
 set_target_properties(crackle_solver PROPERTIES EXPORT_NAME solver)
@@ -7,7 +7,7 @@ set_target_properties(crackle_specimens PROPERTIES EXPORT_NAME specimens)
 install(TARGETS crackle_solver crackle_mesher crackle_specimens EXPORT crackleTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/crackle COMPONENT development)
-# Not for including by itself: public headers do.
+# Included by public headers, but not meant to be included directly.
 install(FILES ${PROJECT_SOURCE_DIR}/solver/base/lanes.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/crackle/solver/base
     COMPONENT development)
 install(EXPORT crackleTargets NAMESPACE crackle:: DESTINATION ${CRACKLE_CONFIG_DIR} COMPONENT development)

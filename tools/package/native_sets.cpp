@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Run by CMake for CRACKLE_SETS=NATIVE: prints the narrowest instruction set of this processor's family and the widest
-// that runs here, as a CMake list.
+// Program run by CMake for CRACKLE_SETS=NATIVE. It prints, as a CMake list, the narrowest instruction set of this
+// processor's family and the widest one that runs on it.
 // Tested by tests/solver/base/instruction_set_test.cpp.
 #include <algorithm>
 #include <iostream>

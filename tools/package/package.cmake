@@ -1,15 +1,15 @@
-# `cpack` in the build folder makes the Debian package of what `cmake --install` installs.
+# `cpack` in the build folder makes Debian packages of the files that `cmake --install` installs.
 find_program(GZIP gzip REQUIRED)
 set(copyright ${documents}/copyright)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/copyright ${copyright} COPYONLY)
 set(changes ${PROJECT_SOURCE_DIR}/CHANGELOG.md)
 add_custom_command(OUTPUT ${documents}/changelog
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/debian_changelog ${changes} > ${documents}/changelog
-    DEPENDS ${CMAKE_CURRENT_LIST_DIR}/debian_changelog ${changes} COMMENT "Changelog as Debian has it" VERBATIM)
-# Debian wants both compressed, without the time of the build.
+    DEPENDS ${CMAKE_CURRENT_LIST_DIR}/debian_changelog ${changes} COMMENT "Converting the changelog to Debian's format" VERBATIM)
+# Debian requires that both files are compressed, without timestamps.
 add_custom_command(OUTPUT ${documents}/changelog.gz ${documents}/crackle.1.gz
     COMMAND ${GZIP} -9nkf ${documents}/changelog ${documents}/crackle.1
-    DEPENDS ${documents}/crackle.1 ${documents}/changelog COMMENT "Changelog and manual page compressed" VERBATIM)
+    DEPENDS ${documents}/crackle.1 ${documents}/changelog COMMENT "Compressing the changelog and the manual page" VERBATIM)
 add_custom_target(crackle_compressed ALL DEPENDS ${documents}/changelog.gz)
 install(FILES ${documents}/crackle.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${copyright} ${documents}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
@@ -20,7 +20,7 @@ if(TARGET crackle_python)
 endif()
 
 set(CPACK_GENERATOR DEB)
-# crackle, crackle-bench, python3-crackle, and libcrackle-dev with what find_package(crackle) finds.
+# The packages are crackle, crackle-bench, python3-crackle, and libcrackle-dev, which serves find_package(crackle).
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_COMPONENTS_ALL program development bench)
@@ -36,23 +36,23 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_PACKAGE_NAME crackle)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT "Crackle maintainers <crackle@example.org>")
-# The first line of each is its summary.
+# The first line of each description is its summary.
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "bonded rock specimens, made and tested virtually
-Crackle packs circles, makes Delaunay triangles or Voronoi polygons of them,
+Crackle packs circles, turns them into Delaunay triangles or Voronoi polygons,
 bonds them and loads them between platens until they break: two-dimensional
 discrete elements for rock mechanics. It writes stress-strain curves, every
 bond break, frames for ParaView, figures and an interactive report.")
 set(CPACK_DEBIAN_BENCH_DESCRIPTION "studies of the engine of crackle
-Closed forms and laws that the engine has to meet, run time against error,
-scenes that are hard on its stability, particle-steps a second beside what the
-machine can do, and the rock of DEMseg's guide on many packings.")
+Comparisons with closed forms and physical laws, run time against error,
+scenes that test numerical stability, particle-steps per second against the
+limits of the machine, and the rock of DEMseg's guide on many packings.")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "bonded rock specimens, made and tested from Python
-The commands of crackle as functions, with the same words and the same bytes:
-specimens, tests with callbacks, worlds that are stepped and loaded by one's
-own rules, and the engine's arrays as those of numpy, without copies.")
+The commands of crackle as functions, with the same options and results:
+specimens, tests with callbacks, worlds that are stepped and loaded from
+Python, and the engine's arrays as numpy arrays, without copies.")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "bonded rock specimens, libraries to link
-Static libraries and headers of crackle, found by find_package(crackle) of
-CMake: the solver, the mesher, and the virtual tests that are made of them.")
+Static libraries and headers of crackle, found by find_package(crackle) in
+CMake: the solver, the mesher, and the virtual tests built on them.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -62,7 +62,7 @@ set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS fonts-dejavu-core)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "crackle-bench, paraview, python3-crackle")
-# Shipped cases and their pages come with the program.
+# The package crackle contains the shipped cases, which crackle-bench uses.
 set(CPACK_DEBIAN_BENCH_PACKAGE_DEPENDS "crackle (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_BENCH_PACKAGE_SUGGESTS gnuplot-nox)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "crackle (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy, fonts-dejavu-core")

@@ -21,13 +21,15 @@
 #include "solver/base/errors.hpp"
 #include "specimens/frames/base64.hpp"
 #include "specimens/measures/verdicts.hpp"
+#include "specimens/summary/summary_file.hpp"
 
 namespace crackle::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
+static_assert(std::endian::native == std::endian::little,
+              "arrays are written in the machine's byte order, which the page expects to be little-endian");
 
 constexpr std::size_t frames_in_block = 16;
 
@@ -42,18 +44,19 @@ constexpr const char* type_name() {
 std::string packed(const std::vector<unsigned char>& bytes) {
     auto size = compressBound(static_cast<uLong>(bytes.size()));
     std::vector<unsigned char> out(size);
-    // Level 6 packs as well as 9 to a percent, in a fifth of the time: the numbers are noise but for their lengths.
+    // Level 6 takes a fifth of the time of level 9 and compresses nearly as well, since the data are mostly noise.
     if (compress2(out.data(), &size, bytes.data(), static_cast<uLong>(bytes.size()), 6) != Z_OK)
         throw std::runtime_error("zlib could not compress the page's data");
     return encode_base64(std::span(out).first(size));
 }
 
-/// Arrays laid end to end: bytes, and where each array lies in them.
+/// Arrays placed one after another, and the position of each array.
 class PlainBlock {
   public:
     template <class T>
     void add(const std::string& name, const std::vector<T>& values) {
-        bytes_.resize((bytes_.size() + 7) / 8 * 8);  // the page views them in place: each on a multiple of its size
+        // The page uses arrays in place, so each must be aligned to its element size.
+        bytes_.resize((bytes_.size() + 7) / 8 * 8);
         places_[name] = {{"type", type_name<T>()}, {"offset", bytes_.size()}, {"length", values.size()}};
         const std::size_t begin = bytes_.size();
         bytes_.resize(begin + values.size() * sizeof(T));
@@ -67,24 +70,24 @@ class PlainBlock {
     Json places_ = Json::object();
 };
 
-/// What a whole number stands for: see the header.
+/// How a stored integer is converted to a value; see the header.
 struct Code {
     double quantum = 1.0;
-    double growth = 0.0;  ///< 0: all steps are equal
+    double growth = 0.0;  ///< 0 if all steps are equal
 
     double number(double value) const {
         return std::round(growth > 0.0 ? std::asinh(value * growth / quantum) / growth : value / quantum);
     }
 };
 
-/// Tables of whole numbers, as the header describes them.
+/// Tables of integers, in the format described in the header.
 class CodedBlock {
   public:
-    /// @param where  for messages: whose frames
+    /// @param where source of the frames, for messages
     explicit CodedBlock(std::string where) : where_(std::move(where)) {}
     const std::string& where() const { return where_; }
 
-    /// @param rows  all of one length; nothing is stored of empty ones
+    /// @param rows rows of equal length; nothing is stored if they are empty
     void add(const std::string& name, const std::vector<std::vector<double>>& rows, Code code) {
         const std::size_t columns = rows.front().size();
         if (columns == 0) return;
@@ -101,7 +104,7 @@ class CodedBlock {
         store(name, coded, rows.size(), columns, code);
     }
 
-    /// One row, differences from column to column.
+    /// Adds a single row, stored as differences between columns.
     void add_row(const std::string& name, const std::vector<double>& row, Code code) {
         std::vector<std::uint64_t> coded;
         coded.reserve(row.size());
@@ -123,11 +126,12 @@ class CodedBlock {
     }
 
     std::int64_t whole(const std::string& name, double value, Code code) const {
-        constexpr double most = 1ULL << 50;  // exact in a double, which is what the page adds up in
+        // Integers up to this value are exact in double precision, in which the page sums them.
+        constexpr double most = 1ULL << 50;
         const double number = code.number(value);
         if (!(std::abs(number) < most))
             throw InputError(
-                fmt::format("{}: {}: found {}, expected a finite number of common size", where_, name, value));
+                fmt::format("{}: {}: found {}, expected a finite number of ordinary magnitude", where_, name, value));
         return static_cast<std::int64_t>(number);
     }
 
@@ -152,15 +156,17 @@ class CodedBlock {
     Json places_ = Json::object();
 };
 
-/// The place of one number a cell (or bond) in a recorded frame.
+/// Member of a recorded frame that has one number per cell (or bond).
 using Field = std::vector<double> RecordedFrame::*;
 
-// What no eye sees, even where displacements are magnified a hundred times; half of a page is these numbers' noise.
-constexpr double place_share = 0x1p-22;    // quantum over the specimen's size
+// Fine enough that errors remain invisible even if displacements are magnified a hundred times. Finer values would only
+// store more noise, and pages would be larger.
+constexpr double place_share = 0x1p-22;    // quantum, relative to the specimen's size
 constexpr double angle_quantum = 0x1p-18;  // rad
-constexpr double least_share = 0x1p-20;    // quantum over the block's largest value, of what may be small or large
-constexpr double growth = 0x1p-7;          // of velocities and stresses: known to 0.4 % of themselves
-constexpr double force_growth = 0x1p-6;    // of forces, which are half of a page: to 0.8 %
+// Quantum, relative to the block's largest value, for quantities of varying magnitude.
+constexpr double least_share = 0x1p-20;
+constexpr double growth = 0x1p-7;        // for velocities and stresses: relative resolution 0.4 %
+constexpr double force_growth = 0x1p-6;  // for forces, which need much space: relative resolution 0.8 %
 
 double largest_of(const std::vector<std::vector<double>>& rows) {
     double largest = 0.0;
@@ -181,8 +187,9 @@ void add_field(CodedBlock& block, const std::string& name, const std::vector<Rec
     for (const RecordedFrame& frame : frames) {
         rows.push_back(frame.*field);
         if (rows.back().size() != rows.front().size())
-            throw InputError(fmt::format("{}: {}: found {} values in one frame and {} in another, expected as many",
-                                         block.where(), name, rows.front().size(), rows.back().size()));
+            throw InputError(fmt::format(
+                "{}: {}: found {} values in one frame and {} in another, expected the same number in all frames",
+                block.where(), name, rows.front().size(), rows.back().size()));
     }
     block.add(name, rows, code_for(rows));
 }
@@ -213,7 +220,7 @@ void add_contacts(CodedBlock& block, const std::vector<RecordedFrame>& frames, d
     block.add_row("contacts.fs", shear_force, forces);
 }
 
-/// Largest extent of the first frame, m.
+/// Largest extent of the specimen in the first frame, m.
 double size_of(const std::vector<RecordedCell>& cells) {
     double x1 = 0.0, x2 = 0.0, y1 = 0.0, y2 = 0.0;
     bool any = false;
@@ -231,7 +238,8 @@ double size_of(const std::vector<RecordedCell>& cells) {
     return std::max({x2 - x1, y2 - y1, std::numeric_limits<double>::min()});
 }
 
-/// Left and right end of what frames show between platens, m, so that the viewer leaves room for it from the start.
+/// Left and right ends, over all frames, of the part of the specimen between the platens, m. The viewer thus leaves
+/// enough space from the start.
 class Sides {
   public:
     explicit Sides(const std::vector<RecordedCell>& cells) : cells_(cells) {
@@ -243,7 +251,8 @@ class Sides {
             left_ = std::min(left_, cell.centre.x - reach);
             right_ = std::max(right_, cell.centre.x + reach);
         }
-        const double followed = 0.4 * (right_ - left_);  // splinters that fly farther would make the specimen small
+        // Splinters that fly farther are ignored; otherwise the specimen would be drawn too small.
+        const double followed = 0.4 * (right_ - left_);
         least_ = left_ - followed;
         most_ = right_ + followed;
     }
@@ -327,8 +336,8 @@ void add_breaks(PlainBlock& block, const TestResults& results) {
     if (results.slips) real("slips.", *results.slips, {"time", "axial_strain", "x", "y", "orientation"});
 }
 
-/// Rows that a curve's picture needs: in each of `intervals` parts of the rows those where a column is lowest or
-/// highest, and the first and the last of all.
+/// Rows needed to draw a curve: the first and the last row. In addition, for each of `intervals` parts of the rows,
+/// those with a column's minimum or maximum.
 std::vector<std::size_t> rows_seen(const std::vector<const std::vector<double>*>& columns, std::size_t intervals) {
     const std::size_t rows = columns.front()->size();
     std::vector<std::size_t> seen;
@@ -353,7 +362,7 @@ std::vector<std::size_t> rows_seen(const std::vector<const std::vector<double>*>
     return seen;
 }
 
-/// Columns of one curve, thinned to what a screen shows, under `prefix` and their names.
+/// Columns of one curve, thinned for display on screen, with names that begin with `prefix`.
 class ThinnedCurve {
   public:
     ThinnedCurve(PlainBlock& block, std::string prefix) : block_(block), prefix_(std::move(prefix)) {}
@@ -363,12 +372,12 @@ class ThinnedCurve {
         columns_.push_back(&values);
     }
     void write(const std::vector<double>& time) const {
-        constexpr std::size_t intervals = 400;  // of about two pixels of a figure
+        constexpr std::size_t intervals = 400;  // each about two pixels of a diagram
         std::vector<const std::vector<double>*> all = columns_;
         all.push_back(&time);
         const std::vector<std::size_t> rows = rows_seen(all, intervals);
         const auto put = [&](const std::string& name, const std::vector<double>& values) {
-            // Doubles: displacements are differences of places.
+            // stored as double, because displacements are differences of positions
             block_.add(prefix_ + name, listed<double>(rows, [&](std::size_t row) { return values[row]; }));
         };
         put("time", time);
@@ -382,9 +391,9 @@ class ThinnedCurve {
     std::vector<const std::vector<double>*> columns_;
 };
 
-constexpr std::size_t most_bodies = 8;  // curves that can be told apart
+constexpr std::size_t most_bodies = 8;  // number of curves that can be distinguished
 
-/// @return what the manifest says of them
+/// @return the curves' entry in the manifest
 Json add_curves(PlainBlock& block, const DeckCurves& curves) {
     ThinnedCurve energy(block, "energy.");
     for (std::size_t k = 0; k < deck_energy_names.size(); ++k) energy.add(deck_energy_names[k], curves.energy.parts[k]);
@@ -422,18 +431,6 @@ Json listed_frame(const FrameHead& head) {
     return entry;
 }
 
-const char* name_of(Recording::Kind kind) {
-    switch (kind) {
-        case Recording::Kind::test:
-            return "test";
-        case Recording::Kind::deck:
-            return "deck";
-        case Recording::Kind::particles:
-            break;
-    }
-    return "particles";
-}
-
 }  // namespace
 
 PageData pack_recording(const Recording& recording, const std::function<void(std::size_t)>& packed_frames) {
@@ -447,12 +444,13 @@ PageData pack_recording(const Recording& recording, const std::function<void(std
     Json& manifest = data.manifest;
     manifest["name"] = recording.name;
     manifest["kind"] = name_of(recording.kind);
-    Json summary = recording.kind == Recording::Kind::test ? recording.results.summary.json() : Json::object();
-    if (const auto verdicts = summary.find("validity"); verdicts != summary.end() && verdicts->is_array())
-        for (Json& verdict : *verdicts)
-            if (verdict.value("holds", Json()) == false)
-                verdict["sentence"] = broken_claim(verdict.value("claim", ""), verdict.value("found", ""));
-    manifest["summary"] = std::move(summary);
+    const Summary& summary = recording.results.summary;
+    manifest["summary"] = json_of(summary);
+    const std::vector<JudgedClaim> claims = summary.validity.validity.value_or(std::vector<JudgedClaim>());
+    for (std::size_t k = 0; k < claims.size(); ++k)
+        if (!claims[k].holds.value_or(true))
+            manifest["summary"]["validity"][k]["sentence"] =
+                broken_claim(claims[k].claim.value_or(""), claims[k].found.value_or(""));
     if (recording.walls) manifest["walls"] = *recording.walls;
     if (recording.mean_velocities) manifest["velocities"] = "mean";
     if (recording.kind == Recording::Kind::deck) manifest["curves"] = add_curves(first, recording.curves);

@@ -7,7 +7,7 @@
 
 namespace crackle::tools {
 
-/// The page with a marker where the data go; empty in a build without the viewer.
+/// The page with markers in place of the data; empty in a build without the viewer.
 std::string_view page_template();
 
 }  // namespace crackle::tools

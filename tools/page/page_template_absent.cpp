@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// For builds with CRACKLE_VIEWER=OFF.
+// Empty page template for builds with CRACKLE_VIEWER=OFF.
 // Tested by tests/tools/commands/report_test.cpp.
 #include "tools/page/page_template.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/base/version.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/recordings/distinct_names.hpp"
@@ -19,10 +20,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Where the manifest goes, the blocks of the first picture, and all others.
+/// Markers for the manifest, the blocks of the first picture, and all other blocks.
 constexpr std::array<std::string_view, 3> markers{"@CRACKLE_DATA@", "@CRACKLE_FIRST@", "@CRACKLE_REST@"};
 
-/// Inside a script element only `<` can do harm (</script>, <!--); in JSON it stands in strings alone.
+/// Escapes `<`, the only dangerous character inside a script element (</script>, <!--). In JSON it occurs only within
+/// strings.
 std::string safe_in_script(const std::string& json) {
     std::string out;
     out.reserve(json.size());
@@ -39,7 +41,7 @@ std::string safe_in_script(const std::string& json) {
 std::string default_title(const std::vector<Recording>& recordings) {
     if (recordings.size() != 1) return "Virtual rock tests";
     const Recording& recording = recordings.front();
-    const std::string title = recording.results.summary.word("title");
+    const std::string title = recording.results.summary.about.title.value_or("");
     return title.empty() ? recording.name : title;
 }
 
@@ -49,21 +51,24 @@ void append_block(std::string& out, std::size_t recording, std::size_t block, co
     out += "</script>\n";
 }
 
-void refuse_foreign_file(const std::filesystem::path& output) {
-    if (!is_there(output) || is_report_page(output)) return;
-    throw InputError(fmt::format(
-        "{}: found something that is not a page of crackle, expected a new name or an earlier page; choose another "
-        "name with -o",
-        output.string()));
-}
-
 }  // namespace
+
+std::filesystem::path output_page(const std::filesystem::path& named) {
+    std::filesystem::path output = output_file(named);
+    if (!is_there(output) || is_report_page(output)) return output;
+    throw InputError(
+        fmt::format("{}: found a file that is not a page written by crackle, expected a new name or an earlier page; "
+                    "choose another name with -o",
+                    output.string()));
+}
 
 std::string filled_page(std::string_view page, const PageHead& head, const std::vector<Recording>& recordings,
                         Messages& messages) {
     if (page.empty()) {
         throw InputError(
-            "this build of crackle holds no page; configure with -DCRACKLE_VIEWER=ON (needs Node 18 or later and npm)");
+            "this build of crackle contains no report page; configure with -DCRACKLE_VIEWER=ON (needs Node 18 or later "
+            "and "
+            "npm)");
     }
     Json manifest{{"format", "crackle-report 2"},
                   {"title", head.title.empty() ? default_title(recordings) : head.title},
@@ -89,7 +94,7 @@ std::string filled_page(std::string_view page, const PageHead& head, const std::
         for (std::size_t block = 0; block < data.blocks.size(); ++block)
             append_block(texts[block == 0 ? 1 : 2], k, block, data.blocks[block]);
     }
-    // Names from file systems may not be UTF-8: shown with replacement characters rather than refused.
+    // Names from the file system may not be valid UTF-8; replacement characters are shown instead of an error.
     texts[0] = safe_in_script(manifest.dump(-1, ' ', false, Json::error_handler_t::replace));
 
     std::string out;
@@ -105,7 +110,7 @@ std::string filled_page(std::string_view page, const PageHead& head, const std::
 
 void write_page(const std::filesystem::path& output, const PageHead& head, const std::vector<Recording>& recordings,
                 Messages& messages) {
-    refuse_foreign_file(output);
+    output_page(output);
     const std::string page = filled_page(page_template(), head, recordings, messages);
     replace_file(output, page);
     messages.make_room();

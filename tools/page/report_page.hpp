@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fills the bundled page with recordings: one HTML file that needs nothing else. page_data.hpp describes how numbers
-// are laid out. What the first picture needs stands before the page's script, all other blocks after it.
+// Inserts recordings into the bundled page, to make one self-contained HTML file. page_data.hpp describes the
+// layout of the data. Data for the first picture come before the page's script, all other blocks after it.
 // Tested by tests/tools/commands/report_test.cpp.
 #pragma once
 
@@ -16,28 +16,32 @@
 
 namespace crackle::tools {
 
-/// Frames shown where the user states no number: a step on a laptop's screen is a pixel of the curve.
+/// Number of frames if the user gives none. On a laptop screen, one frame then corresponds to one pixel of the curve.
 inline constexpr std::size_t default_page_frames = 500;
 
-enum class PageView { report, view };  ///< tables and curves first, or the moving picture
+enum class PageView { report, view };  ///< what is shown first: tables and curves, or the animation
 
 struct PageHead {
-    std::string title;  ///< empty: taken from the recordings
+    std::string title;  ///< if empty, the title is derived from the recordings
     PageView view = PageView::report;
-    std::optional<UnitNames> units = {};  ///< of particle files and decks; none: they are not known
+    std::optional<UnitNames> units = {};  ///< units of particle files and decks; empty if unknown
 };
 
-/// @param page  the template, holding each marker once
-/// @return the page's bytes: the same for the same recordings
+/// @param page the template, which contains each marker once
+/// @return the page; identical recordings give identical bytes
 std::string filled_page(std::string_view page, const PageHead& head, const std::vector<Recording>& recordings,
                         Messages& messages);
 
-/// Fills the page of this build and writes it under a temporary name, which is then renamed.
-/// @throws InputError in a build without the page, or where `output` is a file that is no page of ours
+/// Checks the output path for a page, which may replace an earlier page. @throws InputError if it would replace any
+/// other file
+std::filesystem::path output_page(const std::filesystem::path& named);
+
+/// Creates the page and writes it under a temporary name, which is then changed to `output`.
+/// @throws InputError if this build has no page template, or if `output` exists and is not a page written by crackle
 void write_page(const std::filesystem::path& output, const PageHead& head, const std::vector<Recording>& recordings,
                 Messages& messages);
 
-/// What -v reports of a recording.
+/// Prints the details of a recording that -v shows.
 void report_recording(Messages& messages, const Recording& recording);
 
 }  // namespace crackle::tools

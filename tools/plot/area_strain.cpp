@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a specimen's area changes while it is loaded: the two-dimensional volume strain, and what of it is cracks.
+// Diagram of the change of a specimen's area during loading: the two-dimensional volumetric strain, and the part of it
+// caused by cracks.
 // Tested by tests/tools/commands/plot_test.cpp.
 
 #include <algorithm>
@@ -13,17 +14,18 @@
 namespace crackle::plot {
 namespace {
 
-/// By row: axial less lateral strain, shortening and widening positive, and the same without its elastic part
-/// (1-ν)σ/E; empty where the solve gave no E and ν.
+/// By row: axial minus lateral strain (shortening and widening positive), and the same without its elastic part
+/// (1-ν)σ/E. The latter is empty if E and ν are not known.
 struct AreaStrains {
     std::vector<double> all, cracks;
 };
 
 AreaStrains area_strains_of(const PlottedTest& test) {
     const TestResults& results = *test.results;
-    const double sense = results.summary.word("kind") == "tension" ? -1.0 : 1.0;
-    const double compliance = (1.0 - number_of(test, "poissons_ratio")) / number_of(test, "youngs_modulus");
-    const double pressure = number_of(test, "confining_pressure"), confined = std::isnan(pressure) ? 0.0 : pressure;
+    const double sense = results.summary.about.kind == LoadingKind::tension ? -1.0 : 1.0;
+    const Strength& known = results.summary.strength;
+    const double compliance = (1.0 - known.poissons_ratio.or_nan()) / known.youngs_modulus.or_nan();
+    const double confined = results.summary.confinement.confining_pressure.value_or(0.0);
     const std::vector<double>&axial = column(results, "axial_strain"), &lateral = column(results, "lateral_strain"),
           &stress = column(results, "axial_stress");
     AreaStrains strains;
@@ -35,7 +37,7 @@ AreaStrains area_strains_of(const PlottedTest& test) {
     return strains;
 }
 
-/// Rows up to where it falls out of the frame, to the last point within it.
+/// Points of the curve up to where it first leaves the frame.
 std::vector<Point> within_frame(const Axes& axes, const std::vector<double>& axial,
                                 const std::vector<double>& strains) {
     std::vector<Point> points = curve_points(axes, axial, strain_unit, strains, strain_unit);
@@ -49,15 +51,16 @@ std::vector<Point> within_frame(const Axes& axes, const std::vector<double>& axi
     return points;
 }
 
-// Beyond the peak pieces part, and the strain of the sides is their way: axes reach to so much of what there was.
+// After the peak, pieces separate and the lateral strain only reflects their displacement. Axes therefore end at this
+// multiple of the strain up to the peak.
 constexpr double beyond_peak = 1.5;
 
 }  // namespace
 
 bool has_area_strain(const TestResults& results) {
-    // Of other kinds the two strains are not of one stretched area.
-    const std::string kind = results.summary.word("kind");
-    if (kind != "compression" && kind != "tension" && kind != "biaxial") return false;
+    // In other kinds of test, the two strains do not refer to the same uniformly strained area.
+    const Stated<LoadingKind>& kind = results.summary.about.kind;
+    if (kind != LoadingKind::compression && kind != LoadingKind::tension && kind != LoadingKind::biaxial) return false;
     const std::vector<double>& lateral = column(results, "lateral_strain");
     return !lateral.empty() && std::ranges::none_of(lateral, [](double strain) { return std::isnan(strain); });
 }
@@ -74,7 +77,8 @@ Panel area_strain(const std::vector<PlottedTest>& tests) {
         for (const PlottedTest& test : tests) {
             strains.push_back(area_strains_of(test));
             if (!single) strains.back().cracks.clear();
-            const double peak = number_of(test, "peak_strain");  // not a number of one that has not failed: all rows
+            // NaN if the test has not failed; all rows are then used.
+            const double peak = test.results->summary.strength.peak_strain.or_nan();
             const std::vector<double>& axial = column(*test.results, "axial_strain");
             for (const std::vector<double>* values : {&strains.back().all, &strains.back().cracks}) {
                 for (std::size_t k = 0; k < values->size() && !(axial[k] > peak); ++k) {
@@ -89,7 +93,7 @@ Panel area_strain(const std::vector<PlottedTest>& tests) {
         std::vector<Legend::Entry> entries = entries_of(tests);
         if (single)
             entries = {{"area strain", colour_of(tests.front()), false, false},
-                       {"of cracks: less (1 − ν)σ/E", shear_colour, true, false}};
+                       {"due to cracks: minus (1 − ν)σ/E", shear_colour, true, false}};
         const Legend legend = legend_of(canvas, std::move(entries), place.width);
         axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
         legend.draw(canvas, {place.x + beside_letter, place.y});
@@ -101,10 +105,11 @@ Panel area_strain(const std::vector<PlottedTest>& tests) {
             if (!strains[k].cracks.empty())
                 canvas.line(within_frame(axes, axial, strains[k].cracks), shear_colour, curve_width, true);
         }
-        const double damage = number_of(tests.front(), "crack_damage_strain");
+        const double damage = tests.front().results->summary.cracking.crack_damage_strain.or_nan();
         if (single && std::isfinite(damage)) {
             const std::vector<double>& axial = column(*tests.front().results, "axial_strain");
-            // The first row there: a platen that goes back brings the strain again.
+            // The first row that reaches the stress is used, since a platen that moves back passes the same strain
+            // again.
             const auto row =
                 std::ranges::find_if(axial, [&](double strain) { return strain >= damage; }) - axial.begin();
             const auto at = std::min(static_cast<std::size_t>(row), axial.size() - 1);

@@ -24,7 +24,7 @@ double widest_label(const Canvas& canvas, const Scale& scale, double text) {
     return widest;
 }
 
-/// A title along an axis is as long as the axis at most.
+/// Text size at which a title is not longer than its axis.
 double fitting(const Canvas& canvas, const std::string& title, double length, double text) {
     return title.empty() ? text : std::min(text, text * length / canvas.size_of(title, text).width);
 }
@@ -46,14 +46,14 @@ std::string Scale::label(double tick) const {
 
 namespace {
 
-/// Ticks for a range whose lower end keeps off the lowest values, or is one of the figure's own.
+/// A scale with ticks, and space below the lowest value unless the lower end is fixed.
 Scale ticked(double low, double high, int most_ticks, bool room_below) {
     const double raw = (high - low) / most_ticks;
     const double power = std::pow(10.0, std::floor(std::log10(raw)));
     constexpr std::array<double, 6> steps{0.2, 0.5, 1.0, 2.0, 5.0, 10.0};
     const auto* step =
         std::find_if(steps.begin() + 2, steps.end() - 1, [&](double s) { return s * power >= raw * (1.0 - 1e-9); });
-    // The topmost curve keeps off the frame.
+    // Leave space between the uppermost curve and the frame.
     Scale scale{room_below ? low - 0.04 * (high - low) : low, high + 0.06 * (high - low), *step * power};
     while (scale.ticks().size() < 2 && step != steps.begin()) scale.step = *--step * power;
     return scale;
@@ -67,7 +67,7 @@ Scale scale_for(double smallest, double largest, int most_ticks) {
 }
 
 Scale scale_around(double smallest, double largest, int most_ticks) {
-    constexpr double far = 0.5;  // of the largest size
+    constexpr double far = 0.5;  // relative to the largest absolute value
     if (largest > smallest && (smallest > far * largest || largest < far * smallest))
         return ticked(smallest, largest, most_ticks, true);
     return scale_for(smallest, std::max(0.0, largest), most_ticks);
@@ -82,7 +82,7 @@ std::string superscript(int number) {
     return text;
 }
 
-/// "N/m or Pa" with a prefix to each.
+/// A unit such as "N/m or Pa" with the prefix added to each part.
 std::string prefixed(const std::string& unit, const std::string& prefix) {
     const std::string between = " or ";
     const std::size_t at = unit.find(between);
@@ -127,7 +127,8 @@ double Axes::room_right(const Canvas& canvas, const Scale& x, double room, doubl
     const std::vector<double> ticks = x.ticks();
     if (ticks.empty()) return least;
     const double beyond_tick = 0.5 * canvas.size_of(x.label(ticks.back()), text).width;
-    const double rest = (x.high - ticks.back()) / (x.high - x.low);  // of the frame's width, beyond the tick
+    const double rest =
+        (x.high - ticks.back()) / (x.high - x.low);  // part of the frame's width to the right of the last tick
     return std::max(least, (beyond_tick - rest * room) / (1.0 - rest));
 }
 

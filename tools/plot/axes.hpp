@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Linear axes: ticks at 1, 2 or 5 times a power of ten, SI prefixes, and the frame that curves are drawn into.
+// Linear axes: ticks at 1, 2 or 5 times a power of ten, SI prefixes, and the frame in which curves are drawn.
 // Tested by tests/tools/plot/axes_test.cpp.
 #pragma once
 
@@ -10,45 +10,47 @@
 
 namespace crackle::plot {
 
-/// A range with ticks on it.
+/// A range of values with ticks.
 struct Scale {
     double low = 0.0, high = 1.0;
-    double step = 0.2;  ///< between ticks
+    double step = 0.2;  ///< distance between ticks
 
     std::vector<double> ticks() const;
-    /// As many decimals as the step has.
+    /// Label of a tick, with as many decimals as the step needs.
     std::string label(double tick) const;
 };
 
-/// From 0 (or below) to the largest value and a little more, with a tick beside that at 0.
-/// @param most_ticks  at most so many intervals, where that leaves a second tick
+/// A scale from 0 (or below) to slightly above the largest value, with at least one tick in addition to the one at 0.
+/// @param most_ticks largest number of intervals, unless this would leave only one tick
 Scale scale_for(double smallest, double largest, int most_ticks);
-/// The same around 0 and all values; without 0 where they lie farther from it than half of their size.
+/// A scale that includes all values. It includes 0 as well, unless the distance of the values from 0 is more than half
+/// of their magnitude.
 Scale scale_around(double smallest, double largest, int most_ticks);
 
-/// A unit with the prefix that puts the largest value between 1 and 1000: {1e3, "kN/m"}; of "N/m or Pa" each has it.
+/// A unit with the SI prefix for which the largest value is between 1 and 1000, for example {1e3, "kN/m"}. In "N/m or
+/// Pa" both units get the prefix.
 struct Unit {
     double factor = 1.0;
     std::string name;
 };
 Unit unit_for(double largest, const std::string& unit);
-/// Of a unit that takes no prefix, a power of a thousand where the numbers would be long: {1e6, "10⁶ dyn"}.
+/// A unit without SI prefix; if its numbers would be long, with a power of a thousand: {1e6, "10⁶ dyn"}.
 Unit unit_with_power(double largest, const std::string& unit);
 
 struct Axes {
-    Rect frame;  ///< inside of which curves lie, pt
+    Rect frame;  ///< area for curves, pt
     Scale x, y;
-    double text = 1.0;  ///< of the font size
+    double text = 1.0;  ///< relative to the font size
 
     Point at(double value_x, double value_y) const;
-    /// Frame, ticks, numbers and titles; tick labels of x only where asked.
+    /// Draws frame, ticks, numbers and titles. The x axis has numbers only if x_title is not empty.
     void draw(Canvas& canvas, const std::string& x_title, const std::string& y_title) const;
     void draw_right(Canvas& canvas, const Scale& scale, const std::string& title) const;
-    /// Room that numbers and a title need beside the frame, pt.
+    /// Space needed for numbers and a title beside the frame, pt.
     static double room_left(const Canvas& canvas, const Scale& scale, double text = 1.0);
     static double room_below(const Canvas& canvas, double text = 1.0);
-    /// Room that the number at the last tick needs to the right of the frame, pt.
-    /// @param room from the frame's left end to the panel's right one
+    /// Space needed to the right of the frame for the number at the last tick, pt.
+    /// @param room distance from the left edge of the frame to the right edge of the panel, pt
     static double room_right(const Canvas& canvas, const Scale& x, double room, double text = 1.0);
 };
 

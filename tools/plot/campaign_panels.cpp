@@ -19,14 +19,14 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Strains and the like, which have no unit, in thousandths where they are small.
+/// Unit of a result: small dimensionless values, such as strains, are shown in thousandths.
 Unit figure_unit(double largest, const std::string& name) {
     constexpr double small = 0.02;
     if (!name.empty()) return unit_for(largest, name);
     return largest > 0.0 && largest < small ? Unit{strain_unit, strain_unit_title} : Unit{1.0, ""};
 }
 
-/// The label of a row in lines of at most this width, pt, broken behind commas where that does.
+/// A row's label, broken after commas into lines of at most this width, pt. Longer parts are not broken.
 std::string broken(const Canvas& canvas, const std::string& label, double text, double width) {
     std::string all, line;
     for (std::size_t at = 0; at < label.size();) {
@@ -42,16 +42,16 @@ std::string broken(const Canvas& canvas, const std::string& label, double text, 
     return all + line;
 }
 
-/// What stands beside the rows of a panel of this width.
+/// Labels next to the rows of a panel of a given width.
 struct RowLabels {
-    static constexpr double text = 0.85;  // of the font size
+    static constexpr double text = 0.85;  // relative to the font size
 
     std::vector<std::string> markup;
-    double width = 0.0, height = 0.0;  // pt, of the largest
+    double width = 0.0, height = 0.0;  // pt, size of the largest label
 };
 
 RowLabels labels_of(const Canvas& canvas, const std::vector<Sample>& samples, double panel_width) {
-    constexpr double widest = 0.4;  // of the panel
+    constexpr double widest = 0.4;  // relative to the panel's width
     RowLabels labels;
     for (const Sample& sample : samples) {
         labels.markup.push_back(escaped(broken(canvas, sample.label, RowLabels::text, widest * panel_width)));
@@ -63,7 +63,7 @@ RowLabels labels_of(const Canvas& canvas, const std::vector<Sample>& samples, do
     return labels;
 }
 
-/// A scale that begins near the smallest value where that is far from 0: figures, unlike curves, need no 0.
+/// A scale that starts near the smallest value if this is far from 0; unlike for curves, 0 need not be included.
 Scale figure_scale(double smallest, double largest, int ticks) {
     constexpr double near_zero = 0.35;
     if (smallest <= 0.0 || largest - smallest > (1.0 - near_zero) * largest) return scale_for(smallest, largest, ticks);
@@ -160,7 +160,7 @@ Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<Lab
                 points.push_back(axes.at(at / strain_unit, stress / unit.factor));
             canvas.line(points, ink, 1.3 * curve_width, true);
         }
-        const CurveNames names = names_of_kind(bundles.empty() ? "" : bundles.front().kind);
+        const CurveNames names = names_of_kind(from_name<LoadingKind>(bundles.empty() ? "" : bundles.front().kind));
         axes.draw(canvas, titled(names.strain, strain_unit_title), titled(names.stress, unit.name));
     };
     return panel;
@@ -169,7 +169,7 @@ Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<Lab
 Panel distributions(const std::string& title, const std::string& unit_name, const std::vector<Sample>& samples) {
     Panel panel;
     panel.height = [samples](const Canvas& measure, double width) {
-        constexpr double row = 2.6, between = 0.6;  // of the font size
+        constexpr double row = 2.6, between = 0.6;  // relative to the font size
         const double size = measure.style().font_size;
         const double rows = std::max(row * size, labels_of(measure, samples, width).height + between * size);
         return rows * static_cast<double>(samples.size()) + Axes::room_below(measure) + 1.6 * size;
@@ -187,7 +187,7 @@ Panel distributions(const std::string& title, const std::string& unit_name, cons
         const RowLabels labels = labels_of(canvas, samples, place.width);
         Axes axes;
         axes.x = figure_scale(smallest / unit.factor, largest / unit.factor, place.width < 300.0 ? 5 : 8);
-        // Rows have names in place of ticks.
+        // Rows have names instead of ticks.
         axes.y = {1e-3, static_cast<double>(std::max<std::size_t>(1, samples.size())), 1e4};
         const double top = place.y + 1.6 * canvas.style().font_size;
         const double left = labels.width + 8.0, right = Axes::room_right(canvas, axes.x, place.width - left);
@@ -202,7 +202,7 @@ Panel distributions(const std::string& title, const std::string& unit_name, cons
             if (std::isfinite(samples[s].mean))
                 draw_mean(canvas, at(samples[s].mean), at(samples[s].low), at(samples[s].high), colour, true);
             canvas.unclip();
-            double text = RowLabels::text;  // letters keep to whole sizes: a word in proportion may still be too wide
+            double text = RowLabels::text;  // text sizes are rounded, so the text may still be too wide after scaling
             while (canvas.size_of(labels.markup[s], text).width > labels.width) text *= 0.95;
             canvas.text({axes.frame.x - 5.0, axes.at(axes.x.low, middle).y}, labels.markup[s], Across::right,
                         Down::middle, text, ink);
@@ -243,7 +243,7 @@ Panel over_axis(const std::string& x_title, const std::string& x_unit, const std
         }
         if (!std::isfinite(smallest)) smallest = largest = left_x = right_x = 0.0;
         const Unit unit = figure_unit(largest, y_unit);
-        // Stresses and lengths have prefixes, what has none a power of ten.
+        // Stresses and lengths get SI prefixes; other units get a power of ten.
         const bool has_prefix = x_unit == "Pa" || x_unit == "N/m" || x_unit == "m";
         const Unit unit_x = has_prefix ? unit_for(right_x, x_unit) : Unit{1.0, x_unit};
         const double power = has_prefix ? unit_x.factor
@@ -256,7 +256,7 @@ Panel over_axis(const std::string& x_title, const std::string& x_unit, const std
         const Legend legend = legend_of(canvas, entries(), place.width);
         axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
         legend.draw(canvas, {place.x + beside_letter, place.y});
-        // An interval of two packings may be many times as long as all else.
+        // The interval from only two packings may be many times larger than the rest of the diagram.
         canvas.clip(axes.frame);
         for (std::size_t s = 0; s < all.size(); ++s) {
             const Colour &colour = series_colour(s), faint = tinted(colour, 0.45);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figures of a campaign: curves of all packings as a band, figures as distributions, and figures over an axis.
+// Diagrams of a campaign: curves of all packings as bands, distributions of results, and results plotted against an
+// axis of the plan.
 // Tested by tests/tools/plot/campaign_panels_test.cpp.
 #pragma once
 
@@ -12,49 +13,52 @@
 
 namespace crackle::plot {
 
-/// Curves of one point of a plan.
+/// Curves of all packings for one point of a plan.
 struct CurveBundle {
     std::string label;
     std::string stress_unit = "N/m";
-    std::string kind = {};                                       ///< of test: what its stress and strain are called
-    std::vector<std::vector<std::pair<double, double>>> curves;  ///< strain, stress; strain grows
+    std::string kind = {};  ///< kind of test, which determines how stress and strain are named
+    /// Pairs of strain and stress, in order of increasing strain.
+    std::vector<std::vector<std::pair<double, double>>> curves;
 };
 
-/// At equal strains from 0 to the largest that at least half of the curves reach: the median of those that reach it,
-/// and the smallest and largest (the range that `share` of them leaves out at each side).
+/// Band of curves: median, minimum and maximum after dropping the fraction `share` of the curves on either side. Values
+/// are taken at equally spaced strains up to the largest strain that at least half of the curves reach. Each strain
+/// uses the curves that reach it.
 struct Band {
     std::vector<double> strain, low, median, high;
 };
 Band band_of(const CurveBundle& bundle, double share = 0.1, std::size_t strains = 200);
 
-/// One curve that no test of a plan gave: a laboratory's.
+/// A curve from another source, for example measured in a laboratory.
 struct LabelledCurve {
     std::string label;
-    std::vector<std::pair<double, double>> points;  ///< strain, stress in the units of the bundles
+    std::vector<std::pair<double, double>> points;  ///< pairs of strain and stress, in the units of the bundles
 };
 
-/// Of a file, named after it. @throws as read_measured_curve()
+/// Reads a curve from a file; its label is the file's name. @throws as read_measured_curve()
 LabelledCurve labelled_curve(const std::filesystem::path& file);
 
-/// Bands with their medians, measured curves dashed over them.
+/// Bands with medians; measured curves are drawn as dashed lines.
 Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<LabelledCurve>& measured = {});
 
-/// Values of one figure at some points of a plan.
+/// Values of one result at one point of a plan.
 struct Sample {
     std::string label;
     std::vector<double> values;
-    double mean = 0.0, low = 0.0, high = 0.0;  ///< of the mean; not a number: no interval
+    /// Mean and its confidence interval; low and high are NaN if there is no interval.
+    double mean = 0.0, low = 0.0, high = 0.0;
 };
 
-/// Each sample as its values in a row, with the mean and its interval beside.
+/// One row per sample, with its individual values, its mean and the interval of the mean.
 Panel distributions(const std::string& title, const std::string& unit, const std::vector<Sample>& samples);
 
-/// Means with intervals over the values of an axis, one line a series, and the values as small points.
+/// Means with intervals against the values of an axis, connected by a line, with individual values as small dots.
 struct Series {
     std::string label;
     std::vector<double> x;        ///< in any order
-    std::vector<Sample> samples;  ///< one an x
-    bool joined = true;           ///< by a line
+    std::vector<Sample> samples;  ///< one sample for each x
+    bool joined = true;           ///< whether a line connects the means
 };
 Panel over_axis(const std::string& x_title, const std::string& x_unit, const std::string& y_title,
                 const std::string& y_unit, const std::vector<Series>& all);

@@ -26,7 +26,7 @@ using Layout = std::unique_ptr<PangoLayout, Unref>;
 
 Layout layout_of(cairo_t* cairo, const SheetStyle& style, const std::string& markup, double scale) {
     Layout layout(pango_cairo_create_layout(cairo));
-    // Lengths are those of the sheet whatever the resolution: no hinting, 72 dots an inch.
+    // No hinting and 72 dots per inch, so that text has the same size at any resolution.
     cairo_font_options_t* options = cairo_font_options_create();
     cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
     cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
@@ -72,7 +72,7 @@ Canvas::Canvas(double width, double height, Format format, const SheetStyle& sty
             break;
         case Format::pdf:
             surface_ = cairo_pdf_surface_create_for_stream(append, &bytes_, width, height);
-            // The same figure has the same bytes: no date of making.
+            // No creation date, so that the same figure gives identical bytes.
             cairo_pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_CREATE_DATE, "");
             break;
         case Format::png:
@@ -90,7 +90,8 @@ Canvas::Canvas(double width, double height, Format format, const SheetStyle& sty
             fmt::format("Cairo cannot make a sheet of {:.0f} x {:.0f} pt: {}", width, height, why));
     }
     if (format == Format::png) {
-        // All whole pixels: a rectangle of the sheet's size would leave part of the last ones transparent, a grey line.
+        // Fill all whole pixels. A rectangle of the sheet's size would leave the last row and column partly
+        // transparent, visible as a grey line.
         set(colour("#ffffff"));
         cairo_paint(cairo_);
         cairo_scale(cairo_, style.dpi / 72.0, style.dpi / 72.0);

@@ -51,7 +51,7 @@ std::vector<Legend::Entry> entries_of_curves(const std::vector<DrawnCurve>& curv
     return entries;
 }
 
-/// @param heading  above the legend, where it is not empty
+/// @param heading text above the legend; may be empty
 Panel curves_panel(const AxisTitle& x_title, const AxisTitle& y_title, const std::string& heading,
                    const std::vector<DrawnCurve>& curves) {
     const auto heading_height = [heading](const Canvas& canvas) {
@@ -99,7 +99,7 @@ AxisTitle time_axis(const std::vector<PlottedDeck>& decks) {
     return in_time ? AxisTitle{"time <i>t</i>", "s", true} : AxisTitle{"step", "", false};
 }
 
-/// How a part of the energy is drawn: losses and work are what the account has of them.
+/// Appearance of one part of the energy; losses and work are those of the energy account.
 struct EnergyLook {
     DeckEnergy part;
     const char* label;
@@ -125,7 +125,7 @@ bool all_zero(const std::vector<double>& values) {
     return std::ranges::all_of(values, [](double value) { return value == 0.0; });
 }
 
-/// Parts that are 0 throughout are left out; the error never is.
+/// Parts of the energy that are always 0 are omitted, except the closing error.
 Panel energy_panel(const PlottedDeck& deck, const AxisTitle& energy) {
     const DeckEnergyCurve& curve = deck.recording->curves.energy;
     std::vector<DrawnCurve> curves;
@@ -145,11 +145,11 @@ std::vector<double> less_first(const std::vector<double>& values) {
     return differences;
 }
 
-/// Curves of the decks' bodies, named and coloured one after the other.
-/// @param all  the curves of a deck's bodies @param draw  (curve of one body) -> its x and y
+/// Curves of the decks' bodies, labelled and coloured in order.
+/// @param all curves of all bodies of a deck @param draw returns x and y for the curve of one body
 template <class Curves, class Draw>
 std::vector<DrawnCurve> body_curves(const std::vector<PlottedDeck>& decks, Curves DeckCurves::*all, const Draw& draw) {
-    constexpr std::size_t colours = 8;  // of series_colour(): dashed from there on
+    constexpr std::size_t colours = 8;  // number of different colours of series_colour(); further curves are dashed
     std::vector<DrawnCurve> curves;
     for (const PlottedDeck& deck : decks) {
         const Curves& of_deck = deck.recording->curves.*all;
@@ -179,7 +179,7 @@ struct Direction {
 constexpr Direction horizontal{"x", &DeckBodyCurve::x, &DeckBodyCurve::force_x},
     vertical{"y", &DeckBodyCurve::y, &DeckBodyCurve::force_y};
 
-/// Largest change of a column of the drawn bodies.
+/// Largest change of a column over all bodies that are drawn.
 double change_of(const std::vector<PlottedDeck>& decks, Column column) {
     double most = 0.0;
     for (const PlottedDeck& deck : decks) {
@@ -192,9 +192,9 @@ double change_of(const std::vector<PlottedDeck>& decks, Column column) {
     return most;
 }
 
-constexpr double no_change = 1e-9;  // of the other direction's: rounding
+constexpr double no_change = 1e-9;  // relative to the change in the other direction; smaller changes are round-off
 
-/// Directions in which something happens.
+/// Directions in which anything changes.
 std::vector<Direction> directions_of(const std::vector<PlottedDeck>& decks, Column Direction::*column, bool still) {
     if (still) return {horizontal, vertical};
     const double x = change_of(decks, horizontal.*column), y = change_of(decks, vertical.*column);
@@ -204,7 +204,7 @@ std::vector<Direction> directions_of(const std::vector<PlottedDeck>& decks, Colu
     return worth;
 }
 
-/// One body alone is named above its curve, several by the legend.
+/// With a single body, its name is the heading; with several bodies, names are in the legend.
 Panel body_panel(const AxisTitle& x, const AxisTitle& y, const std::vector<DrawnCurve>& curves) {
     return curves_panel(x, y, curves.size() == 1 ? curves.front().label : "", curves);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Curves of decks' runs: energies, watched bodies and velocities over time, forces over displacements.
+// Curves of deck runs: energies, watched bodies and velocities against time, forces against displacements.
 // Tested by tests/tools/commands/plot_decks_test.cpp.
 #pragma once
 
@@ -14,26 +14,27 @@
 
 namespace crackle::plot {
 
-/// One run as it appears in diagrams.
+/// A deck run and its appearance in diagrams.
 struct PlottedDeck {
     const Recording* recording = nullptr;
     std::string label;
-    std::vector<int> bodies;  ///< of npfd's those that are drawn
+    std::vector<int> bodies;  ///< ids of the bodies to draw, a selection of those listed in npfd
 };
 
-/// What --what says of decks, apart from all.
+/// Values of --what for decks, except `all`.
 enum class DeckWord { energy, displacement, height, velocity, force, curve };
 
-/// Whether the run has rows of it.
+/// Whether the run has data for this value.
 bool has_rows(const Recording& deck, DeckWord word);
 
-/// What has something to show: energies; displacements and velocities that are not all 0; forces over displacements
-/// where driven bodies did work.
+/// Values that give a useful diagram: energies; displacements and velocities that are not all 0; forces against
+/// displacements if driven bodies did work.
 std::vector<DeckWord> words_worth_drawing(const std::vector<PlottedDeck>& decks);
 
-/// Of energies a panel a run, of forces and displacements one a direction, each with the curves of all runs.
-/// @param units  of the decks; none: they are called the deck's
-/// @param still  draw directions, too, in which nothing happens
+/// Panels for one value of --what. Energies have one panel per run; forces and displacements have one per direction,
+/// each with the curves of all runs.
+/// @param units units of the decks; if empty, axes are labelled as in deck units
+/// @param still whether to include directions in which nothing changes
 std::vector<Panel> deck_panels(DeckWord word, const std::vector<PlottedDeck>& decks,
                                const std::optional<UnitNames>& units, bool still);
 

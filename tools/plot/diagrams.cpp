@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stress-strain curves and counts of breaks. Strains are shown in thousandths; stress and strain are positive in the
-// sense of each test.
+// Stress-strain curves and numbers of breaks. Strains are shown in thousandths. Stress and strain are positive in the
+// direction in which the test loads.
 // Tested by tests/tools/commands/plot_test.cpp.
 
 #include <fmt/format.h>
@@ -19,18 +19,18 @@
 namespace crackle::plot {
 namespace {
 
-constexpr double small_text = 0.75;  // of the font size
+constexpr double small_text = 0.75;  // relative to the font size
 
-/// Breaks in equal intervals of strain: k width < strain <= (k + 1) width in the one of number k, as in the report.
+/// Breaks per strain interval. Interval k is k width < strain <= (k + 1) width, as on the report page.
 struct Histogram {
-    double width = 0.0;  // strain, a round number
+    double width = 0.0;  // width of a strain interval, a round number
     std::vector<int> tension, shear;
     int most = 0;
 
     std::string interval() const { return fmt::format("Δε = {:.6g}·10⁻³", width / strain_unit); }
 };
 
-/// 1, 2 or 5 times a power of ten that cuts the range into at most 60 intervals.
+/// Interval width of the form 1, 2 or 5 times a power of ten, with at most 60 intervals in the range.
 double interval_width(double range) {
     const double least = range / 60.0, power = std::pow(10.0, std::floor(std::log10(least)));
     for (const double step : {1.0, 2.0, 5.0}) {
@@ -73,7 +73,7 @@ void draw_bars(Canvas& canvas, const Axes& axes, const Histogram& histogram) {
     }
 }
 
-/// Counts are whole: never a tick between them.
+/// Scale for counts, with ticks only at integers.
 Scale count_scale(double most, int ticks) {
     Scale scale = scale_for(0.0, std::max(most, 1.0), ticks);
     scale.step = std::max(1.0, scale.step);
@@ -91,13 +91,14 @@ void draw_so_far(Canvas& canvas, const Axes& axes, const std::vector<PlottedTest
 double total_strain(const std::vector<PlottedTest>& tests) { return largest_of(tests, "axial_strain"); }
 
 void mark_peak(Canvas& canvas, const Axes& axes, const PlottedTest& test, double unit) {
-    const double strain = number_of(test, "peak_strain"), stress = number_of(test, "peak_stress");
-    if (!std::isfinite(strain) || !std::isfinite(stress)) return;
+    const Strength& known = test.results->summary.strength;
+    if (!known.peak_strain || !known.peak_stress) return;
     const Colour white = colour("#ffffff");
-    canvas.circle(axes.at(strain / strain_unit, stress / unit), 1.8, &white, &colour_of(test), curve_width);
+    canvas.circle(axes.at(*known.peak_strain / strain_unit, *known.peak_stress / unit), 1.8, &white, &colour_of(test),
+                  curve_width);
 }
 
-/// Places all along the curves, at most this far apart, pt.
+/// Points along the curves, spaced by at most `apart`, pt.
 std::vector<Point> places_along(const Axes& axes, const std::vector<PlottedTest>& tests, double unit, double apart) {
     std::vector<Point> places;
     for (const PlottedTest& test : tests) {
@@ -119,8 +120,8 @@ bool is_free(const Rect& rect, const std::vector<Point>& taken, double off) {
     });
 }
 
-/// Where a label of this size beside a mark hides neither curve nor other labels: above it to the left, else below it
-/// to the right, else farther off. Its own place is taken from then on.
+/// Position for a label near a mark, where it covers neither a curve nor another label. Tried in this order: above to
+/// the left, below to the right, farther away. The area is then marked as taken.
 Rect label_place(const Rect& frame, Point mark, const TextSize& size, std::vector<Point>& taken) {
     constexpr double beside = 2.5, farther = 3.0, off = 0.5;  // pt
     Rect best{mark.x + beside, mark.y + beside, size.width, size.height};
@@ -144,17 +145,17 @@ Rect label_place(const Rect& frame, Point mark, const TextSize& size, std::vecto
     return best;
 }
 
-/// Crack initiation and damage, where the curve first reaches their stresses.
+/// Marks crack initiation and crack damage where the curve first reaches their stresses.
 void mark_cracks(Canvas& canvas, const Axes& axes, const PlottedTest& test, double unit) {
     const Colour white = colour("#ffffff");
     std::vector<Point> taken = places_along(axes, {test}, unit, 1.0);
     const std::vector<double>&strain = column(*test.results, "axial_strain"),
           &stress = column(*test.results, "axial_stress");
-    for (const auto& [key, name] : {std::pair("crack_initiation_stress", crack_initiation_sign),
-                                    std::pair("crack_damage_stress", crack_damage_sign)}) {
-        const double level = number_of(test, key);
-        const auto reached = std::ranges::find_if(stress, [&](double s) { return s >= level; });
-        if (reached == stress.end()) continue;  // not a number, too
+    const CrackingFigures& known = test.results->summary.cracking;
+    for (const auto& [level, name] : {std::pair(known.crack_initiation_stress.or_nan(), crack_initiation_sign),
+                                      std::pair(known.crack_damage_stress.or_nan(), crack_damage_sign)}) {
+        const auto reached = std::ranges::find_if(stress, [level = level](double s) { return s >= level; });
+        if (reached == stress.end()) continue;  // also if the stress is NaN
         const auto row = static_cast<std::size_t>(reached - stress.begin());
         const Point place = axes.at(strain[row] / strain_unit, *reached / unit);
         canvas.circle(place, 1.5, &white, &colour_of(test), 0.7 * curve_width);
@@ -178,12 +179,12 @@ Scale stress_scale(const std::vector<PlottedTest>& tests, double unit, int ticks
     return scale_for(smallest_of(tests, "axial_stress") / unit, largest_of(tests, "axial_stress") / unit, ticks);
 }
 
-/// Tests that are hard to see on the scales of all, of one kind of loading; none in most figures.
+/// Tests of one kind of loading whose curves are hard to see on the common scales; usually empty.
 std::vector<PlottedTest> slivers_of(const std::vector<PlottedTest>& tests) {
-    constexpr double least_stress = 0.25, least_strain = 0.2;  // of the largest
+    constexpr double least_stress = 0.25, least_strain = 0.2;  // relative to the largest value of all tests
     std::array<std::vector<PlottedTest>, 2> kinds;
     for (const PlottedTest& test : tests)
-        kinds[test.results->summary.word("kind") == "tension" ? 0 : 1].push_back(test);
+        kinds[test.results->summary.about.kind == LoadingKind::tension ? 0 : 1].push_back(test);
     if (kinds[0].empty() || kinds[1].empty()) return {};
     const std::vector<PlottedTest>& weaker =
         largest_of(kinds[0], "axial_stress") < largest_of(kinds[1], "axial_stress") ? kinds[0] : kinds[1];
@@ -192,10 +193,11 @@ std::vector<PlottedTest> slivers_of(const std::vector<PlottedTest>& tests) {
                                                                                         : std::vector<PlottedTest>();
 }
 
-/// A place of this size within the frame that no curve crosses, the lowest and of these the rightmost.
+/// A free area of the given size within the frame that no curve crosses: the lowest one and, among the lowest, the
+/// rightmost.
 std::optional<Rect> free_place(const Axes& axes, const std::vector<PlottedTest>& tests, double unit, double width,
                                double height) {
-    constexpr double off = 4.0, stride = 3.0;  // pt, from curves; between tries
+    constexpr double off = 4.0, stride = 3.0;  // pt: distance from curves, step between trial positions
     const std::vector<Point> taken = places_along(axes, tests, unit, off);
     const Rect& frame = axes.frame;
     for (double y = frame.bottom() - off - height; y >= frame.y; y -= stride) {
@@ -206,14 +208,16 @@ std::optional<Rect> free_place(const Axes& axes, const std::vector<PlottedTest>&
     return std::nullopt;
 }
 
-/// Of tests in units of an area Pa, of others N/m.
+/// Unit of stress: Pa in tests with material_units = "area", otherwise N/m.
 std::string stress_unit(const std::vector<PlottedTest>& tests) {
-    const auto in_area = [](const PlottedTest& test) { return test.results->summary.word("material_units") == "area"; };
+    const auto in_area = [](const PlottedTest& test) {
+        return test.results->summary.about.material_units == StiffnessUnits::area;
+    };
     if (std::ranges::none_of(tests, in_area)) return "N/m";
     return std::ranges::all_of(tests, in_area) ? "Pa" : "N/m or Pa";
 }
 
-/// The curves of some tests on scales of their own, within a rectangle.
+/// Draws the curves of some tests inside a rectangle, on scales of their own.
 void draw_inset(Canvas& canvas, const Rect& place, const std::vector<PlottedTest>& tests) {
     canvas.rectangle(place, colour("#ffffff"));
     const Unit unit = unit_for(largest_of(tests, "axial_stress"), stress_unit(tests));
@@ -224,7 +228,7 @@ void draw_inset(Canvas& canvas, const Rect& place, const std::vector<PlottedTest
     const double left = Axes::room_left(canvas, axes.y, small_text), line = canvas.size_of("X", small_text).height;
     axes.frame = {place.x + left, place.y + 1.3 * line, place.width - left - 3.0,
                   place.height - 1.3 * line - Axes::room_below(canvas, small_text)};
-    canvas.text({axes.frame.x + 0.5 * axes.frame.width, place.y}, tests.front().results->summary.word("kind"),
+    canvas.text({axes.frame.x + 0.5 * axes.frame.width, place.y}, tests.front().results->summary.about.kind.name(),
                 Across::centre, Down::top, small_text, ink);
     draw_curves(canvas, axes, tests, unit.factor);
     axes.draw(canvas, "10⁻³", unit.name);
@@ -248,8 +252,9 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
         lower.y = count_scale(single ? histogram.most : largest_of(tests, "bonds_broken"), 2);
         const double left = std::max(Axes::room_left(canvas, upper.y), Axes::room_left(canvas, lower.y));
         const Legend legend = legend_of(canvas, entries_of(tests), place.width);
-        const double gap = (single ? 1.7 : 0.8) * canvas.style().font_size;  // of one: room for the interval
-        // The letter of a panel stands beside the frame, where the uppermost number could be.
+        // With a single test, space is needed to state the interval.
+        const double gap = (single ? 1.7 : 0.8) * canvas.style().font_size;
+        // The panel's letter is beside the frame, where it could overlap the uppermost number.
         const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);
         const double bottom = place.bottom() - Axes::room_below(canvas);
         const double right = Axes::room_right(canvas, lower.x, place.width - left);
@@ -270,7 +275,7 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
                     }
                 }
             }
-            if (!inset) {  // beside the curves
+            if (!inset) {  // there is no free area, so the inset is placed beside the curves
                 const double whole = upper.frame.width;
                 lower.frame.width = upper.frame.width = 0.56 * whole;
                 inset = Rect{upper.frame.right() + 0.03 * whole, upper.frame.y, 0.41 * whole, upper.frame.height};

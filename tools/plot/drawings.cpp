@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Specimens as they lie at a moment: particles, platens, cracks.
+// Draws specimens at a given moment: particles, platens, cracks.
 // Tested by tests/tools/commands/plot_test.cpp.
 
 #include <fmt/format.h>
@@ -28,20 +28,18 @@ namespace fs = std::filesystem;
 const Colour grain = colour("#e3e0d9"), grain_edge = colour("#8d877b"), platen = colour("#4b5259"),
              joint_colour = colour("#2a7f62");
 
-/// Light, and told apart in grey as well: cracks are drawn over them.
+/// Light colours that also differ as shades of grey, because cracks are drawn over them.
 const Colour& mineral_colour(std::size_t number) {
     static const std::array<Colour, 6> all{colour("#ece9e2"), colour("#d9b9a3"), colour("#a9a39a"),
                                            colour("#b9c7ac"), colour("#cdbfdc"), colour("#e8d48f")};
     return all[number % all.size()];
 }
 
-/// Of a rock of several minerals, in the order of their material numbers.
+/// Names of the minerals, indexed by material number; empty if the rock has only one material.
 std::vector<std::string> minerals_of(const Recording& recording) {
     std::vector<std::string> names;
-    const auto& summary = recording.results.summary.json();
-    const auto found = summary.find("minerals");
-    if (found != summary.end())
-        for (const auto& mineral : *found) names.push_back(mineral.value("name", ""));
+    if (const auto& minerals = recording.results.summary.minerals)
+        for (const MineralFigures& mineral : *minerals) names.push_back(mineral.name.value_or(""));
     return names;
 }
 
@@ -61,7 +59,7 @@ struct Extent {
     double height() const { return y2 - y1; }
 };
 
-/// A crack, or a face on a trace of joints that has not lost its bonds, or, open, never had any.
+/// A crack, or a face on a joint trace that is still bonded or was open from the start.
 struct FaceLine {
     enum class Kind : std::uint8_t { tension, shear, joint, open_joint };
 
@@ -83,7 +81,7 @@ const Colour& colour_of(FaceLine::Kind kind) {
     return ink;
 }
 
-/// How a cell has moved since the first frame: place' = centre + displacement + R(angle) (place - centre).
+/// Motion of a cell since the first frame: new position = centre + displacement + R(angle) (position - centre).
 struct Motion {
     Vec2 centre, displacement;
     double cosine = 1.0, sine = 0.0;
@@ -98,10 +96,12 @@ struct DrawnBody {
     bool shown = true;
 };
 
-/// The place of the first frame whose two moved places have this mean: both motions are linear, and so is their mean.
-/// @return nothing where the bodies have turned so far against each other that their mean means nothing
+/// The point in the first frame whose mean position, when moved with either body, equals `mean`. Both motions are
+/// linear, and so is their mean.
+/// @return empty if the bodies have rotated so far relative to each other that this is ill-conditioned
 std::optional<Vec2> held_place(const Motion& a, const Motion& b, Vec2 mean) {
-    constexpr double least = 0.05;  // of the length of a mean arm: points in frames are in single precision
+    // limit relative to the unrotated case, since points in frames have single precision
+    constexpr double least = 0.05;
     const double cosine = 0.5 * (a.cosine + b.cosine), sine = 0.5 * (a.sine + b.sine);
     const double square = cosine * cosine + sine * sine;
     if (square < least * least) return std::nullopt;
@@ -109,8 +109,8 @@ std::optional<Vec2> held_place(const Motion& a, const Motion& b, Vec2 mean) {
     return (1.0 / square) * Vec2{cosine * rest.x + sine * rest.y, cosine * rest.y - sine * rest.x};
 }
 
-/// The cracks, or the joints, of a frame, where its test wrote them: each on both faces that met there, as they have
-/// moved. Frames hold the mean of the two, which lies in the open where fragments have parted.
+/// The cracks or joints that the test wrote for a frame, drawn at their current positions on both faces that met there.
+/// Frames contain the mean of the two positions, which lies in empty space if fragments have separated.
 /// @param picture "cracks_" or "joints_"
 std::vector<FaceLine> faces_of(const fs::path& folder, const FrameHead& head, const std::string& picture,
                                const std::unordered_map<int, DrawnBody>& bodies, double magnify) {
@@ -128,7 +128,7 @@ std::vector<FaceLine> faces_of(const fs::path& folder, const FrameHead& head, co
     for (std::size_t k = 0; k < data.cells.size(); ++k) {
         const std::vector<std::size_t>& ends = data.cells[k].points;
         const double value = word != data.cell_data.end() ? word->second.at(k) : 0.0;
-        if (joints && value == static_cast<double>(ContactState::broken)) continue;  // the cracks show it
+        if (joints && value == static_cast<double>(ContactState::broken)) continue;  // drawn as a crack
         const bool open = value == static_cast<double>(ContactState::loose);
         const FaceLine::Kind kind = joints         ? (open ? FaceLine::Kind::open_joint : FaceLine::Kind::joint)
                                     : value != 0.0 ? FaceLine::Kind::shear
@@ -148,15 +148,15 @@ std::vector<FaceLine> faces_of(const fs::path& folder, const FrameHead& head, co
     return lines;
 }
 
-/// A moment ready to be drawn.
+/// A moment prepared for drawing.
 struct Moment {
-    std::vector<std::vector<Vec2>> outlines;  // of cells; one point of circles
-    std::vector<bool> shown;                  // of cells
+    std::vector<std::vector<Vec2>> outlines;  // outlines of the cells; a single point for a circle
+    std::vector<bool> shown;                  // by cell: whether it is drawn
     const std::vector<RecordedCell>* cells = nullptr;
-    std::vector<FaceLine> faces;  // joints first: cracks are drawn over them
+    std::vector<FaceLine> faces;  // joints first, so that cracks are drawn over them
     std::vector<DrawnMark> marks;
-    std::vector<std::string> caption;   // lines
-    std::vector<std::string> minerals;  // none of a rock of one material
+    std::vector<std::string> caption;   // lines of text
+    std::vector<std::string> minerals;  // empty if the rock has only one material
     Extent extent;
 
     const Colour& colour_of_cell(std::size_t k) const {
@@ -165,17 +165,18 @@ struct Moment {
     }
 };
 
-/// How far out fragments are followed, of the specimen's width, and the share of all cells from which on one always is:
-/// what has flown farther would make the specimen small.
+/// followed: distance up to which fragments are drawn, in widths of the specimen; showing fragments farther away would
+/// make the specimen small. large_share: a fragment with more than this fraction of all cells is always drawn.
 constexpr double followed = 0.4, large_share = 0.2;
 
 struct Fragment {
     Extent extent;
-    Vec2 sum;  // of its cells' places
+    Vec2 sum;  // sum of the positions of its cells
     std::size_t cells = 0;
 };
 
-/// Chooses the cells that are drawn, fragment by fragment: none is cut at the frame. @return cells that are left out
+/// Chooses the cells to draw. Fragments are drawn completely or not at all, so that none is cut off by the frame.
+/// @return number of cells left out
 std::size_t choose_shown(Moment& moment, const RecordedFrame& frame) {
     const std::vector<RecordedCell>& cells = *moment.cells;
     const auto number = [&](std::size_t k) {
@@ -219,7 +220,7 @@ std::size_t choose_shown(Moment& moment, const RecordedFrame& frame) {
         moment.shown.push_back(shown);
         left_out += shown ? 0 : 1;
     }
-    // Platens reach a little beyond the specimen.
+    // Platens are drawn slightly wider than the specimen.
     const double beyond = 0.06 * start.width();
     moment.extent.x1 -= beyond;
     moment.extent.x2 += beyond;
@@ -232,7 +233,7 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
     Moment moment;
     moment.cells = &recording.cells;
     moment.minerals = minerals_of(recording);
-    std::unordered_map<int, DrawnBody> bodies;  // of a clump one of its circles
+    std::unordered_map<int, DrawnBody> bodies;  // by body id; for a clump, one of its circles
     for (std::size_t k = 0; k < recording.cells.size(); ++k) {
         const RecordedCell& cell = recording.cells[k];
         const Motion moved{cell.centre, {frame.ux[k], frame.uy[k]}, std::cos(frame.angle[k]), std::sin(frame.angle[k])};
@@ -260,9 +261,9 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
 }
 
 constexpr double between_drawings = 6.0;  // pt
-constexpr double key_height = 13.0;       // pt, of the line under the captions
-constexpr double key_text = 0.85;         // of the font size
-constexpr double caption_text = 0.9;      // of the font size
+constexpr double key_height = 13.0;       // pt, height of the line of keys below the captions
+constexpr double key_text = 0.85;         // relative to the font size
+constexpr double caption_text = 0.9;      // relative to the font size
 
 double caption_height(const Canvas& canvas, const std::vector<Moment>& moments) {
     std::size_t lines = 0;
@@ -281,7 +282,7 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
         for (const Vec2 p : points) all.push_back(at(p));
         return all;
     };
-    // Small particles would be grey all over with edges of a usual width.
+    // Edges are thinner for small particles; otherwise everything would look grey.
     const double size = scale * std::sqrt(extent.width() * extent.height() / static_cast<double>(moment.cells->size()));
     const double edge = std::clamp(0.035 * size, 0.04, 0.3), crack = std::clamp(0.12 * size, 0.25, 0.9);
     canvas.clip(place);
@@ -303,7 +304,7 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
     canvas.unclip();
 }
 
-/// 1, 2 or 5 times a power of ten, at most the length.
+/// The largest length of the form 1, 2 or 5 times a power of ten that does not exceed `most`.
 double round_length(double most) {
     const double power = std::pow(10.0, std::floor(std::log10(most)));
     return (most >= 5.0 * power ? 5.0 : most >= 2.0 * power ? 2.0 : 1.0) * power;
@@ -315,7 +316,7 @@ struct Key {
     std::vector<std::string> minerals = {};
 };
 
-/// Scale bar, what the colours of minerals and cracks mean and by how much displacements are magnified, in one line.
+/// Draws scale bar, colours of minerals and cracks, and the magnification of displacements in one line.
 void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a_metre) {
     const double middle = place.y + 0.5 * place.height;
     const double length = round_length(std::min(60.0, 0.15 * place.width) / points_a_metre);
@@ -349,7 +350,7 @@ void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a
     }
     double gap = 1.2 * canvas.style().font_size;
     texts += gap * (static_cast<double>(items.size()) - 1.0);
-    // All of it on a narrow sheet: in smaller letters.
+    // On a narrow sheet, everything is drawn with smaller letters.
     const double shrunk = std::min(1.0, (0.97 * place.width - lines) / texts), size = shrunk * key_text;
     gap *= shrunk;
     const double width = lines + shrunk * texts;
@@ -377,7 +378,7 @@ void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a
 Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path>& folders, const DrawingStyle& style) {
     std::vector<Moment> moments;
     for (std::size_t k = 0; k < drawn.size(); ++k) moments.push_back(prepared(drawn[k], folders[k], style));
-    // One scale and one height for all, to each the width that it needs.
+    // All drawings have the same scale and height; each has the width that it needs.
     double y1 = std::numeric_limits<double>::infinity(), y2 = -y1, widths = 0.0, widest = 0.0;
     for (const Moment& moment : moments) {
         y1 = std::min(y1, moment.extent.y1);
@@ -385,7 +386,7 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
         widths += moment.extent.width();
         widest = std::max(widest, moment.extent.width());
     }
-    const double beyond = 0.02 * (y2 - y1);  // lines of the platens
+    const double beyond = 0.02 * (y2 - y1);  // space for the outlines of the platens
     for (Moment& moment : moments) {
         moment.extent.y1 = y1 - beyond;
         moment.extent.y2 = y2 + beyond;
@@ -404,7 +405,7 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
     }
     const double height = y2 - y1 + 2.0 * beyond;
     const auto scale_at = [widths, widest, gaps, height](double width) {
-        constexpr double highest = 300.0;  // pt: on a page's width there may be more figures below
+        constexpr double highest = 300.0;  // pt, since a page-wide sheet may have further panels below
         // A single specimen need not fill the sheet.
         return std::min({(width - gaps) / widths, 0.45 * width / widest, highest / height});
     };
@@ -413,7 +414,7 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
     panel.height = [moments, height, scale_at](const Canvas& measure, double width) {
         return scale_at(width) * height + caption_height(measure, moments) + key_height;
     };
-    // Left ends of the drawings, from that of the panel.
+    // Left edges of the drawings, relative to that of the panel.
     const auto lefts_at = [moments, widths, gaps, scale_at](double panel_width) {
         const double scale = scale_at(panel_width);
         std::vector<double> lefts;

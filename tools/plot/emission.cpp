@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Acoustic emission: how many events of each magnitude there were, and where and when they came.
+// Diagrams of acoustic emission: number of events against magnitude, and maps of the events' positions and times.
 // Tested by tests/tools/commands/plot_test.cpp.
 
 #include <fmt/format.h>
@@ -19,8 +19,8 @@
 namespace crackle::plot {
 namespace {
 
-constexpr double small_letters = 0.8;  // of the font size
-constexpr double magnitude_bin = 0.1;  // of magnitude
+constexpr double small_letters = 0.8;  // relative to the font size
+constexpr double magnitude_bin = 0.1;  // width of an interval of magnitude
 constexpr const char* completeness_sign = "<i>M</i><span size=\"75%\" rise=\"-2pt\">c</span>";
 
 const Colour faint = colour("#8a9199"), fitted = shear_colour;
@@ -31,7 +31,7 @@ std::string signed_number(double value, int decimals) {
     return text;
 }
 
-/// Finite moment magnitudes of all tests, sorted.
+/// Finite moment magnitudes of all tests, in ascending order.
 std::vector<double> pooled(const std::vector<PlottedTest>& tests) {
     std::vector<double> magnitudes;
     for (const PlottedTest& test : tests)
@@ -41,7 +41,8 @@ std::vector<double> pooled(const std::vector<PlottedTest>& tests) {
     return magnitudes;
 }
 
-/// Round ends about a range, with a tick a half or whole magnitude, or every so many.
+/// A scale with round ends around a range. Ticks are a fraction of a magnitude, one magnitude or several magnitudes
+/// apart.
 Scale magnitude_scale(double low, double high, int most_ticks) {
     Scale scale;
     scale.step = 10.0;
@@ -56,15 +57,12 @@ Scale magnitude_scale(double low, double high, int most_ticks) {
     return scale;
 }
 
-double of_emission(const PlottedTest& test, const char* key) {
-    return test.results->summary.number(std::string("emission.") + key).value_or(std::nan(""));
-}
-
-/// "0.2" or "0.05 to 0.2".
-std::string range_text(const std::vector<PlottedTest>& tests, const char* key, const char* unit) {
+/// A value or range as text, for example "0.2" or "0.05 to 0.2".
+std::string range_text(const std::vector<PlottedTest>& tests, Number EmissionFigures::*figure, const char* unit) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const PlottedTest& test : tests) {
-        const double value = of_emission(test, key);
+        const auto& emission = test.results->summary.emission;
+        const double value = emission ? ((*emission).*figure).or_nan() : std::nan("");
         low = std::min(low, value);
         high = std::max(high, value);
     }
@@ -78,7 +76,7 @@ std::string range_text(const std::vector<PlottedTest>& tests, const char* key, c
 
 std::string in_one_line(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
 
-/// What is known of b, a line each; the first is the result.
+/// Lines of text about the b-value; the first line is the result.
 std::vector<std::string> lines_of(const BValue& value, const std::vector<PlottedTest>& tests, std::size_t all) {
     std::vector<std::string> counts, flaws, physics;
     counts.push_back(std::isnan(value.completeness)
@@ -88,8 +86,8 @@ std::vector<std::string> lines_of(const BValue& value, const std::vector<Plotted
     if (tests.size() > 1) counts.push_back(fmt::format("{} tests together", tests.size()));
     if (value.known() && value.of_few()) flaws.push_back(fmt::format("fewer than {} events", few_magnitudes));
     if (value.known() && !value.straight) flaws.emplace_back("not a straight line (at 5 %)");
-    const std::string damping = range_text(tests, "damping_ratio", ""),
-                      density = range_text(tests, "density", " kg/m²");
+    const std::string damping = range_text(tests, &EmissionFigures::damping_ratio, ""),
+                      density = range_text(tests, &EmissionFigures::density, " kg/m²");
     if (!damping.empty()) physics.push_back("damping ratio " + damping);
     if (!density.empty()) physics.push_back("density " + density);
     std::vector<std::string> lines{value.known()
@@ -103,24 +101,24 @@ std::vector<std::string> lines_of(const BValue& value, const std::vector<Plotted
 double size_of_line(std::size_t number) { return number == 0 ? 1.0 : small_letters; }
 
 double height_of(const Canvas& canvas, const std::vector<std::string>& lines) {
-    double height = 3.0;  // pt, down to the frame
+    double height = 3.0;  // pt, including the distance to the frame
     for (std::size_t k = 0; k < lines.size(); ++k) height += 1.1 * canvas.size_of(lines[k], size_of_line(k)).height;
     return height;
 }
 
-/// What is drawn of all tests together.
+/// Data for the diagram of all tests together.
 struct Magnitudes {
     std::vector<double> sorted;
     BValue value;
     std::vector<std::string> lines;
 };
 
-constexpr double at_least = 1.1, of_bin = 1.6;  // pt, radii of marks
+constexpr double at_least = 1.1, of_bin = 1.6;  // pt, radii of the marks
 
 void draw_legend(Canvas& canvas, Point at) {
     const Colour white = colour("#ffffff");
     canvas.circle({at.x + 3.0, at.y}, at_least, &ink, nullptr, 0.0);
-    const std::string above = "at least so large", within = "within 0.1";
+    const std::string above = "this magnitude or larger", within = "within 0.1";
     canvas.text({at.x + 8.0, at.y}, above, Across::left, Down::middle, 1.0, ink);
     const double next = at.x + 8.0 + canvas.size_of(above).width + 12.0;
     canvas.circle({next, at.y}, of_bin, &white, &faint, 0.7);
@@ -163,7 +161,8 @@ void draw_magnitudes(Canvas& canvas, const Rect& place, const Magnitudes& all) {
         canvas.circle(at, at_least, &ink, nullptr, 0.0);
     }
     if (value.known()) {
-        const double last = std::min(magnitudes.back(), value.a / value.b);  // where the line has one event
+        const double last =
+            std::min(magnitudes.back(), value.a / value.b);  // magnitude at which the line reaches a single event
         canvas.line({axes.at(value.completeness, value.a - value.b * value.completeness),
                      axes.at(last, value.a - value.b * last)},
                     fitted, 1.2);
@@ -175,7 +174,7 @@ void draw_magnitudes(Canvas& canvas, const Rect& place, const Magnitudes& all) {
     axes.draw(canvas, "moment magnitude <i>M</i>", "log₁₀ of the number of events");
 }
 
-/// Dark to bright, also in grey (viridis, at quarters).
+/// Colours from dark to bright, also when printed in grey (viridis, sampled at quarters).
 Colour time_colour(double share) {
     static const std::array<Colour, 5> stops{colour("#440154"), colour("#3b528b"), colour("#21918c"), colour("#5ec962"),
                                              colour("#fde725")};
@@ -186,17 +185,17 @@ Colour time_colour(double share) {
     return {std::lerp(a.red, b.red, rest), std::lerp(a.green, b.green, rest), std::lerp(a.blue, b.blue, rest)};
 }
 
-constexpr double least_radius = 0.6, largest_radius = 4.5;  // pt, of marks
-constexpr double key_rows = 34.0;                           // pt, of the map's key
+constexpr double least_radius = 0.6, largest_radius = 4.5;  // pt, radii of marks
+constexpr double key_rows = 34.0;                           // pt, height of the map's legend
 
-/// How marks of a map are coloured and how large they are.
+/// Scales for the colours and sizes of marks on a map.
 struct MapScale {
-    double first = 0.0, last = 0.0;        // axial strain
-    double smallest = 0.0, largest = 0.0;  // magnitude
+    double first = 0.0, last = 0.0;        // range of axial strain
+    double smallest = 0.0, largest = 0.0;  // range of magnitude
 
     double radius(double magnitude) const {
         const double share = largest > smallest ? (magnitude - smallest) / (largest - smallest) : 1.0;
-        return std::lerp(least_radius, largest_radius, share * share);  // most are small
+        return std::lerp(least_radius, largest_radius, share * share);  // squared, so that most marks are small
     }
     Colour colour_at(double strain) const {
         return time_colour(last > first ? (strain - first) / (last - first) : 0.0);
@@ -264,7 +263,7 @@ Panel emission_map(std::vector<DrawnMoment> moments, const std::vector<std::file
         visit(moment, [&](double magnitude, double strain, Vec2 place) {
             moment.marks.push_back({place, scale.radius(magnitude), scale.colour_at(strain)});
         });
-        // The large ones lie below.
+        // Large marks are drawn first, so that smaller ones remain visible.
         std::ranges::stable_sort(moment.marks, std::ranges::greater{}, &DrawnMark::radius);
     }
     const bool some = scale.last >= scale.first;

@@ -14,7 +14,7 @@ namespace crackle::plot {
 namespace {
 
 constexpr int points_of_curve = 200;
-constexpr double beyond_last = 1.08;  // laws go on a little behind the last test
+constexpr double beyond_last = 1.08;  // laws are drawn up to this multiple of the largest confinement
 
 const Colour& line_colour() { return series_colour(1); }
 const Colour& hoek_brown_colour() { return series_colour(2); }
@@ -27,12 +27,13 @@ double largest_strength(const EnvelopeFigure& figure) {
     return largest;
 }
 
-/// Of the smallest strength, so that pressures, a small share of it, are no long fractions.
+/// Unit that suits the smallest strength, so that confining pressures, which are a small fraction of it, have short
+/// numbers.
 Unit stress_unit(const EnvelopeFigure& figure) {
     return unit_for(figure.laws.strengths.front().mean, figure.tests.unit);
 }
 
-/// With what was fitted.
+/// Legend entries of those laws that could be fitted.
 std::vector<Legend::Entry> fitted_entries(const EnvelopeFigure& figure) {
     const StrengthEnvelope& laws = figure.laws;
     const Unit unit = stress_unit(figure);
@@ -53,7 +54,7 @@ std::vector<Legend::Entry> circle_entries(const EnvelopeFigure& figure) {
     return entries;
 }
 
-/// Stresses between two ends, evenly.
+/// Points of a law at equally spaced stresses between two ends.
 template <class Law>
 std::vector<Point> curve_of(const Axes& axes, double factor, double from, double to, const Law& law) {
     std::vector<Point> points;
@@ -65,10 +66,10 @@ std::vector<Point> curve_of(const Axes& axes, double factor, double from, double
     return points;
 }
 
-/// Axes on which a length of σn is as long as one of τ.
+/// Axes with the same scale for σn and τ.
 struct MohrAxes {
     Unit unit;
-    double width;  ///< of the frame, pt
+    double width;  ///< pt, width of the frame
     Scale x, y;
 
     MohrAxes(const EnvelopeFigure& figure, const Canvas& canvas, double panel_width) : unit(stress_unit(figure)) {
@@ -110,7 +111,8 @@ Panel strengths_over_confinement(const EnvelopeFigure& figure) {
         const Unit unit = stress_unit(figure);
         const double last = beyond_last * largest_confinement(figure);
         double highest = std::max({largest_strength(figure), laws.mohr_coulomb(last), laws.hoek_brown(last)});
-        // An interval of two tests may be many times as long as all else: it then runs out of the frame.
+        // The interval from only two tests may be many times larger than the rest of the diagram; it then extends
+        // beyond the frame.
         const double room_for_intervals = 1.2 * highest;
         for (const StrengthAt& one : laws.strengths)
             if (one.high > highest) highest = std::min(one.high, room_for_intervals);
@@ -135,7 +137,7 @@ Panel strengths_over_confinement(const EnvelopeFigure& figure) {
         canvas.unclip();
         const auto at = [&](double s3, double s1) { return axes.at(s3 / unit.factor, s1 / unit.factor); };
         const Colour pale = tinted(ink, 0.45);
-        constexpr double beside = 4.5;  // pt, from the mean and its interval
+        constexpr double beside = 4.5;  // pt, distance between a mean and its interval
         for (const StrengthPoint& test : figure.tests.compressions) {
             const Point place_of_test = at(test.confinement, test.strength);
             canvas.circle({place_of_test.x + beside, place_of_test.y}, 1.0, &pale, nullptr, 0.0);
@@ -146,7 +148,7 @@ Panel strengths_over_confinement(const EnvelopeFigure& figure) {
         }
         axes.draw(canvas, titled("confining pressure " + indexed("σ", "3"), unit.name),
                   titled(figure.tests.measure.spoken_one() + " " + indexed("σ", "1"), unit.name));
-        constexpr double mark = 5.0;  // pt, half of one that stands on the axis
+        constexpr double mark = 5.0;  // pt, half the height of a mark on the axis
         canvas.clip({axes.frame.x - mark, axes.frame.y, axes.frame.width + 2.0 * mark, axes.frame.height});
         for (const StrengthAt& one : laws.strengths) {
             draw_mean(canvas, at(one.confinement, one.mean), at(one.confinement, one.low),
@@ -175,7 +177,7 @@ Panel mohr_circles(const EnvelopeFigure& figure) {
         axes.x = scales.x;
         axes.y = scales.y;
         axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
-        // A row may be higher than this needs: more of the ordinate, at the same scale.
+        // A row may be higher than this panel needs; more of the τ axis is then shown at the same scale.
         axes.y.high = axes.frame.height / (axes.frame.width / (axes.x.high - axes.x.low));
         legend.draw(canvas, {place.x + beside_letter, place.y});
         const double factor = scales.unit.factor, last = beyond_last * largest_confinement(figure);

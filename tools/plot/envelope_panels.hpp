@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A strength envelope as figures: strengths with both laws over confinement, and Mohr circles with both laws'
-// envelopes. Tested by tests/tools/commands/envelope_test.cpp.
+// Diagrams of a strength envelope: strength against confinement with both fitted laws (Mohr-Coulomb, Hoek-Brown), and
+// Mohr circles with the envelopes of both laws.
+// Tested by tests/tools/commands/envelope_test.cpp.
 #pragma once
 
 #include "specimens/envelope/measured_strengths.hpp"
@@ -10,19 +11,20 @@
 
 namespace crackle::plot {
 
-/// What both are drawn of.
+/// Data for both diagrams.
 struct EnvelopeFigure {
     StrengthEnvelope laws;
     MeasuredStrengths tests;
-    MeanFigure tension;  ///< of tests.tensions; without any a count of 0, and nothing is drawn
+    MeanFigure tension;  ///< mean of tests.tensions; if its count is 0, tension is not drawn
 };
 
-/// σ1 over σ3: every test, beside it means with their 95 % intervals, both laws from where they have σ1 = 0; tension at
-/// σ1 = 0.
+/// Diagram of σ1 against σ3 with every test, means with 95 % intervals, and both laws. The laws start at the value of
+/// σ3 at which σ1 = 0. Tension tests are drawn at σ1 = 0.
 Panel strengths_over_confinement(const EnvelopeFigure& figure);
 
-/// τ over σn at equal scales: the upper halves of the circles from σ3 to the mean σ1 of each confinement, and from -T
-/// to 0; both laws on the plane of failure (StrengthEnvelope::hoek_brown_on_plane()).
+/// Diagram of τ against σn with the same scale on both axes. It shows the upper halves of the Mohr circles from σ3 to
+/// the mean σ1 for each confinement, and from -T to 0. Both laws are drawn on the failure plane
+/// (StrengthEnvelope::hoek_brown_on_plane()).
 Panel mohr_circles(const EnvelopeFigure& figure);
 
 }  // namespace crackle::plot

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a figure looks, by the options that the commands that draw have in common.
+// Appearance of a figure, set by options common to all commands that draw.
 // Tested by tests/tools/commands/plot_test.cpp.
 #pragma once
 
@@ -22,23 +22,24 @@ struct FigureLook {
     std::string title;
 };
 
-/// Long names of what add_figure_options() adds.
+/// Long names of the options added by add_figure_options().
 const std::vector<std::string>& figure_options();
 
-/// --columns, --width, --font, --font-size, --dpi, --title. @param columns of a journal, by default
+/// Adds --columns, --width, --font, --font-size, --dpi, --title. @param columns default width, in journal columns
 void add_figure_options(boost::program_options::options_description& options, int columns);
 
-/// @param command for messages, "plot" @throws InputError for a value out of range, and for --dpi of a figure without
-/// dots
+/// @param command name for messages, for example "plot" @throws InputError if a value is out of range, or if --dpi is
+/// given for a format other than PNG
 FigureLook figure_look(const std::string& command, const boost::program_options::variables_map& given, Format format);
 
-/// Of "svg", "pdf" or "png". @param where the name stands, for messages @throws InputError for another
+/// The format named "svg", "pdf" or "png". @param where source of the name, for messages @throws InputError for
+/// any other name
 Format format_named(const std::string& command, const std::string& where, const std::string& name);
 
-/// By the ending of the figure's name. @throws InputError
+/// The format given by the extension of the output file. @throws InputError
 Format format_of_output(const std::string& command, const std::filesystem::path& output);
 
-/// @throws InputError if the option's number lies outside
+/// @throws InputError if the option's value is out of range
 double number_between(const std::string& command, const boost::program_options::variables_map& given,
                       const char* option, double low, double high, const char* unit);
 

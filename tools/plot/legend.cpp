@@ -54,7 +54,8 @@ Legend::Legend(const Canvas& canvas, std::vector<Entry> entries, double width) :
         return static_cast<std::size_t>(std::max(1.0, std::floor((width + between) / widest)));
     };
     std::size_t columns = measure();
-    if (columns < std::min<std::size_t>(2, entries_.size())) {  // smaller letters where that makes a second column
+    if (columns <
+        std::min<std::size_t>(2, entries_.size())) {  // use smaller letters if that makes room for a second column
         text_ = 0.85;
         widest = 0.0;
         columns = measure();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What diagrams have in common: their colours, the width of curves, the unit of strain, means with intervals, and a
-// legend.
+// Elements shared by diagrams: colours, line width of curves, unit of strain, means with intervals, and legends.
 // Tested by tests/tools/commands/plot_test.cpp.
 #pragma once
 
@@ -18,30 +17,33 @@ inline constexpr double strain_unit = 1e-3;
 inline constexpr const char* strain_title = "axial strain, 10⁻³";
 inline constexpr const char* strain_unit_title = "10⁻³";
 inline constexpr double curve_width = 0.9;  // pt
-/// Crack initiation and damage. Pango's own <sub> takes the default size for that of the text.
+/// Symbols for the crack initiation stress and the crack damage stress. <sub> is not used, because Pango would reset
+/// its text size.
 inline constexpr const char* crack_initiation_sign = "<i>σ</i><span size=\"75%\" rise=\"-2pt\">ci</span>";
 inline constexpr const char* crack_damage_sign = "<i>σ</i><span size=\"75%\" rise=\"-2pt\">cd</span>";
-inline constexpr double beside_letter = 20.0;  // pt, from the left of a panel, where its letter stands
+inline constexpr double beside_letter = 20.0;  // pt, space to the left of a legend for the panel's letter
 
-/// As in the report (tools/viewer/src/colours/theme.ts): distinguishable with any colour vision.
+/// Colours of the report page (tools/viewer/src/colours/theme.ts), which can be distinguished with any type of colour
+/// vision.
 const Colour& series_colour(std::size_t number);
 
-/// A colour mixed with white.
+/// A colour mixed with white. @param share fraction of the colour
 Colour tinted(const Colour& colour, double share);
 
-/// A letter with an index beneath, as Pango's markup.
+/// A letter with a subscript, as Pango markup.
 std::string indexed(const char* letter, const char* index);
 
-/// "peak stress, MPa"
+/// A title with its unit, for example "peak stress, MPa".
 std::string titled(const std::string& title, const std::string& unit);
 
-/// A mean with its interval, where that is finite. @param across the interval lies along x
+/// Draws a mean, and its interval if that is finite. @param across whether the interval is along the x axis
 void draw_mean(Canvas& canvas, Point mean, Point low, Point high, const Colour& colour, bool across);
 
-/// The width that a diagram's height is a share of: a page's width is no reason to be as high as half a page.
+/// Width to which the height of a diagram is proportional. It is limited, so that a page-wide diagram does not take
+/// half a page in height.
 inline double proportional(double width) { return std::min(width, 340.0); }
 
-/// Samples of line and name, in as many columns of equal width as fit between the sides; none of a single entry.
+/// Legend of line samples with names, in as many equally wide columns as fit. Empty if there is only one entry.
 class Legend {
   public:
     struct Entry {
@@ -53,26 +55,26 @@ class Legend {
 
     double height() const { return entries_.size() < 2 ? 0.0 : line_ * rows_ + 2.0; }
     void draw(Canvas& canvas, Point corner) const;
-    /// Room of the rows beyond the first: a panel is so much higher.
+    /// Height of all rows after the first; the panel must be higher by this amount.
     double more_rows() const { return line_ * std::max(0, rows_ - 1); }
 
   private:
     static constexpr double sample = 14.0;  // pt
     std::vector<Entry> entries_;
     std::vector<Point> places_;
-    double line_ = 0.0, text_ = 1.0;  // text: of the font size
+    double line_ = 0.0, text_ = 1.0;  // pt; `text_` is relative to the font size
     int rows_ = 0;
 };
 
-/// Beside the letter of a panel of this width.
+/// Legend that fits beside the letter of a panel of this width.
 Legend legend_of(const Canvas& canvas, std::vector<Legend::Entry> entries, double width);
 
-/// What a legend takes above a panel, at least a line.
+/// Height of the space for a legend above a panel: at least one line.
 inline double room_above(const Canvas& canvas, const Legend& legend) {
     return std::max(legend.height(), 1.6 * canvas.style().font_size);
 }
 
-/// What a legend above and the axes' numbers leave of a panel.
+/// Frame of the axes: the part of a panel that remains below the legend and beside the numbers of the axes.
 Rect frame_below(const Canvas& canvas, const Rect& place, const Legend& legend, const Scale& x, const Scale& y);
 
 }  // namespace crackle::plot

@@ -2,27 +2,68 @@
 #include "tools/plot/panels.hpp"
 
 #include <fmt/format.h>
+#include <glib.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <string_view>
 
-#include "solver/base/errors.hpp"
-#include "solver/base/threads_to_be_had.hpp"
+#include "solver/base/system_failure.hpp"
+#include "solver/machine/threads_to_be_had.hpp"
 #include "tools/plot/legend.hpp"
 
 namespace crackle::plot {
 namespace {
 
-/// Pango begins two to look for fonts, and ends the process where it is refused one.
-void refuse_without_threads() {
-    constexpr int needed = 4;  // with this one, and one to spare: a thread that has ended is counted for a moment yet
-    static const bool had = threads_to_be_had(needed) == needed;  // once begun, they stay
-    if (had) return;
-    throw InputError(
-        "plot: found no room for a further thread (Resource temporarily unavailable), expected two, which look for "
-        "fonts; end other programs of this user, or raise its limit (ulimit -u)");
+/// After a fatal error, GLib ends the process by a signal. This handler ends it with a message and an exit code
+/// instead, like any other failure.
+void end_by_glib(const char* domain, GLogLevelFlags level, const char* message, void* data) {
+    if ((level & G_LOG_FLAG_FATAL) == 0) {
+        g_log_default_handler(domain, level, message, data);
+        return;
+    }
+    constexpr int exit_code_system_fails = 4;
+    for (const std::string_view text :
+         {std::string_view("crackle: plot: "), std::string_view(message),
+          std::string_view("; end other programs of this user, or raise the user's limits (ulimit -u, ulimit -v)\n")})
+        if (::write(STDERR_FILENO, text.data(), text.size()) < 0) break;
+    ::_exit(exit_code_system_fails);
 }
 
-/// a, b, ..., z, aa, ab, ...
+/// Pango starts two threads to search for fonts, and ends the process if one cannot be created.
+void refuse_without_threads() {
+    // Includes this thread and a spare one, since a thread that has ended is still counted for a moment.
+    constexpr int needed = 4;
+    static const bool had = threads_to_be_had(needed) == needed;  // once started, these threads remain
+    if (had) return;
+    throw SystemFailure(
+        "plot: cannot start a further thread (Resource temporarily unavailable), expected two that search for fonts; "
+        "end other programs of this user, or raise the user's limit (ulimit -u)");
+}
+
+/// Refuses to draw if memory is short, since GLib and fontconfig end the process by a signal if they run out of it.
+/// @param sheet bytes of the image
+void refuse_without_memory(double sheet) {
+    // Bytes: two threads that search for fonts, each with 64 MiB of address space from glibc and a stack, and the data
+    // they read.
+    constexpr double of_fonts = 2.0 * (64.0 + 8.0) * (1 << 20) + 16.0 * (1 << 20);
+    constexpr double sheets = 3.0;  // copies made while drawing, converting colours and compressing
+    const auto needed = static_cast<std::size_t>(of_fonts + sheets * sheet);
+    void* const room = mmap(nullptr, needed, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (room == MAP_FAILED) {
+        throw SystemFailure(
+            fmt::format("plot: cannot allocate {} MiB ({}), which fonts and the figure need; end other programs, or "
+                        "raise the limit (ulimit -v)",
+                        needed >> 20, std::strerror(errno)));
+    }
+    munmap(room, needed);
+}
+
+/// Letters of a panel: a, b, ..., z, aa, ab, ...
 std::string letters_of(std::size_t number) {
     constexpr std::size_t letters = 26;
     const std::string last(1, static_cast<char>('a' + number % letters));
@@ -41,8 +82,10 @@ std::string figure(const std::vector<Panel>& panels, const std::string& title, d
 
 std::string figure(const std::vector<std::vector<Panel>>& rows, const std::string& title, double width, Format format,
                    const SheetStyle& style) {
+    g_log_set_default_handler(end_by_glib, nullptr);
+    refuse_without_memory(0.0);
     refuse_without_threads();
-    constexpr double margin = 2.0;  // pt, around the figure
+    constexpr double margin = 2.0;  // pt, margin around the figure
     const double between = 1.5 * style.font_size;
     const double inside = width - 2.0 * margin;
     const double title_height = title.empty() ? 0.0 : 2.0 * style.font_size;
@@ -65,6 +108,8 @@ std::string figure(const std::vector<std::vector<Panel>>& rows, const std::strin
     double height = 2.0 * margin + title_height + between * static_cast<double>(rows.size() - 1);
     for (const std::vector<Panel>& row : rows) height += row_height(measure, row);
 
+    const double pixels_a_point = style.dpi / 72.0, pixel = 4.0;  // pixels per point, and bytes per pixel
+    if (format == Format::png) refuse_without_memory(pixel * width * height * pixels_a_point * pixels_a_point);
     Canvas canvas(width, height, format, style);
     if (!title.empty()) canvas.text({0.5 * width, margin}, escaped(title), Across::centre, Down::top, 1.1);
     double y = margin + title_height;

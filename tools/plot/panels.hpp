@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a figure is put together of: diagrams and drawings that know how high they are at a width, one below the other
-// or side by side.
+// Panels that make up a figure: diagrams and drawings whose height follows from their width. They are placed below each
+// other or side by side.
 // Tested by tests/tools/commands/plot_test.cpp.
 #pragma once
 
@@ -14,15 +14,15 @@
 namespace crackle::plot {
 
 struct Panel {
-    std::function<double(const Canvas& measure, double width)> height;  ///< pt; text is measured on the canvas
+    std::function<double(const Canvas& measure, double width)> height;  ///< pt; the canvas is used only to measure text
     std::function<void(Canvas&, const Rect&)> draw;
-    bool letter_above = false;  ///< its letter, (a), (b), ..., needs a line of its own
-    std::string title = {};     ///< of its test, beside the letter; empty: none
-    /// Of a panel of this width: places from its left, pt, of letters beside its first one; none in most panels.
+    bool letter_above = false;  ///< whether the panel's letter, (a), (b), ..., needs a line of its own
+    std::string title = {};     ///< title of the test shown, placed beside the letter; may be empty
+    /// Positions of letters after the first in a panel of this width, pt from its left edge; usually empty.
     std::function<std::vector<double>(double width)> more_letters = {};
 };
 
-/// One test as it appears in diagrams.
+/// A test and its appearance in diagrams.
 struct PlottedTest {
     const TestResults* results = nullptr;
     std::string label;
@@ -30,55 +30,61 @@ struct PlottedTest {
     bool dashed = false;
 };
 
-/// Axial stress over axial strain, and beneath it the bonds broken: of one test in each interval of strain, by mode, of
-/// several so far. Where the tests of one kind would be slivers beside those of the other, an inset shows them larger.
+/// Axial stress against axial strain, and below it the number of broken bonds. For one test, breaks are shown per
+/// strain interval and by mode; for several tests, as running totals. If curves of one kind of test are too small on
+/// the common scale, an inset shows them enlarged.
 Panel stress_strain(const std::vector<PlottedTest>& tests);
-/// Bonds broken in each interval of strain, by mode, and so far (right axis); of several tests so far.
+/// Number of bonds broken, per strain interval and by mode, and the running total (right axis). For several tests only
+/// the running totals.
 Panel breaks(const std::vector<PlottedTest>& tests);
 
-/// Area strain over axial strain, axial less lateral, positive where the area shrinks; of one test beside it what
-/// cracks have of it, and crack damage. What falls far below the values at the peak is left out.
+/// Area strain against axial strain. Area strain is axial minus lateral strain, positive if the area shrinks. For a
+/// single test, also the part caused by cracks, and the point of crack damage. Values far below those at the peak are
+/// cut off.
 Panel area_strain(const std::vector<PlottedTest>& tests);
-/// Whether the specimen has a lateral strain.
+/// Whether the results contain the lateral strain of the specimen.
 bool has_area_strain(const TestResults& results);
 
-/// A disc over a specimen.
+/// A disc drawn on a specimen.
 struct DrawnMark {
     Vec2 place;           // m
-    double radius = 1.0;  ///< pt
+    double radius = 1.0;  ///< pt, radius of the disc
     Colour colour;
 };
-/// One moment of one specimen.
+/// A specimen at one moment.
 struct DrawnMoment {
     const Recording* recording = nullptr;
     std::size_t frame = 0;
-    std::vector<std::string> caption;  ///< lines, markup
+    std::vector<std::string> caption;  ///< lines in Pango markup
     bool cracks = true;
     std::vector<DrawnMark> marks = {};
-    bool lettered = false;  ///< has a letter of its own within a row of drawings, whose first always has one
+    bool lettered =
+        false;  ///< whether it has its own letter within a row of drawings; the first one always has a letter
 };
 struct DrawingStyle {
-    double magnify = 1.0;  ///< displacements
+    double magnify = 1.0;  ///< magnification of displacements
 };
-/// Specimens side by side at one scale, cracks coloured by mode, each on the two faces that it parted. A fragment is
-/// drawn whole or, where it flew far off, not at all: the caption gives the number of particles left out.
-/// @param folders  of the moments' tests, which hold the frames' cracks
+/// Specimens side by side at the same scale. Cracks are coloured by mode and drawn on both faces that they separated. A
+/// fragment is drawn completely or, if it has flown far away, not at all; the caption gives the number of particles
+/// left out.
+/// @param folders by moment: folder of its test, which contains the cracks of each frame
 Panel drawings(const std::vector<DrawnMoment>& moments, const std::vector<std::filesystem::path>& folders,
                const DrawingStyle& style);
 
-/// Events over magnitude, of all tests together: so many at least so large, so many in each 0.1, and the fitted line
-/// above the magnitude of completeness, with b, its error, the number behind it, damping and density.
+/// Number of events against magnitude, for all tests together. Shown are the number of events of at least each
+/// magnitude, the number in each interval of 0.1, and the line fitted above the magnitude of completeness. A text next
+/// to the line gives b, its error, the number of events used, damping and density.
 Panel magnitude_frequency(const std::vector<PlottedTest>& tests);
-/// Where acoustic events came, coloured by the strain when they began, sized by magnitude, on the specimens of these
-/// moments side by side.
+/// Positions of acoustic events on the specimens at these moments, side by side. Colour shows the strain at which an
+/// event began, size its magnitude.
 Panel emission_map(std::vector<DrawnMoment> moments, const std::vector<std::filesystem::path>& folders);
-/// Whether the test wrote ae.csv.
+/// Whether the test wrote an ae.csv.
 bool has_emission(const TestResults& results);
 
-/// A figure of panels one below the other. @param width pt @return the file's bytes
+/// A figure with panels below each other. @param width pt @return bytes of the file
 std::string figure(const std::vector<Panel>& panels, const std::string& title, double width, Format format,
                    const SheetStyle& style);
-/// The same of rows of panels side by side, as wide as each other and as high as the highest of the row.
+/// A figure with rows of panels. Panels in a row are side by side, equally wide and as high as the highest of them.
 std::string figure(const std::vector<std::vector<Panel>>& rows, const std::string& title, double width, Format format,
                    const SheetStyle& style);
 

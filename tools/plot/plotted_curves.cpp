@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <string_view>
 
 namespace crackle::plot {
@@ -43,22 +42,23 @@ std::vector<Point> curve_points(const Axes& axes, const std::vector<double>& x, 
     return points;
 }
 
-double number_of(const PlottedTest& test, const char* key) {
-    return test.results->summary.number(key).value_or(std::nan(""));
-}
-
-CurveNames names_of_kind(const std::string& kind) {
-    static const std::map<std::string, CurveNames, std::less<>> kinds{
-        {"brazilian", {"tensile stress at the centre", "shortening of the diameter"}},
-        {"bending", {"fibre stress", "fibre strain"}},
-        {"scb", {"P/2R", "displacement over R"}},
-        {"direct_shear", {"shear stress", "displacement over length"}}};
-    const auto found = kinds.find(kind);
-    return found == kinds.end() ? CurveNames{"axial stress", "axial strain"} : found->second;
+CurveNames names_of_kind(const std::optional<LoadingKind>& kind) {
+    switch (kind.value_or(LoadingKind::compression)) {
+        case LoadingKind::brazilian:
+            return {"tensile stress at the centre", "shortening of the diameter"};
+        case LoadingKind::bending:
+            return {"fibre stress", "fibre strain"};
+        case LoadingKind::scb:
+            return {"P/2R", "displacement over R"};
+        case LoadingKind::direct_shear:
+            return {"shear stress", "displacement over length"};
+        default:
+            return {"axial stress", "axial strain"};
+    }
 }
 
 CurveNames names_of(const std::vector<PlottedTest>& tests) {
-    const auto name = [](const PlottedTest& test) { return names_of_kind(test.results->summary.word("kind")); };
+    const auto name = [](const PlottedTest& test) { return names_of_kind(test.results->summary.about.kind); };
     if (tests.empty()) return {};
     const CurveNames first = name(tests.front());
     const bool alike = std::ranges::all_of(

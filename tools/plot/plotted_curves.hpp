@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Columns of curves, and how diagrams over axial strain draw them.
+// Columns of test curves, prepared for diagrams against axial strain.
 // Tested by tests/tools/commands/plot_test.cpp.
 #pragma once
 
@@ -14,23 +14,21 @@ namespace crackle::plot {
 
 const Colour& colour_of(const PlottedTest& test);
 const std::vector<double>& column(const TestResults& results, const char* name);
-/// Of the summary; not a number where it has none.
-double number_of(const PlottedTest& test, const char* key);
-double largest_of(const std::vector<PlottedTest>& tests, const char* name);   ///< of a column, 0 at least
-double smallest_of(const std::vector<PlottedTest>& tests, const char* name);  ///< likewise, 0 at most
+double largest_of(const std::vector<PlottedTest>& tests, const char* name);   ///< largest value of a column, at least 0
+double smallest_of(const std::vector<PlottedTest>& tests, const char* name);  ///< smallest value of a column, at most 0
 
-/// A curve's points; those that lie within a hundredth of a point of the line before are left out.
+/// Points of a curve, without those within 0.01 pt of the line drawn so far.
 std::vector<Point> curve_points(const Axes& axes, const std::vector<double>& x, double x_unit,
                                 const std::vector<double>& y, double y_unit);
 
-/// What stress and strain of these tests are called: by their kind, where they are of one.
+/// Names of stress and strain for these tests; specific to the kind of test if all are of one kind.
 struct CurveNames {
     const char* stress = "stress";
     const char* strain = "strain";
 };
 CurveNames names_of(const std::vector<PlottedTest>& tests);
-/// Of one kind of test.
-CurveNames names_of_kind(const std::string& kind);
+/// What stress and strain are called for a kind of test.
+CurveNames names_of_kind(const std::optional<LoadingKind>& kind);
 
 std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests);
 Scale strain_scale(const std::vector<PlottedTest>& tests, double width);

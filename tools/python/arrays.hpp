@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Arrays of the engine as arrays of numpy: structured by the fields that records list (solver/base/fields.hpp), over
-// the engine's own memory, read-only.
+// Provides arrays of the engine as read-only numpy arrays that use the engine's memory. Records become structured types
+// with the fields listed for them (solver/base/fields.hpp).
 //
-// A view shows the moment at which it was taken. Taking one copies nothing. Where one is still held when the engine
-// goes on, the engine leaves it the memory and goes on with a copy (Loans::settle): a view never changes and never
-// dangles, whoever drops what first.
+// A view shows the state at the time it was created, without a copy. If a view still exists when the engine continues,
+// the view keeps the memory and the engine continues with a copy (Loans::settle). A view therefore never changes and
+// never dangles, whatever is released first.
 // Tested by tests/tools/python/world_test.py.
 #pragma once
 
@@ -26,7 +26,7 @@ namespace py = pybind11;
 template <class T>
 py::object dtype_of();
 
-/// Adds fields to the parts of a numpy dtype.
+/// Collects the fields of a numpy dtype.
 class DtypeParts {
   public:
     explicit DtypeParts(const void* record) : record_(static_cast<const char*>(record)) {}
@@ -51,27 +51,28 @@ class DtypeParts {
     py::list names_, formats_, offsets_;
 };
 
-/// Loads numpy, before anything that pybind11 makes of it once: loading gives up the interpreter's lock, and a thread
-/// that waited for a `static` being made would keep it.
+/// Loads numpy before any function-local static below needs it. Loading releases the interpreter lock; another thread
+/// that acquires the lock and waits for such a static would then block forever.
 inline void need_numpy() {
-    static bool there = false;  // as all below guarded by the interpreter's lock
+    static bool there = false;  // protected by the interpreter lock, like all statics below
     if (there) return;
     py::module_::import("numpy");
     there = true;
 }
 
-/// Made once a type.
+/// The numpy dtype for a type; created only once.
 template <class T>
 py::object dtype_of() {
     need_numpy();
     if constexpr (HasFields<T>) {
-        static py::object* made = nullptr;  // stays: the interpreter may end before statics do
+        static py::object* made =
+            nullptr;  // never freed, since the interpreter may end before static objects are destroyed
         if (made == nullptr) {
             const T record{};
             DtypeParts parts(&record);
             T::fields(record, parts);
             auto dtype = std::make_unique<py::object>(parts.dtype(sizeof(T)));
-            if (made == nullptr) made = dtype.release();  // another thread may have had its turn meanwhile
+            if (made == nullptr) made = dtype.release();  // another thread may have created it in the meantime
         }
         return *made;
     } else if constexpr (std::is_enum_v<T>) {
@@ -81,7 +82,7 @@ py::object dtype_of() {
     }
 }
 
-/// Read-only, over memory that `keeper` keeps alive.
+/// A read-only array over memory that `keeper` keeps alive.
 inline py::array view_of(const py::object& dtype, std::size_t count, std::size_t size, const void* data,
                          const py::object& keeper) {
     py::array view(py::reinterpret_borrow<py::dtype>(dtype), {static_cast<py::ssize_t>(count)},
@@ -90,29 +91,30 @@ inline py::array view_of(const py::object& dtype, std::size_t count, std::size_t
     return view;
 }
 
-/// A capsule that keeps what is shared.
+/// A Python capsule that keeps a shared object alive.
 inline py::capsule keep(std::shared_ptr<void> shared) {
     auto held = std::make_unique<std::shared_ptr<void>>(std::move(shared));
     py::capsule capsule(held.get(), [](void* kept) { delete static_cast<std::shared_ptr<void>*>(kept); });
-    static_cast<void>(held.release());  // the capsule has it
+    static_cast<void>(held.release());  // the capsule owns it now
     return capsule;
 }
 
-/// An array of a scene, a result or anything else that does not change as long as it is shared.
+/// A numpy view of an array in a scene, result or other object that does not change while it is shared.
 template <class Array>
 py::array view_of(const Array& values, std::shared_ptr<void> owner) {
     using T = typename Array::value_type;
     return view_of(dtype_of<T>(), values.size(), sizeof(T), values.data(), keep(std::move(owner)));
 }
 
-/// The arrays of something that goes on, as far as views of them are held.
+/// Arrays of a changing object that are lent to numpy views.
 class Loans {
   public:
-    /// @param owner of the array, kept until settle() or the view's end; may be null where settle() always comes first
+    /// @param owner object that contains the array; kept alive until settle() or the end of the view. May be null if
+    /// settle() is always called first
     template <class Array>
     py::array lend(Array& values, std::shared_ptr<void> owner) {
         using T = typename Array::value_type;
-        std::shared_ptr<Loan> loan;  // one an array: all its views share the memory
+        std::shared_ptr<Loan> loan;  // one per array, since all views of an array share its memory
         std::erase_if(loans_, [](const auto& one) { return one.expired(); });
         for (const std::weak_ptr<Loan>& one : loans_)
             if (std::shared_ptr<Loan> held = one.lock(); held && held->array == &values) loan = std::move(held);
@@ -123,7 +125,8 @@ class Loans {
         return view_of(dtype_of<T>(), values.size(), sizeof(T), values.data(), keep(std::move(loan)));
     }
 
-    /// Before the engine changes what is lent: views that are still held keep the memory, the engine gets a copy.
+    /// Call this before the engine changes lent arrays. Views that still exist keep the memory, and the engine gets a
+    /// copy.
     void settle() {
         for (const std::weak_ptr<Loan>& one : loans_)
             if (const std::shared_ptr<Loan> held = one.lock()) held->settle();
@@ -150,7 +153,7 @@ class Loans {
             owner.reset();
         }
         Array* lent;
-        Array kept;  // of the view, once the engine has gone on
+        Array kept;  // the view's array, once the engine has continued
         std::shared_ptr<void> owner;
     };
 

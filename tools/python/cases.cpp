@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A case of a test: read from a file, from a TOML text, or from the tables of a dict as JSON.
+// Reads a test case from a file, from TOML text, or from the tables of a dict as JSON.
 // Tested by tests/tools/python/case_test.py.
 #include <pybind11/stl.h>
 
@@ -16,10 +16,12 @@ namespace crackle::python {
 namespace py = pybind11;
 
 void bind_cases(py::module_& module) {
-    py::class_<TestCase>(module, "Case", "One virtual test as a case describes it, checked, defaults filled in.")
-        .def_readonly("title", &TestCase::title, "As the case names it.")
+    py::class_<TestCase>(module, "Case",
+                         "One virtual test as described by a case, checked and with defaults filled in.")
+        .def_readonly("title", &TestCase::title, "Name of the test in the case.")
         .def_property_readonly(
-            "kind", [](const TestCase& test) { return test.loading.kind; }, "loading.kind: \"tension\", say.")
+            "kind", [](const TestCase& test) { return name_of(test.loading.kind); },
+            "Kind of test (loading.kind), for example \"tension\".")
         .def_property_readonly("stress_unit", &TestCase::stress_unit, "\"Pa\" or \"N/m\".")
         .def(
             "resolved",
@@ -28,7 +30,7 @@ void bind_cases(py::module_& module) {
                 write_resolved_case(text, test, ".");
                 return text.str();
             },
-            "The case as TOML with every value in the open, each with its unit and a sentence.")
+            "The case as TOML with every value stated, each with its unit and a description.")
         .def("__repr__", [](const TestCase& test) { return "<crackle.Case '" + test.title + "'>"; });
     module.def(
         "read_case_file", [](const std::string& path) { return read_case(std::filesystem::path(path)); },
@@ -41,13 +43,14 @@ void bind_cases(py::module_& module) {
         py::arg("text"), py::arg("name"), py::arg("json"));
     module.def(
         "read_joints_file", [](const std::string& path) { return CaseFiles(std::filesystem::path(path)).joints(); },
-        py::arg("path"), "The joints of a file that need not be a whole case.");
+        py::arg("path"), "The joints of a file, which need not be a complete case.");
     module.def(
         "read_joints_text",
         [](const std::string& text, const std::string& name, bool json) {
             return CaseFiles(CaseText{name, text, json}).joints();
         },
-        py::arg("text"), py::arg("name"), py::arg("json"), "The same of a text.");
+        py::arg("text"), py::arg("name"), py::arg("json"),
+        "The joints of a TOML text, which need not be a complete case.");
     module.def(
         "files_of_joints",
         [](const std::string& path) {
@@ -56,7 +59,7 @@ void bind_cases(py::module_& module) {
                 all.push_back(file.string());
             return all;
         },
-        py::arg("path"), "All files that are read for the joints of a file, it among them.");
+        py::arg("path"), "All files that are read for the joints of a file, including itself.");
     module.def("case_keys", [] {
         std::ostringstream text;
         describe_case_keys(text);

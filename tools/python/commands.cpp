@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Commands of the program called in the process: their options, and those whose results are files or JSON.
+// Runs commands of the program within the Python process: their options, and commands whose results are files or JSON.
 // Tested by tests/tools/python/commands_test.py.
 #include "tools/commands/commands.hpp"
 
@@ -35,7 +35,7 @@ struct Called {
     int (*run)(const tools::Invocation&);
 };
 
-/// Those that the module calls by words.
+/// Commands that the module calls with arguments as on a command line.
 const std::vector<Called>& called() {
     static const std::vector<Called> all{{"pack", tools::describe_pack, tools::pack},
                                          {"mesh", tools::describe_mesh, tools::mesh},
@@ -55,10 +55,11 @@ const std::vector<Called>& called() {
 const Called& command(const std::string& name) {
     for (const Called& one : called())
         if (name == one.name) return one;
-    throw InputError(fmt::format("command: found '{:.40}', expected one that the module calls", name));
+    throw InputError(fmt::format("command: found '{:.40}', expected a command that the module can run", name));
 }
 
-/// Name, argument, whether it takes several, default, description, words understood.
+/// Options of a command, as tuples: name, argument, whether it takes several values, default, description, accepted
+/// words.
 py::list options(const std::string& name) {
     py::list all;
     for (const tools::OptionGroup& group : tools::option_groups(command(name).describe()))
@@ -68,7 +69,8 @@ py::list options(const std::string& name) {
     return all;
 }
 
-/// While this lives std::cout writes here, and interrupts are heard by this thread alone: one at a time in a process.
+/// During its lifetime, std::cout is redirected to this object, and only this thread polls for interrupts. Only one may
+/// exist in a process.
 class OneCommand {
   public:
     explicit OneCommand(Interrupts& interrupts) {
@@ -89,12 +91,12 @@ class OneCommand {
     std::string printed() const { return text_.str(); }
 
   private:
-    inline static bool running = false;  // looked at with the interpreter's lock held
+    inline static bool running = false;  // protected by the interpreter lock
     std::ostringstream text_;
     std::streambuf* before_ = nullptr;
 };
 
-/// Runs what a command that prints nothing but its result does. @return its exit code and what it printed
+/// Runs a command that prints nothing but its result. @return its exit code and output
 template <class Run>
 py::tuple run_words(const std::string& name, const tools::Arguments& words, const py::object& report, const Run& run) {
     const tools::ParsedWords parsed = tools::parse_words("crackle " + name, command(name).describe(), words);
@@ -110,13 +112,13 @@ py::tuple run_command(const std::string& name, const tools::Arguments& words, co
     return run_words(name, words, report, command(name).run);
 }
 
-/// Of a case that need not be a file.
+/// Runs `crackle joints` for a case, which may have been made in Python.
 py::tuple run_joints(const TestCase& test, const std::string& name, const tools::Arguments& words) {
     return run_words("joints", words, py::none(),
                      [&](const tools::Invocation& given) { return tools::joints_of(test, name, given); });
 }
 
-/// @return JSON as text, all bonds, and notices
+/// @return result as JSON text, all bonds, and notices
 py::tuple elastic(const TestCase& description, double strain, int modes, const py::object& report) {
     if (!(strain > 0.0) || !(strain < 1.0))
         throw InputError(fmt::format("crackle elastic: strain: found {}, expected a number > 0 and < 1", strain));
@@ -132,7 +134,7 @@ py::tuple elastic(const TestCase& description, double strain, int modes, const p
         *analysis = analyse_elastic(test.world, test.setup, moduli_of(test), strain, modes);
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         notices.insert(notices.end(), test.setup.notices.begin(), test.setup.notices.end());
-        TestHooks quietly = hooks;  // the same specimen again
+        TestHooks quietly = hooks;  // for making the same specimen again without reports
         quietly.stage = quietly.detail = {};
         json = tools::elastic_as_json(test, *analysis, jointed_compliance(test.description, quietly),
                                       seconds - test.specimen_seconds);
@@ -140,7 +142,7 @@ py::tuple elastic(const TestCase& description, double strain, int modes, const p
     return py::make_tuple(json, view_of(analysis->bonds, analysis), notices);
 }
 
-/// @return JSON as text
+/// @return result as JSON text
 std::string check(TestCase description, int threads, const py::object& report) {
     tools::Messages messages(tools::Loudness::quiet);
     if (threads > 0) description.numerics.threads = threads;

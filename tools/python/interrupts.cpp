@@ -15,7 +15,7 @@ constexpr std::chrono::milliseconds between_questions{50};
 Interrupts::Interrupts() : process_(::getpid()) {}
 
 bool Interrupts::heard() {
-    // Workers of a campaign are forked: the interpreter there is nobody's.
+    // The workers of a campaign are forked processes, in which the interpreter must not be used.
     if (over_ || std::this_thread::get_id() != home_ || process_ != ::getpid()) return over_;
     const Clock::time_point now = Clock::now();
     if (now - asked_ < between_questions) return false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ctrl-C while the engine works: the interpreter notes the signal, and the engine asks for it now and then.
+// Handles Ctrl-C while the engine works: the interpreter records the signal, and the engine polls for it from time to
+// time.
 // Tested by tests/tools/python/run_test.py.
 #pragma once
 
@@ -14,18 +15,20 @@
 
 namespace crackle::python {
 
-/// Made by the thread that calls the engine, with the interpreter's lock held.
+/// Polls for signals and records exceptions. Create it in the thread that calls the engine, with the interpreter lock
+/// held.
 class Interrupts {
   public:
     Interrupts();
 
-    /// Whether the interpreter wants to end the call: a signal's handler has raised. Asked as often as one likes, from
-    /// any thread; the interpreter is asked a few times a second. Without the interpreter's lock.
+    /// Whether the call should end because a signal handler has raised an exception. May be called often and from any
+    /// thread; the interpreter is checked a few times per second. Call it without the interpreter lock.
     bool heard();
-    /// What a callback has raised ends the call likewise. With the lock.
+    /// Records an exception from a callback, which ends the call in the same way. Call it with the interpreter lock
+    /// held.
     void raised(const pybind11::error_already_set& error);
     bool pending() const { return over_; }
-    /// Throws what was raised, if something was. With the lock.
+    /// Throws the recorded exception, if any. Call it with the interpreter lock held.
     void rethrow();
 
   private:
@@ -38,7 +41,8 @@ class Interrupts {
     std::unique_ptr<pybind11::error_already_set> error_;
 };
 
-/// Does work with the interpreter's lock free, then throws what a signal or a callback has raised meanwhile.
+/// Runs `work` without the interpreter lock, then throws any exception that a signal handler or callback raised in the
+/// meantime.
 template <class Work>
 void run_free(Interrupts& interrupts, const Work& work) {
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Particles at rest: what `pack` and `mesh` make, and particle files hold.
+// Particles at rest, as created by `pack` and `mesh` or read from particle files.
 // Tested by tests/tools/python/commands_test.py.
 #include "tools/python/particles.hpp"
 
@@ -14,6 +14,7 @@
 #include "mesher/mesher.hpp"
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/geometry.hpp"
+#include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/packing/packing.hpp"
@@ -26,7 +27,7 @@
 namespace crackle::python {
 namespace {
 
-/// Of Body those members that numpy can have.
+/// dtype with those members of Body that can be fields of a numpy array.
 py::dtype body_dtype() {
     const Body body;
     DtypeParts parts(&body);
@@ -58,9 +59,8 @@ std::string text_of(const Scene& scene) {
 }
 
 void write(const Scene& scene, const std::string& path, bool force) {
-    refuse_replacing(path, force);
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    if (!folder.empty()) make_folder(folder);
+    output_file(path, force);
+    make_folder(folder_of(path));
     replace_file(path, text_of(scene));
 }
 
@@ -145,7 +145,7 @@ py::dict facts(const Particles& particles) {
 void bind_particles(py::module_& module) {
     using Shared = std::shared_ptr<Particles>;
     py::class_<Particles, Shared>(module, "Particles",
-                                  "Circles or polygons at rest: a packing, a mesh, or what a particle file holds.")
+                                  "Circles or polygons at rest: a packing, a mesh, or the contents of a particle file.")
         .def_property_readonly(
             "bodies",
             [](const Shared& p) {
@@ -171,13 +171,14 @@ void bind_particles(py::module_& module) {
             },
             "x1, x2, y1, y2 in m.")
         .def_property_readonly("facts", &facts,
-                               "What `crackle pack` or `crackle mesh` prints of it; empty of a file that was read.")
+                               "Report of `crackle pack` or `crackle mesh`; empty for a file that was read.")
         .def(
-            "text", [](const Particles& p) { return text_of(p.scene); }, "The particle file that holds them.")
+            "text", [](const Particles& p) { return text_of(p.scene); },
+            "The text of a particle file with these particles.")
         .def(
             "write", [](const Particles& p, const std::string& path, bool force) { write(p.scene, path, force); },
             py::arg("path"), py::arg("force") = false,
-            "Writes the particle file (in_gm.dat). Raises InputError where it is there, unless force is true.")
+            "Writes the particle file (in_gm.dat). Raises InputError if it exists, unless force is true.")
         .def("__len__", [](const Particles& p) { return p.scene.bodies.size(); })
         .def("__repr__", [](const Particles& p) {
             return fmt::format("<crackle.Particles: {} bodies, {} circles, {} corners>", p.scene.bodies.size(),
@@ -199,11 +200,11 @@ void bind_particles(py::module_& module) {
     module.def(
         "refuse_replacing",
         [](const std::string& output, bool force, const std::vector<std::string>& inputs) {
-            refuse_replacing(output, force, std::vector<std::filesystem::path>(inputs.begin(), inputs.end()));
+            output_file(output, force, std::vector<std::filesystem::path>(inputs.begin(), inputs.end()));
         },
         py::arg("output"), py::arg("force"), py::arg("inputs"));
     module.def(
-        "read_text", [](const std::string& path) { return read_text(path); }, py::arg("path"));
+        "read_text", [](const std::string& path) { return py::bytes(read_text(path)); }, py::arg("path"));
 }
 
 }  // namespace crackle::python

@@ -14,9 +14,9 @@ namespace crackle::python {
 
 struct Particles {
     Scene scene;
-    std::optional<PackingReport> packing;  ///< where they were packed now
-    std::optional<MeshReport> mesh;        ///< where they were meshed now
-    std::vector<std::string> notices;      ///< on the joints of that mesh
+    std::optional<PackingReport> packing;  ///< report of the packing, if it was made in this process
+    std::optional<MeshReport> mesh;        ///< report of the mesh, if it was made in this process
+    std::vector<std::string> notices;      ///< notices about the joints of that mesh
 };
 
 }  // namespace crackle::python

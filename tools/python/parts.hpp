@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts of the module `crackle._engine`, one source each; the package crackle/ in Python is made of them.
+// Functions that bind the parts of the module `crackle._engine`, one source file each. The Python package crackle/ is
+// built on this module.
 // Tested by tests/tools/python/case_test.py.
 #pragma once
 

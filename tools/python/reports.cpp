@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tools/commands/commands.hpp"
+#include "tools/terminal/printable.hpp"
 
 namespace crackle::python {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 namespace py = pybind11;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t widest_text = 200;  // columns; whoever shows it cuts it
+constexpr std::size_t widest_text = 200;  // columns; the receiver shortens the text further if necessary
 
 std::function<void(const std::string&)> teller(const py::object& report, Interrupts& interrupts, const char* kind) {
     return
@@ -25,7 +26,7 @@ bool call_report(const py::object& report, Interrupts& interrupts, const char* k
                  double share) {
     const py::gil_scoped_acquire lock;
     try {
-        report(kind, text, share);
+        report(kind, tools::printable(text), share);
     } catch (const py::error_already_set& error) {
         interrupts.raised(error);
         return false;

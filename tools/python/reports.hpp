@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the engine says while it works, for a callable of Python: report(kind, text, share), kind one of "stage",
-// "detail", "work" and "progress", share done from 0 to 1 or not a number. None hears nothing.
+// Passes reports of the engine to a Python callable report(kind, text, share). `kind` is "stage", "detail", "work" or
+// "progress"; `share` is the completed fraction, 0 to 1, or NaN. If the callable is None, nothing is reported.
 // Tested by tests/tools/python/run_test.py.
 #pragma once
 
@@ -14,15 +14,15 @@
 
 namespace crackle::python {
 
-/// Hooks that report and hear interrupts; what `report` raises ends the work as an interrupt does. All three are kept
-/// by reference.
+/// Hooks that report and poll for interrupts. An exception raised by `report` ends the work like an interrupt. Both
+/// arguments must outlive the hooks.
 TestHooks reporting_hooks(const pybind11::object& report, Interrupts& interrupts);
 
-/// The same of what a command of the program prints beside its results; its notices are stages. Drawing its progress
-/// throws TestInterrupted where an interrupt was heard.
+/// Reports the messages of a command of the program, with notices reported as stages. After an interrupt, the next
+/// progress report throws TestInterrupted.
 tools::Listener reporting_listener(const pybind11::object& report, Interrupts& interrupts);
 
-/// Calls report() with the lock taken. @return whether it went without an exception
+/// Calls report() with the interpreter lock held. @return false if it raised an exception
 bool call_report(const pybind11::object& report, Interrupts& interrupts, const char* kind, const std::string& text,
                  double share);
 

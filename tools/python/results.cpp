@@ -9,9 +9,12 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "specimens/campaign/campaign.hpp"
 #include "specimens/recordings/recording.hpp"
+#include "specimens/summary/summary_file.hpp"
 #include "tools/python/arrays.hpp"
 #include "tools/python/parts.hpp"
+#include "tools/terminal/printable.hpp"
 
 namespace crackle::python {
 namespace {
@@ -19,11 +22,11 @@ namespace {
 py::dict columns(const NumberTable& table, const std::shared_ptr<void>& owner) {
     py::dict all;
     for (std::size_t k = 0; k < table.names.size(); ++k)
-        all[py::str(table.names[k])] = view_of(table.columns[k], owner);
+        all[py::str(tools::printable(table.names[k]))] = view_of(table.columns[k], owner);
     return all;
 }
 
-/// Copies: records hold outlines of any length.
+/// Cells of a recording. Their data are copied, since the records have outlines of varying length.
 py::dict cells(const Recording& recording) {
     const auto count = recording.cells.size();
     auto ids = std::make_shared<std::vector<std::int32_t>>(), materials = std::make_shared<std::vector<std::int32_t>>();
@@ -62,7 +65,7 @@ py::list heads(const Recording& recording) {
         one["axial_stress"] = head.axial_stress;
         one["step"] = head.step;
         one["roles"] = head.roles;
-        one["file"] = head.file;
+        one["file"] = tools::printable(head.file);
         all.append(one);
     }
     return all;
@@ -138,7 +141,7 @@ void bind_results(py::module_& module) {
         py::arg("path"));
     using Results = std::shared_ptr<TestResults>;
     py::class_<TestResults, Results>(module, "TestResults")
-        .def_property_readonly("summary", [](const TestResults& r) { return r.summary.text(); })
+        .def_property_readonly("summary", [](const TestResults& r) { return text_of(r.summary); })
         .def_property_readonly("curve", [](const Results& r) { return columns(r->curve, r); })
         .def_property_readonly("events", [](const Results& r) { return columns(r->events, r); })
         .def_property_readonly("slips",
@@ -150,6 +153,13 @@ void bind_results(py::module_& module) {
             if (!r->emission) return py::none();
             return columns(*r->emission, r);
         });
+    module.def(
+        "check_campaign",
+        [](const std::string& folder) {
+            const py::gil_scoped_release free;
+            CampaignLedger::read(ledger_file(folder)).require_whole();
+        },
+        py::arg("folder"));
     module.def(
         "read_results",
         [](const std::string& folder) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/fields.hpp"
 #include "solver/measure/health.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/step.hpp"
@@ -24,31 +25,16 @@ const pid_t loaded_in = ::getpid();
 constexpr std::int64_t steps_between_health_checks = 100;
 constexpr std::int64_t steps_between_questions = 64;
 
-/// A contact point with its numbers at the present places.
+/// A contact point with its values at the current positions.
 struct Contact {
-    std::int32_t id_i, id_j;  ///< of the bodies; of a wall -1 to -4: left, right, bottom, top
+    std::int32_t id_i, id_j;  ///< ids of the bodies; -1, -2, -3, -4 for the left, right, bottom, top wall
     BodyIndex body_i, body_j;
     Vec2 position, normal;
     double overlap, normal_force, shear_force, bond_overlap;
     bool bonded, touching, sliding, slid;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("id_i", s.id_i);
-        visit("id_j", s.id_j);
-        visit("body_i", s.body_i);
-        visit("body_j", s.body_j);
-        visit("position", s.position);
-        visit("normal", s.normal);
-        visit("overlap", s.overlap);
-        visit("normal_force", s.normal_force);
-        visit("shear_force", s.shear_force);
-        visit("bond_overlap", s.bond_overlap);
-        visit("bonded", s.bonded);
-        visit("touching", s.touching);
-        visit("sliding", s.sliding);
-        visit("slid", s.slid);
-    }
+    CRACKLE_FIELDS(id_i, id_j, body_i, body_j, position, normal, overlap, normal_force, shear_force, bond_overlap,
+                   bonded, touching, sliding, slid);
 };
 
 py::array contacts(State& state) {
@@ -66,7 +52,7 @@ py::array contacts(State& state) {
     return view_of(*found, found);
 }
 
-/// One record, as an array of one gives it.
+/// The current values of the test's curve columns, as one record of an array of length 1.
 py::object measured_row(State& state) {
     state.driven();
     const World& world = state.world_with_forces();
@@ -78,18 +64,18 @@ py::object measured_row(State& state) {
 
 void refuse_threads_after_fork(int threads) {
     if (threads <= 1 || ::getpid() == loaded_in) return;
-    throw InputError(fmt::format(
-        "threads: found {} in a process that was forked after crackle was imported, expected 1; use one thread a "
-        "process, or start processes with multiprocessing's method \"spawn\"",
-        threads));
+    throw InputError(
+        fmt::format("threads: found {} in a process that was forked after crackle was imported, expected 1; use one "
+                    "thread per process, or start processes with multiprocessing's method \"spawn\"",
+                    threads));
 }
 
 VirtualTest& State::test() const {
     if (test_ == nullptr)
         throw std::runtime_error(
-            "the moment is over: found a state kept after its callback, expected it to be used "
-            "there; keep arrays or numbers of it");
-    if (stepping_) throw std::runtime_error("found a world that another thread is stepping, expected one at rest");
+            "found a State used after its callback, expected it to be used only there; keep arrays or numbers from it "
+            "instead");
+    if (stepping_) throw std::runtime_error("found a world that another thread is stepping, expected a world at rest");
     return *test_;
 }
 
@@ -114,7 +100,7 @@ void State::stop() {
     static_cast<void>(test());
     if (own_)
         throw InputError(
-            "stop: found a world that Python steps, expected the state of a test in its callback; take no more steps");
+            "stop: found a World, expected the State of a test in its callback; to end a World, take no more steps");
     stop_asked_ = true;
 }
 
@@ -145,18 +131,18 @@ void OwnWorld::step(std::int64_t count) {
 void bind_state(py::module_& module) {
     py::class_<State, std::shared_ptr<State>>(
         module, "State",
-        "A test in memory. Arrays are read-only views of the engine's own memory, of the moment at which they were "
-        "taken; one that is still held when the engine goes on stays as it is. Bodies are in the engine's order; "
+        "A test in memory. Arrays are read-only views of the engine's own memory, which show the state at the time "
+        "they were taken; a view kept while the engine continues does not change. Bodies are in the engine's order; "
         "`names` has their ids.")
         .def_property_readonly(
             "steps", [](const State& s) { return s.world().stepping.steps; }, "Steps done.")
         .def_property_readonly(
             "time", [](const State& s) { return s.world().stepping.time; }, "s")
         .def_property_readonly(
-            "time_step", [](const State& s) { return s.world().stepping.time_step; }, "s, of the coming step.")
+            "time_step", [](const State& s) { return s.world().stepping.time_step; }, "Duration of the coming step, s.")
         .def_property_readonly(
             "axial_strain", [](const State& s) { return s.driven().setup.axial_strain(s.world()); },
-            "Of the driving part, positive in the sense of the test.")
+            "Axial strain from the motion of the driving part, positive in the test's loading direction.")
         .def_property(
             "platen_speed", [](const State& s) { return platen_speed(s.driven()); },
             [](State& s, double speed) {
@@ -164,26 +150,27 @@ void bind_state(py::module_& module) {
                 s.settle();
                 set_platen_speed(s.test(), speed);
             },
-            "m/s, of the driving part in the sense of the test, negative while it goes back. Setting it ends "
-            "loading by tolerance; a notice of the summary says so.")
+            "Speed of the driving part in the test's loading direction, m/s; negative while it moves back. Setting it "
+            "ends the control of the loading rate by rate_tolerance, as a notice in the summary states.")
         .def_property_readonly(
             "length", [](const State& s) { return s.driven().setup.length; },
-            "m, that strains refer to: speed over it is the strain rate.")
+            "Length to which strains refer, m; the speed divided by it is the strain rate.")
         .def_property_readonly(
-            "section", [](const State& s) { return s.driven().setup.section; }, "m, that stresses refer to.")
+            "section", [](const State& s) { return s.driven().setup.section; }, "Width to which stresses refer, m.")
         .def("row", &measured_row,
              "One row of the curve, measured now: axial_strain, axial_stress (N/m, or Pa), stress_top, stress_bottom, "
              "lateral_strain, bonds_broken, energies in J, ... as crackle test --files lists them.")
         .def_property_readonly(
             "bodies", [](State& s) { return s.lend(s.world().bodies.state); },
-            "View, shape (bodies,): x, y (m), vx, vy (m/s, half a step behind the places), omega "
-            "(rad/s), shape (of a circle radius and 0; else cosine and sine of its turn), angle (rad).")
+            "View, shape (bodies,): x, y (m), vx, vy (m/s, half a step before x, y), omega "
+            "(rad/s), shape (radius and 0 for a circle; else cosine and sine of its rotation), angle (rad).")
         .def_property_readonly(
             "names", [](State& s) { return s.lend(s.world().bodies.names); },
             "View, shape (bodies,): id, material (index), closed, shape.")
         .def_property_readonly(
             "masses", [](State& s) { return s.lend(s.world().bodies.inertia); },
-            "View, shape (bodies,): mass (kg) and the inverses that the step uses, 0 where driven.")
+            "View, shape (bodies,): mass (kg), and the inverse mass and inverse moment of inertia used in a time step; "
+            "these are 0 for driven motions.")
         .def_property_readonly(
             "forces", [](State& s) { return s.lend(s.world_with_forces().bodies.force); },
             "View, shape (bodies,): fx, fy (N), torque (N m) of the contacts.")
@@ -195,33 +182,36 @@ void bind_state(py::module_& module) {
             "View, shape (contact points,): body_i, body_j, indices into `bodies`.")
         .def_property_readonly(
             "shear_forces", [](State& s) { return s.lend(s.world().points.shear_force); },
-            "View, shape (contact points,): N, elastic.")
+            "View, shape (contact points,): elastic shear force, N.")
         .def_property_readonly(
             "bond_overlaps", [](State& s) { return s.lend(s.world().points.bond_overlap); },
-            "View, shape (contact points,): m, overlap when bonded.")
+            "View, shape (contact points,): overlap at bonding, m.")
         .def(
             "contacts", &contacts,
-            "A copy, of the points that touch or are bonded: id_i, id_j (of a wall -1 to -4), body_i, body_j, position "
-            "(m), normal (from i to j), overlap (m), normal_force (N, compression positive), shear_force (N), "
+            "A copy of the contact points that touch or are bonded. Fields: id_i, id_j (-1 to -4 for a wall), body_i, "
+            "body_j, "
+            "position (m), normal (from i to j), overlap (m), normal_force (N, compression positive), shear_force (N), "
             "bond_overlap (m), bonded, touching, sliding, slid.")
         .def_property_readonly(
             "rows", [](State& s) { return s.lend(s.test().state.rows); },
-            "View, shape (rows,): the curve so far, all judged rows; of a world none. Its records keep the whole view: "
-            "for one row that is kept take row(), or a record's copy().")
+            "View, shape (rows,): the curve so far, with all rows by which peak and failure are judged; empty for a "
+            "World. A record keeps the whole view alive: to keep a single row use row(), or a record's copy().")
         .def_property_readonly(
             "events", [](State& s) { return s.lend(s.world().bonds.events); },
-            "View, shape (events,): breaks since the last call; of a world all so far.")
+            "View, shape (events,): bond breaks since the last call of the callback; for a World, all bond breaks so "
+            "far.")
         .def_property_readonly(
-            "bonds_broken", [](const State& s) { return s.world().bonds.broken; }, "Bonds that have broken so far.")
+            "bonds_broken", [](const State& s) { return s.world().bonds.broken; },
+            "Number of bonds that have broken so far.")
         .def_property_readonly(
-            "bonds_initial", [](const State& s) { return s.world().bonds.initial; }, "Bonds that were made.")
+            "bonds_initial", [](const State& s) { return s.world().bonds.initial; }, "Number of bonds that were made.")
         .def_property_readonly(
             "laws", [](State& s) { return s.lend(s.world().settings.laws); },
-            "View of the contact laws: of material pairs (1,1), (1,2), (2,2), (1,3)..., then the "
-            "same with bonds that cannot break, then of materials against walls.")
+            "View of the contact laws: for the material pairs (1,1), (1,2), (2,2), (1,3)..., then for these pairs with "
+            "unbreakable bonds, then for materials against walls.")
         .def_property_readonly(
             "notices", [](const State& s) { return s.test().setup.notices; },
-            "What to know of the specimen and of how it is loaded: a list of texts, as in a summary.")
+            "Notices on the specimen and its loading: a list of texts, as in a summary.")
         .def_property_readonly(
             "platens",
             [](const State& s) {
@@ -229,17 +219,16 @@ void bind_state(py::module_& module) {
                 for (const SetupPart& part : s.driven().setup.parts) ids.append(s.world().bodies.names[part.body].id);
                 return ids;
             },
-            "Ids of the bodies that hold and drive the specimen, the driving one last.")
+            "Ids of the bodies that hold and drive the specimen; the driving body is last.")
         .def(
             "index", [](const State& s, int id) { return body_of_id(s.world(), id); }, py::arg("id"),
             "Index into `bodies` of an id. Raises InputError if there is none.")
         .def(
             "state_hash", [](const State& s) { return fmt::format("{:016x}", hash_state(s.world())); },
-            "Of the complete state: equal for equal bytes.")
+            "Hash of the complete state; equal states have equal hashes.")
         .def("stop", &State::stop,
-             "Ends the test after this callback: complete, its last row the present moment. Raises InputError of a "
-             "World, "
-             "RuntimeError after the callback.");
+             "Ends the test after this callback; the test is complete, and its last row is the current state. Raises "
+             "InputError for a World, RuntimeError after the callback.");
 }
 
 }  // namespace crackle::python

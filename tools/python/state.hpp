@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A test in memory as Python sees it: a moment of a test that is being loaded, or a world that Python steps itself.
+// Access from Python to a test in memory: a test that is being loaded, or a world that Python itself steps.
 // Tested by tests/tools/python/world_test.py.
 #pragma once
 
@@ -14,41 +14,42 @@
 
 namespace crackle::python {
 
-/// @throws InputError where several threads are asked for in a process that was forked after the module was loaded:
-/// those of OpenMP are not there, and would be waited for for ever
+/// @throws InputError if several threads are requested in a process forked after the module was loaded, since OpenMP
+/// would wait forever for threads that the fork did not copy
 void refuse_threads_after_fork(int threads);
 
 class State {
   public:
-    /// A moment of a test that someone else steps. over() comes before that goes on.
+    /// State of a test that is stepped by other code. over() must be called before the next step.
     explicit State(VirtualTest& test) : test_(&test) {}
-    /// A test of its own.
+    /// State of a test that this object owns.
     explicit State(std::shared_ptr<VirtualTest> own) : test_(own.get()), own_(std::move(own)) {}
 
-    /// @throws std::runtime_error where the moment is over, or another thread is stepping
+    /// @throws std::runtime_error if over() was called, or if another thread is stepping the test
     VirtualTest& test() const;
     World& world() const { return test().world; }
-    /// Whether a thread is stepping it just now. With the lock.
+    /// Whether a thread is currently stepping the test. Call it with the interpreter lock held.
     bool is_stepped() const { return stepping_; }
-    /// The same with the forces of the present places known.
+    /// The world, with forces computed for the current positions.
     World& world_with_forces();
-    /// The same of a specimen in an apparatus. @throws InputError where there is none
+    /// The test, if it has a specimen in an apparatus. @throws InputError otherwise
     VirtualTest& driven() const;
 
     template <class Array>
     py::array lend(Array& values) {
         return loans_.lend(values, own_);
     }
-    /// Before arrays change.
+    /// Call this before arrays change.
     void settle() { loans_.settle(); }
     void over();
 
-    /// Ends the test after this look. @throws InputError of a test of its own, std::runtime_error as test()
+    /// Requests that the test end after this callback. @throws InputError for a test that this object owns,
+    /// std::runtime_error as test()
     void stop();
     bool stop_asked() const { return stop_asked_; }
 
   protected:
-    /// While this lives nobody else may look. With the lock.
+    /// Prevents other access during its lifetime. Use it with the interpreter lock held.
     class Stepping {
       public:
         explicit Stepping(State& state) : stepping_(state.stepping_) { stepping_ = true; }
@@ -64,18 +65,19 @@ class State {
     VirtualTest* test_;
     std::shared_ptr<VirtualTest> own_;
     Loans loans_;
-    bool stepping_ = false;  // looked at with the interpreter's lock held
+    bool stepping_ = false;  // protected by the interpreter lock
     bool stop_asked_ = false;
 };
 
-/// One that Python steps.
+/// A world that Python itself steps.
 class OwnWorld : public State {
   public:
     using State::State;
     void step(std::int64_t count);
 };
 
-/// Properties and methods that a moment and a world have in common, for the class `State`.
+/// Binds the properties and methods of the Python class `State`, the common base for callbacks of a test and for
+/// worlds.
 void bind_state(py::module_& module);
 
 }  // namespace crackle::python

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests that are run with their folder, as `crackle test` does.
+// Runs tests that write a results folder, as `crackle test` does.
 // Tested by tests/tools/python/run_test.py.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -18,7 +18,7 @@
 namespace crackle::python {
 namespace {
 
-/// Calls `call` with the moment. What it raises interrupts the test.
+/// Returns a function that calls `call` with the state of the test. An exception raised by `call` interrupts the test.
 std::function<AfterLook(VirtualTest&)> caller_of(const py::object& call, std::int64_t every, Interrupts& interrupts) {
     return [&call, every, &interrupts](VirtualTest& test) {
         const py::gil_scoped_acquire lock;
@@ -27,8 +27,8 @@ std::function<AfterLook(VirtualTest&)> caller_of(const py::object& call, std::in
             call(moment);
             if (every == 0 && !moment->stop_asked() && platen_speed(test) == 0.0)
                 throw InputError(
-                    "platen speed: found 0 set by a callback at rows, expected another: no row comes while the platen "
-                    "stands; call at steps (every = 1000, say)");
+                    "platen speed: found 0, set by a callback at rows, expected another value, since no row is reached "
+                    "while the platen is at rest; call at steps instead, for example with every = 1000");
         } catch (const py::error_already_set& error) {
             interrupts.raised(error);
         } catch (const InputError& error) {
@@ -42,7 +42,8 @@ std::function<AfterLook(VirtualTest&)> caller_of(const py::object& call, std::in
     };
 }
 
-/// Runs `work` with hooks. @return folder, whether the companions were interrupted, whether nothing was left to do
+/// Runs `work` with hooks. @return tuple of the results folder, whether the companion tests were interrupted, and
+/// whether the test had been finished before
 template <class Work>
 py::tuple run(const py::object& report, const py::object& call, std::int64_t every, const Work& work) {
     if (every < 0) throw InputError(fmt::format("every: found {}, expected a number of steps >= 1, or rows", every));
@@ -76,8 +77,8 @@ void bind_tests(py::module_& module) {
             if (allow_unstable) description.numerics.allow_unstable = true;
             if (options.verify && !call.is_none())
                 throw InputError(
-                    "crackle test: found verify with a callback, expected one of them: companions run "
-                    "without it");
+                    "crackle test: found verify with a callback, expected only one of them, since companion tests run "
+                    "without callbacks");
             const std::int64_t threads = options.threads > 0 ? options.threads : description.numerics.threads;
             tools::limit_threads(options, threads);
             refuse_threads_after_fork(static_cast<int>(std::min<std::int64_t>(threads, options.most_threads)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Worlds that Python steps itself.
+// Worlds that Python itself steps.
 // Tested by tests/tools/python/world_test.py.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -51,7 +51,7 @@ Shared world_of_particles(const Particles& particles, int threads, bool walls) {
     auto test = std::make_shared<VirtualTest>();
     Scene scene = particles.scene;
     if (!walls) scene.domain.wall_present = {false, false, false, false};
-    scene.driven_contacts = DrivenContacts::all;  // any force may be asked for
+    scene.driven_contacts = DrivenContacts::all;  // since the caller may request any force
     const py::gil_scoped_release free;
     test->world = build_world(std::move(scene));
     use_threads(test->world, threads);
@@ -77,7 +77,7 @@ void set_property(State& state, const std::string& name, double value, std::pair
                name, value);
 }
 
-/// A velocity, nothing (free), or ("force", value).
+/// Converts a velocity, None (free), or ("force", value) to a control.
 DofControl drive_of(const char* name, const py::object& asked) {
     if (asked.is_none()) return {};
     std::pair<std::string, double> given{"velocity", 0.0};
@@ -121,27 +121,26 @@ void bind_worlds(py::module_& module) {
                                     world.bonds.broken, world.bonds.initial, world.stepping.steps);
              })
         .def("step", &OwnWorld::step, py::arg("count") = 1,
-             "Takes so many steps. The interpreter's lock is free meanwhile, Ctrl-C ends it between steps. Raises "
-             "UnstableRun where energies run away.")
+             "Takes this number of steps. Other Python threads run meanwhile, and Ctrl-C stops between two steps. "
+             "Raises UnstableRun if the energy grows without bound.")
         .def("add_bonds", &add_bonds, py::arg("pairs"), py::arg("gap") = 0.0,
-             "Bonds the contact points without a bond between pairs of ids where the overlap is more than -gap (m), as "
-             "the world's law bonds: returns how many. A gap > 0 needs bond.law = \"coulomb\". The account of energy "
-             "begins "
-             "again.")
+             "Bonds unbonded contact points between pairs of ids if their overlap exceeds -gap (m), by the world's "
+             "bond law. Returns the number of new bonds. A gap > 0 needs bond.law = \"coulomb\". The energy account "
+             "starts again.")
         .def("set_property", &set_property, py::arg("name"), py::arg("value"),
              py::arg("materials") = std::pair<int, int>(1, 1),
              "Changes normal_stiffness, shear_stiffness (N/m; Pa with material.units = \"area\"), friction_angle, "
              "residual_friction_angle (degrees), tensile_strength or cohesion (N; Pa) of contacts between two "
              "materials, "
-             "numbers from 1. The stable step is found again, the account of energy begins again.")
+             "numbers from 1. The stable time step is computed again, and the energy account starts again.")
         .def("drive", &drive, py::arg("id"), py::arg("x") = py::none(), py::arg("y") = py::none(),
              py::arg("rotation") = py::none(),
-             "Drives a body from now on: in x, y and rotation each at a velocity (m/s, rad/s), by ('force', value) (N, "
-             "N m), or None, free.")
+             "Drives a body from now on. x, y and rotation are each a velocity (m/s, rad/s), ('force', value) (N, N "
+             "m), or None for free motion.")
         .def_property(
             "threads", [](const OwnWorld& s) { return s.world().workers.threads; },
             [](OwnWorld& s, int threads) { use_threads(s.world(), threads); },
-            "Of the coming steps; no result depends on them.");
+            "Number of threads for further steps; results do not depend on it.");
 }
 
 }  // namespace crackle::python

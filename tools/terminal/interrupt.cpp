@@ -19,27 +19,54 @@ std::function<bool()>& host() {
     return hears;
 }
 
-std::atomic<bool> stop_asked{false}, on_terminal{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
+std::atomic<bool> stop_asked{false}, heard{false}, on_terminal{false};
+std::atomic<const char*> words_unheard{nullptr};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<const char*>::is_always_lock_free,
+              "used in a signal handler");
 
-constexpr unsigned patience = 2;  // s
+constexpr unsigned patience = 2,
+                   last_patience = 3;  // s, from the signal to the message, and from the message to the end
+constexpr int exit_code_interrupted = 130;
 
 void put(std::string_view text) {
-    // What cannot be written to a closed terminal is no concern of one who ends.
+    // Errors of writing to a closed terminal are ignored, since the program is about to end.
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
+void put_line(std::string_view text) {
+    if (on_terminal) put("\r\x1b[K");  // overwrites the progress line
+    put("crackle: ");
+    put(text);
+    put("\n");
+}
+
+extern "C" void end_if_unheard(int /*signal*/) {
+    const int reason = errno;
+    const char* const last_words = words_unheard;
+    if (last_words != nullptr && !heard) {
+        put_line(last_words);
+        ::_exit(exit_code_interrupted);
+    }
+    errno = reason;
 }
 
 extern "C" void report_still_here(int /*signal*/) {
     const int reason = errno;
-    if (on_terminal) put("\r\x1b[K");  // in place of the progress line
-    put("crackle: ends as soon as the present solve or file is done; a second Ctrl-C ends it at once\n");
+    if (words_unheard != nullptr && !heard) {
+        put_line("will end in three seconds, or when the current solve is done; press Ctrl-C again to end at once");
+    } else {
+        put_line("will end when the current solve or file is done; press Ctrl-C again to end at once");
+    }
+    std::signal(SIGALRM, end_if_unheard);
+    ::alarm(last_patience);
     errno = reason;
 }
 
 extern "C" void take_down_interrupt(int /*signal*/) {
     const int reason = errno;
     stop_asked = true;
-    for (const int next : {SIGINT, SIGTERM, SIGHUP}) std::signal(next, SIG_DFL);  // whichever comes then
+    // The next signal of any of these kinds ends the program.
+    for (const int next : {SIGINT, SIGTERM, SIGHUP}) std::signal(next, SIG_DFL);
     std::signal(SIGALRM, report_still_here);
     ::alarm(patience);
     errno = reason;
@@ -62,6 +89,12 @@ void make_writing_fail_by_error() {
 
 void hear_interrupts_by(std::function<bool()> hears) { host() = std::move(hears); }
 
-bool interrupted() { return host() ? host()() : stop_asked.load(); }
+void end_unheard(const char* last_words) { words_unheard = last_words; }
+
+bool interrupted() {
+    if (host()) return host()();
+    if (stop_asked) heard = true;
+    return stop_asked;
+}
 
 }  // namespace crackle::tools

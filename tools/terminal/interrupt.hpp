@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Signals: Ctrl-C as a wish to end cleanly.
+// Treats signals such as Ctrl-C as a request to end cleanly.
 // Tested by tests/tools/terminal/interrupt_test.cpp and tests/tools/commands/test_test.cpp.
 #pragma once
 
@@ -7,19 +7,28 @@
 
 namespace crackle::tools {
 
-/// From now on SIGINT, SIGTERM and SIGHUP (a closed terminal) are taken down instead of ending the program; a second
-/// one, of whichever kind, ends it. Where the program is still there two seconds later, in a library's call that it
-/// cannot leave, say, a line on standard error tells of the second one.
+/// From now on, the first SIGINT, SIGTERM or SIGHUP (closed terminal) is only recorded, and a second one ends the
+/// program. If the program is still running two seconds after the first, for example in a library call, a message on
+/// stderr points out the second signal.
 void watch_interrupts();
 
-/// From now on a pipe without a reader and a file beyond the limit on its size are errors of writing, as a full disc
-/// is, and not the end of the program in the middle of a file.
+/// From now on, if interrupted() is not called within five seconds of a signal, the program ends with exit code 130.
+/// Use it during work that cannot poll, such as a factorisation, and that leaves no unfinished files behind.
+/// @param last_words printed before the program ends; nullptr turns this behaviour off, for example while files are
+/// being written
+void end_unheard(const char* last_words);
+/// Value of `last_words` for commands that can be resumed.
+inline constexpr const char* words_of_resumable = "interrupted; the same command resumes";
+
+/// From now on, writing to a pipe without a reader or beyond a file size limit causes an I/O error, as a full disc
+/// does. By default it would end the program in the middle of a file.
 void make_writing_fail_by_error();
 
-/// For a host that hears signals itself, as Python does: watch_interrupts() leaves them to it, and interrupted() asks.
+/// For a host that handles signals itself, such as Python: watch_interrupts() then has no effect, and interrupted()
+/// calls `host`.
 void hear_interrupts_by(std::function<bool()> host);
 
-/// Whether a signal to end has come.
+/// Whether a signal to end the program was received.
 bool interrupted();
 
 }  // namespace crackle::tools

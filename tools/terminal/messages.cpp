@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "tools/terminal/printable.hpp"
 #include "tools/terminal/terminal.hpp"
 
 namespace crackle::tools {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr std::string_view notice_mark = "notice:";
 
-// Of one message: more is a file's contents that found its way into it.
+// Largest number of bytes printed of one message; longer text is usually the contents of a file.
 constexpr std::size_t longest_message = 2000;
 
 std::string& program_name() {
@@ -22,19 +23,11 @@ std::string& program_name() {
     return name;
 }
 
-/// What a terminal may be sent: names and contents of files may hold anything, its commands too.
-std::string printable(std::string_view text) {
-    std::string shown;
-    for (const char letter : text.substr(0, longest_message)) {
-        const auto byte = static_cast<unsigned char>(letter);
-        if ((byte < 0x20 && letter != '\n' && letter != '\t') || byte == 0x7f) {
-            shown += fmt::format("\\x{:02x}", byte);
-        } else {
-            shown += letter;
-        }
-    }
-    if (text.size() > longest_message) shown += fmt::format("... ({} bytes more)", text.size() - longest_message);
-    return shown;
+/// The message in printable form, shortened if it is too long.
+std::string shown(std::string_view text) {
+    std::string beginning = printable(text.substr(0, longest_message));
+    if (text.size() > longest_message) beginning += fmt::format("... ({} bytes more)", text.size() - longest_message);
+    return beginning;
 }
 
 }  // namespace
@@ -63,9 +56,9 @@ void Messages::line(const std::string& text) {
     }
     if (text.starts_with(notice_mark)) {
         std::cerr << styled(std::string(notice_mark), Style::notice, Stream::err)
-                  << printable(text.substr(notice_mark.size()));
+                  << shown(text.substr(notice_mark.size()));
     } else {
-        std::cerr << printable(text);
+        std::cerr << shown(text);
     }
     std::cerr << '\n';
 }
@@ -84,7 +77,7 @@ void Messages::notice(const std::string& text) {
     if (listener_.notice) listener_.notice(text);
     if (quiet()) return;
     progress_.clear();
-    std::cerr << styled(program_name() + ':', Style::notice, Stream::err) << ' ' << printable(text) << '\n';
+    std::cerr << styled(program_name() + ':', Style::notice, Stream::err) << ' ' << shown(text) << '\n';
 }
 
 void name_program(const std::string& name) { program_name() = name; }
@@ -93,9 +86,9 @@ void report_error(const std::string& text) {
     const std::string own = program_name() + ' ';
     const std::size_t colon = text.find(": ");
     const bool named = text.starts_with(own) && colon != std::string::npos &&
-                       text.find_first_of("/.", own.size()) > colon;  // no file's name
+                       text.find_first_of("/.", own.size()) > colon;  // the text before the colon is not a file name
     const std::string beginning = named ? text.substr(0, colon + 1) : program_name() + ':';
-    std::cerr << styled(beginning, Style::error, Stream::err) << ' ' << printable(named ? text.substr(colon + 2) : text)
+    std::cerr << styled(beginning, Style::error, Stream::err) << ' ' << shown(named ? text.substr(colon + 2) : text)
               << '\n';
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the program prints on stderr beside its results: stages, notices, how far it is, and errors.
+// Output on stderr in addition to results: stages, notices, progress and errors.
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace crackle::tools {
 
 enum class Loudness : std::uint8_t { quiet, usual, verbose };
 
-/// A host that has messages in place of a terminal, as Python does. Empty members hear nothing.
+/// Receives messages for a host without a terminal, such as Python. Messages for empty members are discarded.
 struct Listener {
     std::function<void(const std::string&)> stage, detail, notice;
     std::function<void(const Progress&)> progress;
@@ -23,23 +23,23 @@ struct Listener {
 class Messages {
   public:
     explicit Messages(Loudness loudness);
-    /// Quiet: nothing is printed.
+    /// Prints nothing and passes messages to the listener.
     explicit Messages(Listener listener);
 
     bool quiet() const { return loudness_ == Loudness::quiet; }
-    /// Whether a host has them, which tells its user in its own way of an end that is no error.
+    /// Whether a host receives the messages. A host reports interruptions to its user in its own way.
     bool hosted() const { return hosted_; }
     bool verbose() const { return loudness_ == Loudness::verbose; }
     ProgressLine& progress() { return progress_; }
 
-    /// One line a stage that is done; not with -q. With -v it begins with the seconds since the command began, and
-    /// since the line before.
+    /// Prints a line for a completed stage, except with -q. With -v the line begins with the seconds since the start of
+    /// the command and since the previous line.
     void stage(const std::string& text);
-    /// What only -v reports, likewise.
+    /// Prints a line in the same form, only with -v.
     void detail(const std::string& text);
-    /// What the user should know, one sentence; not with -q.
+    /// Prints a notice for the user, one sentence, except with -q.
     void notice(const std::string& text);
-    /// Before results on stdout: removes the progress line.
+    /// Removes the progress line. Call this before printing results to stdout.
     void make_room() { progress_.clear(); }
 
   private:
@@ -52,10 +52,10 @@ class Messages {
     ProgressLine progress_;
 };
 
-/// What the program is called in its messages, before the first of them; "crackle" where nothing says otherwise.
+/// Sets the program's name in messages; call it before the first message. The default is "crackle".
 void name_program(const std::string& name);
 
-/// "crackle: TEXT", also with -q. A text that begins with "crackle COMMAND:" keeps that as its beginning.
+/// Prints "crackle: TEXT", also with -q. If the text itself begins with "crackle COMMAND:", no prefix is added.
 void report_error(const std::string& text);
 
 }  // namespace crackle::tools

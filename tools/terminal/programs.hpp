@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where programs are: this one, those beside it, those on the PATH.
+// Finds programs: the running one, those in its folder, and those on the PATH.
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
@@ -8,13 +8,13 @@
 
 namespace crackle::tools {
 
-/// Folder of the running program's file; empty where the system does not tell.
+/// Folder of the running program; empty if the system cannot report it.
 std::filesystem::path own_folder();
 
-/// Where a program is on the PATH; empty: nowhere.
+/// Path of a program on the PATH; empty if it is not found.
 std::string program_on_path(const std::string& name);
 
-/// Where a program is: beside the running one, else on the PATH; empty: nowhere.
+/// Path of a program in the folder of the running one, or otherwise on the PATH; empty if it is not found.
 std::string program_beside_or_on_path(const std::string& name);
 
 }  // namespace crackle::tools

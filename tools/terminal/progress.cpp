@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <iostream>
+#include <string_view>
 #include <utility>
 
+#include "solver/base/utf8.hpp"
+#include "tools/terminal/printable.hpp"
 #include "tools/terminal/terminal.hpp"
 
 namespace crackle::tools {
@@ -15,14 +19,12 @@ namespace {
 
 constexpr std::chrono::milliseconds between_redraws{200};
 
-/// At most so many columns, letters of UTF-8 kept whole.
+/// The text cut to at most `columns` characters, without splitting UTF-8 sequences.
 std::string cut_off(const std::string& text, std::size_t columns) {
-    std::size_t letters = 0;
-    for (std::size_t k = 0; k < text.size(); ++k) {
-        const bool begins = (static_cast<unsigned char>(text[k]) & 0xC0U) != 0x80U;
-        if (begins && letters++ == columns) return text.substr(0, k);
-    }
-    return text;
+    std::string_view rest = text;
+    for (std::size_t letters = 0; letters < columns && !rest.empty(); ++letters)
+        rest.remove_prefix(std::max<std::size_t>(first_letter(rest).bytes, 1));
+    return text.substr(0, text.size() - rest.size());
 }
 
 }  // namespace
@@ -43,7 +45,7 @@ std::string progress_text(const Progress& progress, std::size_t columns) {
     if (std::isfinite(progress.share)) add(fmt::format("{:3.0f} %", 100.0 * progress.share));
     if (std::isfinite(progress.rate)) add(fmt::format("{:.3g} {}/s", progress.rate, progress.unit));
     if (const std::string left = spoken_time(progress.seconds_left); !left.empty()) add(left + " left");
-    add(progress.detail);
+    add(printable(progress.detail));
     return cut_off(text, columns);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far long work is: one line on stderr that is written over, on a terminal only, and gone in the end.
+// Progress of long work: a line on stderr that is overwritten and finally removed. It is shown only on a terminal.
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
@@ -10,26 +10,27 @@
 
 namespace crackle::tools {
 
-/// What is not a number is not known, and not shown.
+/// Progress to show. NaN means unknown; such values are not shown.
 struct Progress {
-    double share = std::numeric_limits<double>::quiet_NaN();  ///< done, 0 to 1
-    double rate = std::numeric_limits<double>::quiet_NaN();   ///< so many of `unit` a second
+    double share = std::numeric_limits<double>::quiet_NaN();  ///< completed fraction, 0 to 1
+    double rate = std::numeric_limits<double>::quiet_NaN();   ///< number of `unit` per second
     const char* unit = "";
     double seconds_left = std::numeric_limits<double>::quiet_NaN();
     std::string detail = {};
 };
 
-/// "31 s", "2 min 5 s", "1 h 12 min"; empty for what is not finite. @param seconds >= 0
+/// A duration as text, for example "31 s", "2 min 5 s" or "1 h 12 min"; empty if it is not finite. @param seconds >= 0
 std::string spoken_time(double seconds);
 
-/// The line's text, without what moves the cursor. @param columns where it is cut off
+/// Text of the line, without control sequences. @param columns width at which it is cut off
 std::string progress_text(const Progress& progress, std::size_t columns);
 
 class ProgressLine {
   public:
-    /// @param wanted false: never shown, as where stderr is no terminal
+    /// @param wanted whether to show the line; false, for example, if stderr is not a terminal
     explicit ProgressLine(bool wanted);
-    /// Draws nothing: `heard` has it, as often as it would be drawn. Empty: never
+    /// Passes progress to `heard` instead of drawing it, as often as the line would be drawn. If `heard` is empty,
+    /// progress is discarded.
     explicit ProgressLine(std::function<void(const Progress&)> heard);
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
@@ -37,16 +38,18 @@ class ProgressLine {
 
     bool shown() const { return shown_; }
 
-    /// Begins work of `all` pieces; `what` is drawn at once, for the first piece may take long.
-    /// @param unit of the rate, plural; empty: pieces are unlike, and neither rate nor time left can be estimated
+    /// Starts work that consists of `all` units. `what` is drawn at once, since the first unit may take long.
+    /// @param unit name of the unit in the rate, plural; empty if units differ too much for an estimate of rate and
+    /// remaining time
     void begin(const std::string& what, double all, const char* unit);
-    /// So many pieces are done: rate and time left by the pace since begin(). Drawn at most five times a second.
+    /// Reports the number of completed units. Rate and remaining time are estimated from the time since begin(). Drawn
+    /// at most five times per second.
     void count(double done, const std::string& detail = {});
-    /// The next stage of work that has few of them, each of which may take long; drawn at once.
+    /// Starts the next stage of work that has a few long stages; drawn at once.
     void step(double done, const std::string& what);
-    /// The same of work that knows its own pace.
+    /// Draws progress whose rate and completed fraction the caller has determined.
     void draw(const Progress& progress);
-    /// Removes the line until it is drawn again.
+    /// Removes the line until it is next drawn.
     void clear();
 
   private:

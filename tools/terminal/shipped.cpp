@@ -12,7 +12,8 @@ fs::path shipped_folder() {
     const fs::path folder = own_folder();
     if (folder.empty()) return {};
     std::error_code none;
-    // Installed: PREFIX/bin. Built: SOURCES/build/PRESET/tools.
+    // The program is in PREFIX/bin if it is installed, and in SOURCES/build/PRESET/tools if it is run from its build
+    // folder.
     for (const fs::path& data : {folder / "../share/crackle", folder / "../../.."})
         if (fs::is_directory(data / "specimens/guide_rock", none)) return fs::weakly_canonical(data, none);
     return {};

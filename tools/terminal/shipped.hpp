@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shipped cases and decks (specimens/...), found from wherever the program is called and wherever it was moved to.
+// Finds shipped cases and decks (specimens/...), whatever the current folder and the installation folder are.
 // Tested by tests/tools/terminal/shipped_test.cpp.
 #pragma once
 
@@ -8,11 +8,11 @@
 
 namespace crackle::tools {
 
-/// Folder that holds specimens/: beside an installed program (../share/crackle), or the sources that it was built in;
-/// empty where there is none.
+/// Folder that contains specimens/: for an installed program ../share/crackle, otherwise the source folder from which
+/// it was built. Empty if there is none.
 std::filesystem::path shipped_folder();
 
-/// A path as given if it exists; else, of one that begins with specimens/, the shipped one; else as given.
+/// The shipped file if `path` does not exist but begins with specimens/; otherwise `path` itself.
 std::filesystem::path given_or_shipped(const std::string& path);
 
 }  // namespace crackle::tools

@@ -6,15 +6,15 @@
 #include <algorithm>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/processors_lent.hpp"
-#include "solver/base/threads_to_be_had.hpp"
+#include "solver/machine/processors_lent.hpp"
+#include "solver/machine/threads_to_be_had.hpp"
 
 namespace crackle::tools {
 
 namespace {
 
-/// As many threads or processes as are wanted, fewer where the system gives fewer; one beside them is begun anyway:
-/// frames are drawn on it, or it waits for the others.
+/// Limits a number of threads or processes to what the operating system allows, less one: a further thread is always
+/// started, to draw frames or to wait for the others.
 int to_be_had(int wanted) { return wanted > 1 ? std::clamp(threads_to_be_had(wanted + 1) - 1, 1, wanted) : wanted; }
 
 }  // namespace
@@ -30,7 +30,7 @@ int workers_of_machine(std::optional<int> asked, const std::string& command) {
 ThreadRoom room_for_threads(int asked) {
     const int most = std::min(asked, processors_lent());
     const int had = to_be_had(most);
-    if (had < most) return {had, fmt::format("the system lets this process have {} more", had)};
+    if (had < most) return {had, fmt::format("the operating system allows this process only {}", had)};
     return {had, fmt::format("this process may use {} processor{}", had, had == 1 ? "" : "s")};
 }
 

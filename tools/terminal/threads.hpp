@@ -9,21 +9,22 @@
 
 namespace crackle::tools {
 
-/// Processes that run tests: as asked for, else one for each processor lent to this process. @throws InputError if that
-/// is none, or above 1024
+/// Number of worker processes that run tests: as requested, or one for each processor that this process may use.
+/// @throws InputError if the requested number is 0 or above 1024
 int workers_of_machine(std::optional<int> asked, const std::string& command);
 
 struct ThreadRoom {
     int threads = 1;
-    std::string why;  ///< there are no more
+    std::string why;  ///< reason why fewer threads are used than requested; empty otherwise
 };
 
-/// Threads that are of use here: at most as many as asked for, as processors are lent to this process (threads that
-/// share one wait for each other at every step), and as the system gives it now.
+/// Number of threads worth using: at most the number requested, the number of processors that this process may use, and
+/// the number of threads that the system allows. Threads that share a processor would wait for each other at every
+/// step.
 ThreadRoom room_for_threads(int asked);
 
-/// The same, with a notice where these are fewer than asked for. Numbers that are none (below 1, above 1024) are left
-/// to be refused.
+/// As above, with a notice if the number is less than requested. Invalid numbers (below 1 or above 1024) are returned
+/// unchanged, to be refused by the caller.
 int threads_of_machine(int asked, Messages& messages);
 
 }  // namespace crackle::tools

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bundles src/ into one page template without outside references: page.html with script (packed) and style inlined.
-// `crackle report` and `crackle view` put a manifest, the first block of each test and all further blocks at the markers.
+// Bundles src/ into one self-contained page template: page.html with its style and its compressed script inlined.
+// `crackle report` and `crackle view` replace its markers by a manifest, the first block of each test, and all other blocks.
 //   node build.mjs [output file, default dist/page.html]
 import {build} from 'esbuild';
 import {mkdir, readFile, writeFile} from 'node:fs/promises';
@@ -34,11 +34,11 @@ const template = await readFile(join(here, 'src', 'page.html'), 'utf8');
 const filled = template
     .replace('@CRACKLE_STYLE@', () => style.trim())
     .replace('@CRACKLE_SCRIPT@', () => deflateSync(script, {level: 9}).toString('base64'))
-    // An HTML parser ends the script at the first such tag, even inside a string.
+    // An HTML parser ends the script at the first closing tag, even inside a string.
     .replace('@CRACKLE_LOADER@', () => loader.trim().replaceAll('</script', '<\\/script'));
 for (const marker of ['@CRACKLE_DATA@', '@CRACKLE_FIRST@', '@CRACKLE_REST@']) {
     const found = filled.split(marker).length - 1;
-    if (found !== 1) throw new Error(`the page must hold the marker ${marker} exactly once, found ${found}`);
+    if (found !== 1) throw new Error(`marker ${marker}: found ${found} times in the page, expected once`);
 }
 await mkdir(dirname(output), {recursive: true});
 await writeFile(output, filled);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Work-precision of a strength: packed specimens in tension, over time step, loading rate and rate tolerance, in the
-// mean over packings: single peaks scatter with the order in which bonds happen to break.
+// Work-precision of a strength: packed specimens in tension, over time step, loading rate and rate tolerance. Means
+// over packings are compared, since single peaks scatter with the order in which bonds happen to break.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <cmath>
@@ -27,7 +27,7 @@ struct Setting {
 };
 
 VirtualTest prepared(const Setting& s, std::int64_t seed, bool quick) {
-    TestCase test = verification::packed_case(seed, "tension", s.rate, 0.01);
+    TestCase test = verification::packed_case(seed, LoadingKind::tension, s.rate, 0.01);
     test.packing.count = quick ? 30 : 100;
     if (s.tolerance > 0.0) {
         test.loading.axial_strain_rate.reset();
@@ -35,10 +35,10 @@ VirtualTest prepared(const Setting& s, std::int64_t seed, bool quick) {
     }
     if (std::strcmp(s.kind, "circles") != 0) {
         verification::mesh_voronoi(test);
-        test.mesh.kind = s.kind;
+        test.mesh.kind = from_name<MeshKind>(s.kind);
     }
-    test.numerics.contact_law = name_of(s.law);
-    test.numerics.integrator = name_of(s.integrator);
+    test.numerics.contact_law = s.law;
+    test.numerics.integrator = s.integrator;
     test.numerics.safety_factor = s.step_share;
     return prepare_test(test);
 }
@@ -48,8 +48,8 @@ struct Peaks {
     double cpu_seconds = 0.0;
 };
 
-/// What is varied, from coarse to fine. Steps are compared at the slowest of the rates with half the finest of them,
-/// rates and tolerances at the coarsest of the steps with a quarter of the slowest rate.
+/// What is varied, from coarse to fine. Steps are compared with half the finest of them, at the slowest of the rates.
+/// Rates and tolerances are compared with a quarter of the slowest rate, at the coarsest of the steps.
 struct Sweep {
     std::vector<double> steps, rates, tolerances;
     int packings;

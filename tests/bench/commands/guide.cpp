@@ -201,7 +201,7 @@ CommandLine describe_bench_guide() {
         ("laws", po::value<Words>()->multitoken()->value_name("LAW"),
          "contact laws of polygons (default rounded demseg demseg_mean)")  //
         ("strength-packings", numbers("N"),
-         "packings that are also loaded until they fail, a number a law (default 5 0 0: the guide's law takes small "
+         "packings that are also loaded until they fail, a number per law (default 5 0 0: the guide's law takes small "
          "steps)")  //
         ("experiment-packings", numbers("N"),
          "packings of the experiments: elastic, loaded circles, loaded triangles (default 3 2 0)")                  //
@@ -221,7 +221,7 @@ CommandLine describe_bench_guide() {
                 "Tests the guide's rock on many packings and shows each of the guide's numbers beside mean "
                 "and standard deviation of ours, with a verdict and, for each row outside, the experiments "
                 "that move it.\n\n"
-                "DIR gets guide.md, guide.csv and cache/, a file a test: the same command goes on where a "
+                "DIR gets guide.md, guide.csv and cache/, a file per test: the same command goes on where a "
                 "stopped one was, and a larger one takes what is there. After a change of the engine, "
                 "remove cache/.",
             .options = {{"options", options}},
@@ -277,7 +277,7 @@ int bench_guide(const Invocation& invocation) {
     replace_file(folder / "guide.md", text);
     std::cout << text;
     if (!interrupted()) return exit_done;
-    report_error("interrupted; the same command goes on");
+    report_error("interrupted; the same command resumes");
     return exit_interrupted;
 }
 

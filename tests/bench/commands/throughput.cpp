@@ -174,7 +174,7 @@ std::string table_of(const std::string& command, const Limits& limits, const std
     return text;
 }
 
-/// Rate over size, a curve a scene.
+/// Rate over size, a curve per scene.
 std::string script_of(const std::vector<Row>& rows) {
     std::string data, plots;
     const auto add = [&](const std::string& name, const std::string& title, auto chosen, auto value) {

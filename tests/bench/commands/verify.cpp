@@ -47,7 +47,7 @@ void check_writable(const fs::path& page) {
     }
 }
 
-/// One line a claim, and each row that fails: those even with -q, for they are what was asked.
+/// One line per claim, and each row that fails. Failed rows are printed even with -q, since they are the result.
 void report(Messages& messages, const CheckedClaim& checked) {
     const bool fails = checked.fails();
     messages.stage(fmt::format("{:<50} {}", checked.claim.name,

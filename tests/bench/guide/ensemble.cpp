@@ -57,7 +57,7 @@ void take_counts(GuideResult& result, const TestCase& description, const TestHoo
     Scene scene = specimen.scene;
     // Any will do for circles: they bond at the overlaps they have.
     scene.thick = description.bond.thick.value_or(0.1 * specimen.mean_radius);
-    scene.segment_law = segment_law_named("numerics.contact_law", description.numerics.contact_law);
+    scene.segment_law = description.numerics.contact_law;
     scene.time_step = 0.0;  // the packing's own; none is taken
     scene.domain.wall_present = {false, false, false, false};
     const double thick = scene.thick;
@@ -178,7 +178,7 @@ TestCase guide_case(const GuideTest& test, const EnsembleOptions& options) {
     const std::string loading = test.loading == "compression" ? "compression" : "tension";
     TestCase description = read_case(options.cases / (test.specimen + "_" + loading + ".toml"));
     description.packing.seed = test.seed;
-    description.numerics.contact_law = test.law;
+    description.numerics.contact_law = value_named<SegmentLaw>("numerics.contact_law", test.law);
     description.numerics.threads = 1;
     description.loading.scale_rate(options.rate_factor);
     guide_experiment(test.experiment).change(description);

@@ -23,7 +23,7 @@ void set_radii(TestCase& test, double least, double largest) {
 }
 
 void set_platens(TestCase& test, double friction_angle) {
-    test.loading.platens = "frictional";
+    test.loading.platens = PlatenKind::frictional;
     test.loading.platen_friction_angle = friction_angle;
 }
 
@@ -46,7 +46,7 @@ const std::vector<GuideExperiment>& guide_experiments() {
         {"seeds_boundary", "triangles between the centres alone, mesh.boundary = \"seeds\"; nothing has platens",
          elastic,
          [](TestCase& test) {
-             if (test.mesh.kind == "delaunay") test.mesh.boundary = "seeds";
+             if (test.mesh.kind == MeshKind::delaunay) test.mesh.boundary = Boundary::centres;
              test.mesh.merge_destroyed = test.has_table("mesh");  // of slivers on the ragged outline
          },
          true},

@@ -192,7 +192,7 @@ std::string table(const GuidePage& page, const GuideResults& results) {
 std::string notices(const GuidePage& page, const GuideResults& results) {
     std::string text;
     if (page.tests_missing > 0)
-        text += fmt::format("- {} tests of this plan have not been run yet; the same command goes on with them.\n",
+        text += fmt::format("- {} tests of this plan have not been run yet; the same command runs them.\n",
                             page.tests_missing);
     for (const auto& [test, result] : results) {
         const std::string who =

@@ -3,11 +3,11 @@
 // Tested by tests/bench_tests/throughput/bare_kernel_test.cpp.
 #include "solver/base/instruction_set.hpp"
 #include "solver/base/lanes.hpp"
-#include "solver/contact/dashpot.hpp"
-#include "solver/contact/friction.hpp"
-#include "solver/contact/law.hpp"
 #include "solver/geometry/circle_geometry.hpp"
 #include "solver/geometry/relative_motion.hpp"
+#include "solver/laws/dashpot.hpp"
+#include "solver/laws/friction.hpp"
+#include "solver/laws/law.hpp"
 #include "tests/bench/throughput/bare_kernel.hpp"
 
 namespace crackle::throughput {

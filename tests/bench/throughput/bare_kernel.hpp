@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A contact step stripped to its arithmetic: what the engine's rate is measured against.
 //
-// Discs of one material touch with normal spring and dashpot, incremental shear spring and dashpot under a Coulomb
-// limit, by the same code as in the engine; every point writes one record of 32 bytes, every body adds up its own in a
-// fixed order and is kicked and drifted. No neighbour search, walls, bonds, ledger, controls or observers. A body's
-// state fills a cache line, points are looked at several at a time (solver/base/lanes.hpp). On one thread.
+// Discs of one material touch with normal spring and dashpot, and with incremental shear spring and dashpot under a
+// Coulomb limit, by the same code as in the engine. Every point writes one record of 32 bytes; every body adds up its
+// own in a fixed order and is kicked and drifted. No neighbour search, walls, bonds, ledger, controls or observers. A
+// body's state fills a cache line, points are looked at several at a time (solver/base/lanes.hpp). On one thread.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace crackle::throughput {
 
 class BareKernel {
   public:
-    /// Copies the discs of an unbonded world and its circle-circle points that touch, bonded or not: they go by the
+    /// Copies the discs of an unbonded world and its circle-circle points that touch, bonded or not. They have the
     /// contact law of the first body's material, with the dashpots of a ratio at the first point's effective mass.
     /// Bodies that are no single circles (platens) are left out.
     explicit BareKernel(const World& world);

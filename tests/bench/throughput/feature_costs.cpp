@@ -34,7 +34,7 @@ constexpr int steps_before_start = 20;
 // A loading loop looks at its hooks only so often.
 constexpr std::int64_t steps_between_looks = 64;
 
-/// Of this thread, s: what others do on the machine meanwhile counts less than on a clock at the wall.
+/// Processor time of this thread, s: other work on the machine counts less than in wall-clock time.
 double processor_seconds() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -52,7 +52,7 @@ Scene packed_hexagons(std::int64_t count) {
     return scene;
 }
 
-/// The same scene at rest where springs and dashpots have brought it, with a time step that holds for every feature.
+/// The scene at rest where springs and dashpots have brought it, with a time step that holds for every feature.
 Scene settled(Scene scene) {
     constexpr int most_steps = 6000;
     constexpr double rest = 0.1 * stir_speed;
@@ -167,7 +167,7 @@ std::int64_t loaded_points(const World& world) {
 struct Trial {
     std::int64_t particles, contacts;
     std::function<void()> reset;
-    std::function<double(std::int64_t)> run;  ///< so many steps; @return s
+    std::function<double(std::int64_t)> run;  ///< takes this number of steps; @return s
     std::int64_t together = 1;                ///< steps come in multiples of it
 };
 
@@ -188,7 +188,7 @@ double run_of(const Trial& trial, std::int64_t steps) {
     return trial.run(steps);
 }
 
-/// Steps that fill about so many seconds.
+/// Steps that fill about `seconds`.
 std::int64_t steps_to_fill(const Trial& trial, double seconds) {
     std::int64_t rounds = 1;  // of trial.together steps
     while (true) {
@@ -286,7 +286,8 @@ void add_rungs(const FeatureStudy& study, const std::string& bodies, const Scene
 void add_observers(const FeatureStudy& study, const std::string& kind, const Add& add) {
     const TimedSpecimen specimen{kind, study.count, 1, 4.0 * study.seconds};
     VirtualTest test = bond_timed_test(specimen, study.scratch / kind);
-    OutputFolder output = OutputFolder::create(study.scratch / kind / "out", true, {});
+    std::filesystem::remove_all(study.scratch / kind / "out");  // of an earlier study
+    OutputFolder output = OutputFolder::create(study.scratch / kind / "out", Earlier::refused, {});
     TestFiles files(output, "", test.state, {});
     const auto load = [&](std::int64_t steps) {
         const std::int64_t end = test.world.stepping.steps + steps;
@@ -345,7 +346,7 @@ void hold_still(World& world) {
 
 void force_pass(World& world, const ContactFeatures& features) {
     clear_forces(world);
-    sweep(world, features, nullptr, 0.0);
+    chosen_sweep()(world, {world, features}, nullptr, 0.0);
 }
 
 /// Force passes alone, where an overhead shows most.
@@ -408,18 +409,6 @@ void add_absent_parts(const FeatureStudy& study, const Scene& scene, const Add& 
 }
 
 }  // namespace
-
-const char* name_of(FeatureRowKind kind) {
-    switch (kind) {
-        case FeatureRowKind::added:
-            return "added";
-        case FeatureRowKind::dispatched:
-            return "dispatched";
-        case FeatureRowKind::forced:
-            return "forced";
-    }
-    return "";
-}
 
 void measure_feature_costs(const FeatureStudy& study, const std::function<void(const FeatureRow&)>& add) {
     const Scene discs = settled(timed_discs(study.count)), hexagons = settled(packed_hexagons(study.count));

@@ -2,9 +2,9 @@
 // What each feature costs a contact and step, and what is left of those that a scene lacks.
 //
 // Discs and hexagons are settled between walls, then stirred by about a hundredth of an overlap; rows share places and
-// neighbour list but for what their feature changes. Two scenes that differ by one feature take turns on one thread,
-// each from a copy of its start; what counts is the ratio of the two times of a pair, its median over the pairs, and
-// the interval that holds that median. All times are the processor's. Walls are moved away by an overlap where the
+// neighbour list, except for what their feature changes. Two scenes that differ by one feature take turns on one
+// thread, each from a copy of its start. The result is the ratio of the two times of a pair, its median over the pairs,
+// and the interval that holds that median. All times are the processor's. Walls are moved away by an overlap where the
 // specimen is bonded.
 #pragma once
 
@@ -13,6 +13,7 @@
 #include <functional>
 #include <string>
 
+#include "solver/base/names.hpp"
 #include "tests/bench/throughput/median_interval.hpp"
 
 namespace crackle::throughput {
@@ -29,7 +30,7 @@ enum class FeatureRowKind : std::uint8_t {
     dispatched,  ///< a scene without a feature: what the engine picks beside the kernels compiled without it
     forced,      ///< the same scene under kernels compiled with the feature: what dispatch saves
 };
-const char* name_of(FeatureRowKind kind);
+constexpr auto list_names(FeatureRowKind) { return in_order("added", "dispatched", "forced"); }
 
 struct FeatureRow {
     FeatureRowKind kind;

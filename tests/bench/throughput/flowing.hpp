@@ -14,9 +14,9 @@ struct FlowingColumn {
     double lasts;  ///< s, in which it flows on
 };
 
-/// Bodies set out with the motion of a collapse: v = √(g/H)·(x, −y) from the corner of floor and left wall, H the
-/// column's height, so that the front has √(gH), the speed of a dam break. Waiting for it would take simulated time of
-/// the order √(H/g), minutes with many bodies.
+/// Bodies start with the motion of a collapse: v = √(g/H)·(x, −y) from the corner of floor and left wall, H the
+/// column's height. The front then has √(gH), the speed of a dam break. Waiting for it would take simulated time of the
+/// order √(H/g), minutes with many bodies.
 /// @param count bodies, met within a few @param polygons hexagons in place of discs
 FlowingColumn flowing_column(std::int64_t count, bool polygons);
 

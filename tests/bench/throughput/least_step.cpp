@@ -12,7 +12,7 @@ void least_step(World& world, const ContactFeatures& features) {
     const double kick = 0.5 * (world.stepping.drift + world.stepping.time_step);
     const MoveListed move = of_chosen_set([]<InstructionSet S>() { return move_listed_of<S>(false, false, true); });
     clear_forces(world);
-    sweep(world, features, move, kick);
+    chosen_sweep()(world, {world, features}, move, kick);
     world.bodies.forces_clear = true;
     const Speeds speeds = move_the_rest(world, move, kick);
     world.list.fastest = std::sqrt(speeds.checked());

@@ -3,9 +3,9 @@
 // feature.
 //
 // Forces by the engine's contact kernels of given features, their sums, kick and drift as the engine compiles them for
-// discs without gravity; the largest speed is found, and whether it is a number: neighbour list and health of a run go
-// by it. Left out is all that a world can have besides: looking whether the list still holds, threads, a profile,
-// gravity, bodies that turn, driven bodies, losses, breaks. Same bytes as step() as long as nothing of that happens.
+// discs without gravity. The largest speed is found, and whether it is a number: neighbour list and health of a run
+// depend on it. Everything else that a world can have is left out: a check of the list, threads, a profile, gravity,
+// bodies that turn, driven bodies, losses, breaks. Same bytes as step() as long as nothing of that happens.
 // Tested by tests/bench_tests/throughput/feature_costs_test.cpp.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace crackle::throughput {
 
-/// Of a world of single circles that has taken its first step, on one thread.
+/// The least step of a world of single circles that has taken its first step, on one thread.
 void least_step(World& world, const ContactFeatures& features);
 
 /// Makes room for what the kernels of these features remember of a point, in a world that lacks some of them. Bonds,

@@ -30,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double mean_radius = 0.02, mean_overlap = 8e-5;  // m
 constexpr double polygon_gap = 1e-3;                       // m, between polygons
 constexpr double height_to_width = 2.0;
-// Of the mean overlap: so much that a quarter of the lattice's bonds is lost.
+// Share of the mean overlap, so large that a quarter of the lattice's bonds is lost.
 constexpr double shake_share = 1.2;
 constexpr double steps_between_rows = 100.0;
 constexpr double fewest_rows = 2000.0;  // that a test measures (load_specimen.cpp)
@@ -99,7 +99,7 @@ VirtualTest bond_timed_test(const TimedSpecimen& specimen, const fs::path& folde
     const fs::path case_path = folder / "case.toml";
     std::ofstream(case_path) << case_text(specimen);
     VirtualTest test = bond_test(read_case(case_path));
-    // A row every so many steps of the length that bonding has found.
+    // A row every steps_between_rows steps of the length that bonding has found.
     const double strain_a_step = end_strain / (rows_of(specimen) * steps_between_rows);
     change_velocity(test.world, test.setup.top, 1, -strain_a_step * test.setup.height / test.world.stepping.time_step);
     return test;
@@ -109,7 +109,8 @@ TimedTest time_test(const TimedSpecimen& specimen, const fs::path& folder, std::
                     Profile* profile) {
     VirtualTest test = bond_timed_test(specimen, folder);
     test.world.workers.profile = profile;
-    OutputFolder output = OutputFolder::create(folder / "out", true, {});
+    fs::remove_all(folder / "out");  // of the trial before
+    OutputFolder output = OutputFolder::create(folder / "out", Earlier::refused, {});
     TestFiles files(output, "", test.state, {});
     const auto load_for = [&](double seconds) {
         std::optional<Clock::time_point> begun;  // by the first step, after the first checkpoint

@@ -156,7 +156,7 @@ TEST_F(BenchCommand, AccuracyWritesATableAndItsPicture) {
     EXPECT_LT(error.at("peak_circles leapfrog time_step 0.4"), 0.5);
     EXPECT_LT(error.at("peak_circles leapfrog rate_tolerance 0.05"), 0.5);
     EXPECT_NE(read("curves/accuracy.gp").find("plot $bounce_energy_0"), std::string::npos);
-    // Where there is no gnuplot, the message tells why and the table is there all the same.
+    // Where there is no gnuplot, the message states why, and the table is there all the same.
     if (answer.err.find("found no gnuplot") == std::string::npos) {
         EXPECT_NE(read("curves/accuracy.svg").find("<svg"), std::string::npos) << answer.err;
     }

@@ -75,8 +75,9 @@ TEST(GuideEnsemble, EveryExperimentChangesTheCaseOfEveryTestItReaches) {
                 if (!experiment.reach.holds(specimen, loading)) continue;
                 const TestCase test = guide_case(guide_test(experiment.name, "rounded", specimen, loading, 7), options);
                 EXPECT_EQ(test.packing.seed, 7);
-                EXPECT_EQ(test.loading.kind, std::string(loading) == "compression" ? "compression" : "tension");
-                EXPECT_TRUE(test.loading.platens == "bonded" || test.loading.kind == "compression") << experiment.name;
+                EXPECT_EQ(test.loading.kind, from_name<LoadingKind>(loading).value_or(LoadingKind::tension));
+                EXPECT_TRUE(test.loading.platens == PlatenKind::bonded || test.loading.kind == LoadingKind::compression)
+                    << experiment.name;
             }
         }
     }
@@ -93,7 +94,7 @@ TEST(GuideEnsemble, CirclesAreNearlyTheSameUnderEveryLaw) {
     };
     const auto rounded = elastic("rounded"), guide = elastic("demseg");
     for (const char* quantity : {"youngs_modulus", "mean_back_tension", "contacts", "first_slip_stress"}) {
-        // Of three hundred circles one may touch the end of a platen's face.
+        // One of three hundred circles may touch the end of a platen's face.
         EXPECT_NEAR(guide.at(quantity) / rounded.at(quantity), 1.0, 1e-3) << quantity;
     }
     EXPECT_NEAR(rounded.at("mean_back_tension"), 774.0, 0.5) << "N, what the packing is compressed to";

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What ESyS-Particle's two inputs share: the discs between four elastic walls as packed, and the timed run.
-# Nothing moves the walls: at rest a step costs the same. A tenth of our time step, for the bonds of ESyS-Particle are not stable at ours.
+# Nothing moves the walls: at rest a step costs the same. The time step is a tenth of ours, at which the bonds of ESyS-Particle are not stable.
 # Source: ESyS-Particle tutorial (rot_compress.py, bingle_Runnable.py) and the documentation in the module.
 import json
 import math
@@ -40,7 +40,7 @@ def make_simulation():
 
 
 def processor_seconds_of_worker():
-    """Of the other rank, a child of the same mpirun: it does the stepping, this one gives the orders."""
+    """Seconds of the other rank, a child of the same mpirun: it does the stepping, this one gives the orders."""
     total = 0.0
     for entry in os.listdir("/proc"):
         try:
@@ -76,8 +76,8 @@ def run_and_report(sim, groups):
     sim.setNumTimeSteps(last)
     sim.run()
     end, times = time.perf_counter(), clock.times[job["warm_up"]:]
-    # Either rank spins while it waits for the other. Where others have the processors, that is most of the worker's time; a step that met no such
-    # wait is the shorter measure then, if it is shorter than a turn of the scheduler.
+    # Either rank spins while it waits for the other. Where others have the processors, that is most of the worker's time. A
+    # step without such a wait is then the better measure, if it is shorter than a turn of the scheduler.
     worker = processor_seconds_of_worker() - clock.processor
     undisturbed = steps * statistics.median(after - before for before, after in zip(times, times[1:]))
     contacts = sum(float(open(group + ".count").read().split()[-1]) for group in groups)

@@ -14,7 +14,7 @@ left, right, bottom, top = job["box"]
 
 
 def add_discs(material, strain_a_step=0.0):
-    """`material` gives the index of one for a radius. Velocities as of a block between platens that close by so much a step: loading sends no shock."""
+    """`material` gives the index of one for a radius. Velocities as of a block between platens that close by this length a step: loading sends no shock."""
     for x, y, radius in job["discs"]:
         state = O.bodies[O.bodies.append(utils.sphere((x, y, 0), radius, material=material(radius)))].state
         state.mass = job["density"] * math.pi * radius**2
@@ -24,7 +24,7 @@ def add_discs(material, strain_a_step=0.0):
 
 
 def run_timed():
-    """What compare_peers reads, but for what only the model knows."""
+    """What compare_peers reads, without what only the model knows."""
     if job["warm_up"]:  # to O.run, 0 means without end
         O.run(job["warm_up"], wait=True)
     begin, start, processor = O.iter, time.perf_counter(), time.process_time()

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The checkpoint of a test; its hashes are made right, so that what they protect is reached.
+// The checkpoint of a test; its hashes are made right, so that what they protect is reached. What is read is drawn, as
+// a resumed test would: whatever is an index must have been looked at.
 
 #include "specimens/results/checkpoint.hpp"
 
 #include <algorithm>
+#include <span>
 #include <sstream>
 
+#include "specimens/frames/frame_forces.hpp"
+#include "specimens/frames/frame_painter.hpp"
+#include "specimens/frames/placed_frame.hpp"
 #include "specimens/results/sha256.hpp"
 #include "tests/fuzz/input.hpp"
 #include "tests/fuzz/targets.hpp"
@@ -33,5 +38,16 @@ void crackle::fuzz::checkpoint(std::string_view bytes) {
         text.replace(end, digits, sha256(text.substr(0, end)));
     }
     std::istringstream in(std::move(text));
-    load_test(in, "checkpoint");
+    const TestCheckpoint test = load_test(in, "checkpoint");
+    const Frame& frame = test.state.peak_frame;
+    if (frame.row < 0) return;
+    std::ostringstream drawn;
+    const PlacedFrame placed(test.world, test.setup, frame);
+    const FrameForces forces = find_forces(placed);
+    const std::span cracks = std::span(test.state.history.cracks).first(frame.cracks);
+    const FramePainter painter(test.world, test.setup, FramePrecision::double_);
+    painter.write_particles(drawn, placed, forces);
+    painter.write_contacts(drawn, placed, forces, cracks);
+    painter.write_cracks(drawn, placed, cracks);
+    painter.write_joints(drawn, placed);
 }

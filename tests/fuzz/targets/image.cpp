@@ -44,7 +44,7 @@ void image(std::string_view bytes) {
     test.mineral[0].colour = "#000000";
     test.mineral[1].name = "mica";
     test.mineral[1].colour = "#ffffff";
-    test.minerals.assign = "image";
+    test.minerals.assign = MineralAssignment::image;
     test.minerals.image = "image.png";
     test.position["minerals.image"] = (scratch() / "case.toml:1").string();
     std::string png(bytes);

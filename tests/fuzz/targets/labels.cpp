@@ -15,7 +15,7 @@ void crackle::fuzz::labels(std::string_view bytes) {
     test.mineral.resize(2);
     test.mineral[0].name = "quartz";
     test.mineral[1].name = "mica";
-    test.minerals.assign = "labels";
+    test.minerals.assign = MineralAssignment::labels;
     test.minerals.labels = "labels.txt";
     test.position["minerals.labels"] = (scratch() / "case.toml:1").string();
     write_file("labels.txt", bytes);

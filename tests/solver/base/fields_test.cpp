@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A field that is added to a struct and its list reaches all that walks the list - checkpoint, hash, what points carry
-// from one neighbour list to the next - and a list that lacks one is refused by the compiler.
+// A field that is added to a struct and its list reaches all that walks the list: checkpoint, hash, and what points
+// carry from one neighbour list to the next. The compiler refuses a list that lacks one.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "solver/base/archive.hpp"
 #include "solver/base/field_hash.hpp"
 #include "solver/base/fields.hpp"
 #include "solver/world/points.hpp"
@@ -30,7 +29,7 @@ struct FewPoints {
     }
 };
 
-/// The same with one field more.
+/// The points with one more field.
 struct WearingPoints {
     std::vector<double> root_mass;
     std::vector<double> shear_force;
@@ -92,15 +91,7 @@ struct Complete {
     std::vector<double> many;
     FewPoints points;
 
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("x", s.x);
-        visit("y", s.y);
-        visit("shape", s.shape);
-        visit("count", s.count);
-        visit("many", s.many);
-        visit("points", s.points);
-    }
+    CRACKLE_FIELDS(x, y, shape, count, many, points);
 };
 static_assert(lists_all_fields<Complete>());
 static_assert(lists_all_fields<FewPoints>() && lists_all_fields<WearingPoints>());
@@ -124,7 +115,7 @@ static_assert(!lists_all_fields<Lacking<1>>(), "an array is missing");
 static_assert(!lists_all_fields<Lacking<2>>(), "a vector is missing");
 static_assert(lists_all_fields<Lacking<3>>());
 
-/// As copied lines look that were not changed.
+/// Fields as in copied lines that were not changed.
 struct Twice {
     double vx, vy;
 

@@ -55,7 +55,7 @@ World made(Trial trial, bool two_materials) {
     return world;
 }
 
-/// Of all points, whatever their laws are numbered.
+/// Flags of all points, without the numbers of their laws.
 std::vector<std::uint16_t> flags_of(const World& world) {
     std::vector<std::uint16_t> flags;
     for (const PointState& state : world.points.state) flags.push_back(state.flags);
@@ -163,39 +163,6 @@ TEST(PointBatch, DiscsOnOneAndTheSameSpot) {
     EXPECT_TRUE(same_bytes(together.points.force, apart.points.force));
 }
 
-/// Of friction, dashpots, bonds and the consistent integrator any set.
-class EverySetOfFeatures : public ::testing::TestWithParam<int> {};
-
-TEST_P(EverySetOfFeatures, GivesTheBytesOfPointsOneByOne) {
-    const bool friction = (GetParam() & 1) != 0, dashpots = (GetParam() & 2) != 0, bonds = (GetParam() & 4) != 0;
-    const bool consistent = (GetParam() & 8) != 0;
-    Material material = damped_rock();
-    if (!friction) material.friction_angle = 0.0;
-    if (!dashpots) material.damping_ratio = 0.0;
-    for (const Scene& scene : {triangular_lattice(9, 9, 0.02, 8e-5, material), honeycomb(7, 7, 0.02, 1e-3, material)}) {
-        const bool discs = scene.vertices.empty();
-        Trial trial{scene, bonds ? (discs ? 0.01 : 1.08e-3) : 0.0, discs ? 0.3 : 2.0};
-        if (consistent) trial.scene.integrator = Integrator::consistent;
-        World together = made(trial, false), apart = made(trial, false);
-        apart.workers.one_by_one = true;
-        const ContactFeatures features = features_of(together);
-        ASSERT_TRUE(features.friction == friction && features.damping == dashpots && features.bonds == bonds &&
-                    features.consistent == consistent);
-        for (int n = 0; n < 300; ++n) {
-            step(together);
-            step(apart);
-        }
-        testing::expect_same_run(together, apart);
-        EXPECT_TRUE(same_bytes(flags_of(together), flags_of(apart)));
-        expect_same_memory(together, apart);
-        EXPECT_EQ(together.account.friction_loss > 0.0, friction);
-        EXPECT_EQ(together.account.dashpot_loss > 0.0, dashpots);
-        EXPECT_EQ(together.bonds.broken > 0, bonds);
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(PointBatch, EverySetOfFeatures, ::testing::Range(0, 16));
-
 /// Scenes whose points have shares of their own.
 Trial with_shares(Trial trial, BondLaw law, StiffnessUnits units) {
     trial.scene.bond_law = law;
@@ -209,6 +176,46 @@ Trial with_shares(Trial trial, BondLaw law, StiffnessUnits units) {
     }
     return trial;
 }
+
+/// Any set of friction, dashpots, bonds and the consistent integrator, under each bond law, in both units.
+class EverySetOfFeatures : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(EverySetOfFeatures, GivesTheBytesOfPointsOneByOne) {
+    const auto bit = [](std::size_t n) { return (GetParam() >> n & 1) != 0; };
+    const bool friction = bit(0), dashpots = bit(1), bonds = bit(2), consistent = bit(3);
+    const StiffnessUnits units = bit(4) ? StiffnessUnits::area : StiffnessUnits::point;
+    const auto law = static_cast<BondLaw>(GetParam() >> 5);
+    Material material = damped_rock();
+    if (!friction) material.friction_angle = 0.0;
+    if (!dashpots) material.damping_ratio = 0.0;
+    for (const Scene& scene : {triangular_lattice(9, 9, 0.02, 8e-5, material), honeycomb(7, 7, 0.02, 1e-3, material)}) {
+        const bool discs = scene.vertices.empty();
+        const double speed = discs ? 0.3 : facts_of(law).strengths_are_given ? 1.0 : 2.0;
+        Trial trial = with_shares({scene, bonds ? (discs ? 0.01 : 1.08e-3) : 0.0, speed}, law, units);
+        if (!friction)
+            for (Material& m : trial.scene.materials) m.residual_friction_angle = 0.0;
+        if (consistent) trial.scene.integrator = Integrator::consistent;
+        World together = made(trial, false), apart = made(trial, false);
+        apart.workers.one_by_one = true;
+        const ContactFeatures features = features_of(together);
+        const bool rubs = friction || (bonds && facts_of(law).sticks);
+        ASSERT_TRUE(features.friction == rubs && features.damping == dashpots && features.bonds == bonds &&
+                    features.consistent == consistent && features.own_shares == together.settings.own_shares());
+        ASSERT_EQ(features.bond_law, bonds ? law : BondLaw{});
+        for (int n = 0; n < 300; ++n) {
+            step(together);
+            step(apart);
+        }
+        testing::expect_same_run(together, apart);
+        EXPECT_TRUE(same_bytes(flags_of(together), flags_of(apart)));
+        expect_same_memory(together, apart);
+        EXPECT_EQ(together.account.friction_loss > 0.0, friction);
+        EXPECT_EQ(together.account.dashpot_loss > 0.0, dashpots);
+        EXPECT_EQ(together.bonds.broken > 0, bonds);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(PointBatch, EverySetOfFeatures, ::testing::Range(std::size_t{0}, 32 * bond_laws));
 
 TEST(PointBatch, OfFacesByTheirArea) {
     const auto area = [](const Trial& trial) {

@@ -110,13 +110,13 @@ TEST(JointLaw, ScenesWithJointsThatCannotBeAreRefused) {
     says(refused([](Scene& s) {
              s.bond_law = BondLaw::back_tension, s.materials[0].tensile_strength = 0.0, s.materials[0].cohesion = 0.0;
          }),
-         "coulomb bonds in area units");
+         "expected the bond law \"coulomb\" and area units");
     says(refused([](Scene& s) { s.joints[0].aperture = 1e-6; }), "joint 1: aperture: found 1e-06, expected 0");
     says(refused([](Scene& s) { s.joints[0].bonded = false, s.joints[0].aperture = 1.0; }), "at most the thickness");
     says(refused([](Scene& s) { s.joints[0].dilation_angle = 31.0; }), "dilation angle: found 31");
     says(refused([](Scene& s) { s.joints[0].normal_stiffness = 0.0; }), "joint 1: normal stiffness");
     says(refused([](Scene& s) { s.joints[0].residual_friction_angle = 36.0; }), "residual friction angle: found 36");
-    says(refused([](Scene& s) { s.trace_joints[0] = 1; }), "a joint that there is not");
+    says(refused([](Scene& s) { s.trace_joints[0] = 1; }), "a joint that does not exist");
     says(refused([](Scene& s) { s.edge_sides.pop_back(); }), "sides of traces");
 }
 

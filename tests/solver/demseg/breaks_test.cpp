@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The record of broken bonds of a deck's run: a row a break, and how many bonds there are.
+// The record of broken bonds of a deck's run: a row per break, and how many bonds there are.
 
 #include <gtest/gtest.h>
 
@@ -119,7 +119,7 @@ TEST_F(Breaks, BehindTheStepFromWhichARunGoesOnAreDropped) {
     const auto cut = static_cast<std::int64_t>(step_of(whole[1])) + 1;
     const std::filesystem::path folder = run("deck", "part", cut);
     const std::size_t before = rows(folder).size();
-    // As a part that was killed would leave them, the last line cut short.
+    // Files as a killed part would leave them, the last line cut short.
     std::ofstream(folder / "events.csv", std::ios::app) << whole[before] << '\n' << whole[before + 1].substr(0, 25);
     DeckOptions options;
     options.folder = folder;

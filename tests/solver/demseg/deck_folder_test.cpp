@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A deck run in its folder: what it leaves, goes on from, and refuses.
+// A deck run in its folder: what it leaves, continues from, and refuses.
 
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ TEST_F(DeckFolder, BondsFromPresentOverlapsWhereBackTensionsAreAbsent) {
     DeckRun run(options());
     EXPECT_EQ(run.world().bonds.initial, 19);
     ASSERT_EQ(run.notices().size(), 1u);
-    EXPECT_NE(run.notices()[0].find("19 bonds were made from the present overlaps"), std::string::npos);
+    EXPECT_NE(run.notices()[0].find("19 bonds were made from the current overlaps"), std::string::npos);
 }
 
 TEST_F(DeckFolder, OutputsAreNeverOverwrittenUnasked) {
@@ -77,7 +77,7 @@ TEST_F(DeckFolder, GoingOnInPlaceAppends) {
 }
 
 TEST_F(DeckFolder, GoingOnDropsWhatAFailedPartHadWrittenBeyondItsBeginning) {
-    // Of events.csv, which has no row here: breaks_test.cpp.
+    // For events.csv, which has no row here, see breaks_test.cpp.
     const std::array<const char*, 7> outputs{"output.dat",    "cont.dat",       "cont2.dat", "energy.dat",
                                              "f-d_curve.dat", "velocity_y.dat", "bonds.dat"};
     edit("in_bc.dat", "3 0 20000 200 10", "3 0 20000 50 10");
@@ -191,7 +191,7 @@ TEST_F(DeckFolder, RenamedFilesGoOnWithTheStateUnlessTheyWereEdited) {
     edit("in_gm.dat", "0 0\n1\n", "0 -980\n1\n");
     DeckRun edited(next);
     ASSERT_EQ(edited.notices().size(), 1u);
-    EXPECT_NE(edited.notices()[0].find("new_state.bin: ignored, because it does not belong to in_gm.dat as it is now"),
+    EXPECT_NE(edited.notices()[0].find("new_state.bin: ignored, because in_gm.dat has changed since"),
               std::string::npos);
     EXPECT_EQ(edited.first_step(), 100);
     EXPECT_EQ(edited.world().bonds.initial, 19);
@@ -215,7 +215,7 @@ TEST_F(DeckFolder, AStateOfOtherBodiesThanItsGeometryIsRefusedWithARemedy) {
     ASSERT_TRUE(state.has_value());
     state->world.bodies.names[0].id = 4711;
     std::ofstream(folder_ / "new_state.bin", std::ios::binary) << save_deck_state(*state, texts);
-    EXPECT_NE(refusal([&] { DeckRun{options(true)}; }).find("found a state of other bodies than its geometry's"),
+    EXPECT_NE(refusal([&] { DeckRun{options(true)}; }).find("found a state whose bodies differ from its geometry"),
               std::string::npos);
     state->world.points.contact.pairs[0].body_i = 4711;  // there are twenty
     std::ofstream(folder_ / "new_state.bin", std::ios::binary) << save_deck_state(*state, texts);
@@ -272,8 +272,8 @@ TEST_F(DeckFolder, AnUnwritableFolderIsOneClearError) {
     std::ofstream(scratch_ / "occupied") << "a file";
     DeckOptions next = options();
     next.output = scratch_ / "occupied";
-    DeckRun run(next);
-    EXPECT_NE(refusal([&] { run.run(); }).find("expected a writable folder"), std::string::npos);
+    EXPECT_NE(refusal([&] { DeckRun(next).run(); }).find("occupied: found a file, expected a folder"),
+              std::string::npos);
 }
 
 }  // namespace

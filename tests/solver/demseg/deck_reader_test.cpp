@@ -40,8 +40,8 @@ std::string notice(const std::string& text, const std::vector<int>& counts) {
     return reader.ignored_numbers().value_or("none");
 }
 
-const std::string ignored = "deck: numbers behind the last value of a READ are ignored, as DEMseg does: ";
-const std::string advice = "; if they are no notes, a line has a value too many or a count is too small";
+const std::string ignored = "deck: numbers after the last value of a READ are ignored, as DEMseg does: ";
+const std::string advice = "; if they are not notes, a line has too many values or a count is too small";
 
 TEST(DeckReader, TakesValuesAsFortranWritesThem) {
     EXPECT_EQ(reads("2.5d0 1.0D+8 .25+8 1.-2 -5e-1 7Q1 +3.\n", {7})[0],

@@ -144,7 +144,7 @@ TEST(ContactFiles, SegmentsUnderTheGuidesLawComeBackByTheirNumbers) {
     scene.segment_law = SegmentLaw::rounded;
     World rounded = build_world(scene);
     DeckReader foreign("in_cf0.dat", tensions.str());
-    EXPECT_NE(refusal([&] { read_back_tensions(foreign, scene, rounded); }).find("found no contact there"),
+    EXPECT_NE(refusal([&] { read_back_tensions(foreign, scene, rounded); }).find("found no contact"),
               std::string::npos);
 }
 
@@ -201,8 +201,8 @@ TEST(ContactFiles, RefuseWhatCannotBe) {
     std::string far = "1 1\n3 -2e7\n2 0\n3 1\n1 -2e7\n";
     for (int id = 4; id <= 20; ++id) far += std::to_string(id) + " 0\n";
     EXPECT_EQ(tensions(far),
-              "in_cf0.dat:2: bodies 1 and 3: found no contact there, expected bonded bodies to touch; are in_gm.dat "
-              "and in_cf0.dat of one run?");
+              "in_cf0.dat:2: bodies 1 and 3: found no contact, expected bonded bodies to touch; check that in_gm.dat "
+              "and in_cf0.dat are from the same run");
 }
 
 TEST(ContactFiles, TwoColumnsThatLeaveElementsOpenAreRefusedOnTheirOwnLine) {
@@ -212,9 +212,9 @@ TEST(ContactFiles, TwoColumnsThatLeaveElementsOpenAreRefusedOnTheirOwnLine) {
         DeckReader reader("in_cf0.dat", fmt::format("1 1\n{}\n2 0\n3 1\n1 -2e3 0 1\n4 0\n", columns));
         EXPECT_EQ(
             refusal([&] { read_back_tensions(reader, scene, world); }),
-            "in_cf0.dat:2: body 1: back-tension 1: found nothing that names the elements behind the value, expected "
+            "in_cf0.dat:2: body 1: back-tension 1: found no element numbers after the value, expected "
             "other body, value, own_element and other_element, because bodies 1 and 3 are not both single circles; "
-            "leave the file away to bond all that overlap");
+            "remove the file to bond all bodies that overlap");
     }
 }
 
@@ -239,8 +239,7 @@ TEST(ContactFiles, BondsOfTwoHeldBodiesAreRead) {
     scene.circles[scene.bodies[0].first_circle].centre.x -= 1.0;  // away from the second, which is held, too
     World apart = build_world(scene);
     DeckReader far("in_cf0.dat", tensions.str());
-    EXPECT_NE(refusal([&] { read_back_tensions(far, scene, apart); }).find("found no contact there"),
-              std::string::npos);
+    EXPECT_NE(refusal([&] { read_back_tensions(far, scene, apart); }).find("found no contact"), std::string::npos);
 }
 
 /// Message about an in_cf.dat for the mixed scene: bodies 1 (circle), 2 (clump), 3 and 4 (squares).
@@ -272,11 +271,11 @@ TEST(ContactFiles, AContactListedFromItsOtherBodyIsTheSame) {
 TEST(ContactFiles, UnknownContactsDuplicatesAndBondedWallsAreRefusedWithTheirLine) {
     EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 1 0 5.5 0 0\n4 0\n"),
               "in_cf.dat:4: body 3: contact 1: found no contact of its element 1 with element 0 of body 4, expected "
-              "them to touch; are in_gm.dat and in_cf.dat of one run?")
+              "them to touch; check that in_gm.dat and in_cf.dat are from the same run")
         << "corner 1 is on the far side";
     EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 2 1 5.5 0 0\n4 0\n"),
               "in_cf.dat:4: body 3: contact 1: found no contact of its element 2 with element 1 of body 4, expected "
-              "them to touch; are in_gm.dat and in_cf.dat of one run?");
+              "them to touch; check that in_gm.dat and in_cf.dat are from the same run");
     EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n3 2 0 5.5 0 0\n4 0\n"),
               "in_cf.dat:4: body 3: contact 1: other body: found '3', expected another body of in_gm.dat, or -1 to -4 "
               "for a wall");

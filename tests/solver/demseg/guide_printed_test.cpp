@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The decks of the guide typed as it prints them, notes included (guide_printed/; those in Japanese in UTF-8, and in
-// CP932 with the line ends of DOS): each runs as the shipped deck without notes does, and its number stands beside the
+// CP932 with the line ends of DOS). Each runs as the shipped deck without notes does, and its number stands beside the
 // guide's in specimens/demseg/README.md. A file that the guide does not print again is that of an earlier example.
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ TEST_P(PrintedExample, HasTheBytesOfTheDeckWithoutNotes) {
     DeckRun run(typed), plain_run(plain);
     std::vector<std::string> ignored;
     for (const std::string& notice : run.notices()) {
-        if (notice.find("numbers behind the last value") != std::string::npos) ignored.push_back(notice);
+        if (notice.find("numbers after the last value") != std::string::npos) ignored.push_back(notice);
     }
     ASSERT_EQ(ignored.size(), GetParam().ignored.size());
     for (std::size_t k = 0; k < ignored.size(); ++k)
@@ -84,9 +84,9 @@ TEST_P(PrintedExample, HasTheBytesOfTheDeckWithoutNotes) {
 }
 
 const std::vector<const char*> controlled{
-    "in_bc.dat: numbers behind the last value of a READ are ignored, as DEMseg "
+    "in_bc.dat: numbers after the last value of a READ are ignored, as DEMseg "
     "does: '2' in line 4, '3.0d0' in line 5, '0.0d0' in line 6 and 1 more;",
-    "in_gm.dat: numbers behind the last value of a READ are ignored, as DEMseg "
+    "in_gm.dat: numbers after the last value of a READ are ignored, as DEMseg "
     "does: '0' in line 6;"};
 const std::vector<const char*> geometry_alone{controlled[1]};
 
@@ -281,7 +281,7 @@ TEST_F(GuidePrintedChain, StillRefusesContactsThatCannotBe) {
     for (int id = 4; id <= 20; ++id) lists += fmt::format("{} 0\n", id);
     write("in_cf0.dat", lists);
     write("in_bc.dat", std::string("3 1 20000 200 10\n") + held);
-    EXPECT_NE(refusal([&] { DeckRun{options(deck_, "out")}; }).find("bodies 1 and 3: found no contact there"),
+    EXPECT_NE(refusal([&] { DeckRun{options(deck_, "out")}; }).find("bodies 1 and 3: found no contact"),
               std::string::npos)
         << "body 3 can move";
 }

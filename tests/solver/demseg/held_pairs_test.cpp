@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two bodies of a deck that are both held press and rub each other as any two do: what the outputs show of it has
-// closed forms, and the energies close. Where nobody reads, such pairs have no contact points.
+// Two bodies of a deck that are both held press and rub each other as any two do. What the outputs show of it has
+// closed forms, and the energies close. Without outputs such pairs have no contact points.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -53,7 +53,7 @@ class HeldPairs : public ::testing::Test {
         options.steps = steps;
         DeckRun(options).run();
     }
-    /// Of f-d_curve.dat: step, id, fx, x, fy, y, moment, angle.
+    /// Rows of f-d_curve.dat: step, id, fx, x, fy, y, moment, angle.
     Rows forces_on(int body, const std::string& folder = "out") const {
         return rows_of(read_rows(scratch_ / folder / "f-d_curve.dat"), 1, body);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run that goes on has the contact law and the integrator of the run before, which the text files do not say.
+// A continued run has the contact law and the integrator of the run before, which the text files do not state.
 
 #include <gtest/gtest.h>
 
@@ -60,18 +60,18 @@ class KeptLaw : public ::testing::Test {
 };
 
 TEST_F(KeptLaw, IsSaidWhereItIsChosenAndWhereItIsMet) {
-    EXPECT_EQ(said(run(SegmentLaw::demseg), "--law demseg: kept in " + (folder_ / "new_state.bin").string()), 1);
+    EXPECT_EQ(said(run(SegmentLaw::demseg), "--law demseg: recorded in " + (folder_ / "new_state.bin").string()), 1);
     const DeckRun next(options(true));
     EXPECT_EQ(law_of(next), SegmentLaw::demseg);
-    EXPECT_EQ(said(next, "--law demseg, as the run before had it by "), 1);
+    EXPECT_EQ(said(next, "--law demseg, as in the previous run according to "), 1);
 }
 
 TEST_F(KeptLaw, HoldsWhereTheTextsWereEdited) {
     run(SegmentLaw::demseg_mean);
     edit("new_in_bc.dat", " 100 10\n", " 50 5\n");
     const DeckRun next(options(true));
-    EXPECT_EQ(said(next, "ignored, because it does not belong to in_bc.dat"), 1);
-    EXPECT_EQ(said(next, "--law demseg_mean, as the run before had it by "), 1);
+    EXPECT_EQ(said(next, "ignored, because in_bc.dat has changed"), 1);
+    EXPECT_EQ(said(next, "--law demseg_mean, as in the previous run according to "), 1);
     EXPECT_EQ(law_of(next), SegmentLaw::demseg_mean);
 }
 
@@ -103,13 +103,13 @@ TEST_F(KeptLaw, ContradictedIsAnErrorThatNamesBoth) {
     for (const bool edited : {false, true}) {
         if (edited) edit("new_in_bc.dat", " 100 10\n", " 50 5\n");
         const std::string said = refusal([&] { DeckRun{next}; });
-        EXPECT_NE(said.find("--law: found rounded, expected demseg or none"), std::string::npos);
+        EXPECT_NE(said.find("--law: found rounded, expected demseg, which "), std::string::npos);
         EXPECT_NE(said.find("new_state.bin"), std::string::npos);
     }
     next.law = SegmentLaw::demseg;
     EXPECT_NO_THROW(DeckRun{next});
     next.integrator = Integrator::consistent;
-    EXPECT_NE(refusal([&] { DeckRun{next}; }).find("--integrator: found consistent, expected leapfrog or none"),
+    EXPECT_NE(refusal([&] { DeckRun{next}; }).find("--integrator: found consistent, expected leapfrog, which "),
               std::string::npos);
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "solver/demseg/deck_folder.hpp"
 #include "solver/demseg/deck_run.hpp"
 #include "solver/demseg/outputs.hpp"
@@ -69,7 +70,7 @@ class ReplacedDeck : public ::testing::Test {
             all[file.path().filename().string()] = read_file(file.path());
         return all;
     }
-    /// Without the outputs that have no name of their own yet.
+    /// Files of the folder without outputs that have no name of their own yet.
     Contents named() const {
         Contents all = contents(folder_);
         std::erase_if(all, [](const auto& file) { return file.first.ends_with(staged_suffix); });
@@ -164,14 +165,14 @@ TEST_F(ReplacedDeck, KeepsItsFilesWhereTheNewRunIsUnstable) {
         DeckRun(options).run(spoil);
         ADD_FAILURE() << "ran to its end";
     } catch (const UnstableRun& error) {
-        EXPECT_EQ(std::string(error.what()), "unstable at step 50, body 1: as a test has it; earlier outputs in " +
-                                                 folder_.string() + " are as they were, those of this run so far in " +
-                                                 folder_.string() + "/*.dat.new");
+        EXPECT_EQ(std::string(error.what()),
+                  "unstable at step 50, body 1: as a test has it; earlier outputs in " + folder_.string() +
+                      " are unchanged, the outputs of this run so far are in " + folder_.string() + "/*.dat.new");
     }
     EXPECT_TRUE(named() == earlier_);
 }
 
-/// As on a full disc, by a limit that the largest output meets on its way.
+/// A full disc is imitated by a limit that the largest output meets on its way.
 TEST_F(ReplacedDeck, KeepsItsFilesAndSaysSoWhereTheNewOutputsCannotBeWritten) {
     std::size_t largest = 0;
     for (const auto& [name, text] : new_)
@@ -184,13 +185,13 @@ TEST_F(ReplacedDeck, KeepsItsFilesAndSaysSoWhereTheNewOutputsCannotBeWritten) {
     std::string message;
     try {
         DeckRun(forced()).run();
-    } catch (const OutputError& error) {
+    } catch (const SystemFailure& error) {
         message = error.what();
     }
     setrlimit(RLIMIT_FSIZE, &before);
     signal(SIGXFSZ, ignored);
     EXPECT_NE(message.find("cannot be written"), std::string::npos) << message;
-    EXPECT_TRUE(message.ends_with("; earlier outputs in " + folder_.string() + " are as they were")) << message;
+    EXPECT_TRUE(message.ends_with("; earlier outputs in " + folder_.string() + " are unchanged")) << message;
     EXPECT_TRUE(contents(folder_) == earlier_) << "nothing of the new run is left";
 }
 
@@ -208,7 +209,7 @@ TEST_F(ReplacedDeck, WithAStateOfAnotherVersionSaysHowToGoOnWithoutIt) {
     } catch (const InputError& error) {
         const std::string message = error.what();
         EXPECT_NE(message.find("new_state.bin: found checkpoint version 99, expected "), std::string::npos) << message;
-        EXPECT_TRUE(message.ends_with("; remove it to go on from the text files")) << message;
+        EXPECT_TRUE(message.ends_with("; remove it to continue from the text files")) << message;
     }
     fs::remove(folder_ / "new_state.bin");
     EXPECT_NO_THROW(DeckRun(going_on(10)).run());

@@ -241,7 +241,7 @@ TEST_F(StoppedDeck, TwoRunsDoNotShareAFolder) {
     EXPECT_NO_THROW(DeckRun{options}) << "two may go on from one folder in others";
 }
 
-TEST_F(StoppedDeck, RowsThatCannotBeReadAreNotCutOff) {
+TEST_F(StoppedDeck, ALinkAmongItsOutputsIsRefusedAndNothingIsCutOff) {
     const auto folder = scratch_ / "deck";
     run(folder, false);
     std::filesystem::remove(folder / "energy.dat");
@@ -249,9 +249,10 @@ TEST_F(StoppedDeck, RowsThatCannotBeReadAreNotCutOff) {
     const std::string frames = read_file(folder / "output.dat");
     try {
         run(folder, true);
-        ADD_FAILURE() << "took what cannot be read for empty";
+        ADD_FAILURE() << "wrote through a link";
     } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("energy.dat: cannot be read"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("energy.dat: found a symbolic link"), std::string::npos)
+            << error.what();
     }
     EXPECT_TRUE(read_file(folder / "output.dat") == frames);
 }

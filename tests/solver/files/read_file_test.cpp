@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/refusal.hpp"
 
@@ -18,6 +19,8 @@ std::string refusal_of(const std::filesystem::path& path) {
         static_cast<void>(read_file(path));
     } catch (const InputError& error) {
         return error.what();
+    } catch (const SystemFailure& failure) {
+        return failure.what();
     }
     return "";
 }
@@ -40,6 +43,18 @@ TEST(ReadFile, RefusesWhatIsNoneOrStopsBeforeItsEnd) {
     EXPECT_NE(refusal_of("/proc/self/mem").find("reading stopped with an error (Input/output error)"),
               std::string::npos)
         << refusal_of("/proc/self/mem");
+}
+
+TEST(ReadFile, RefusesMoreBytesThanItsKindMayHave) {
+    const testing::ScratchFolder scratch;
+    std::ofstream(scratch / "file") << "12345";
+    EXPECT_EQ(read_file(scratch / "file", 5), "12345");
+    for (const std::filesystem::path& path : {scratch / "file", std::filesystem::path("/dev/zero")})
+        EXPECT_NE(testing::refusal([&] { read_text(path, 4); }).find("found more than 4 bytes, expected at most 4"),
+                  std::string::npos);
+    std::filesystem::resize_file(scratch / "file", most_bytes_of_table + 1);  // a hole, of which nothing is read
+    EXPECT_NE(testing::refusal([&] { read_text(scratch / "file", most_bytes_of_table); }).find("1073741824 bytes"),
+              std::string::npos);
 }
 
 TEST(ReadText, LeavesOutTheByteOrderMarkOnce) {

@@ -89,9 +89,10 @@ TEST(TableReader, RefusesWhatCannotBeMeant) {
     EXPECT_EQ(refused("strain,stress\n0,nan\n"), "t.csv:2: found 'nan', expected a number for stress");
     EXPECT_EQ(refused("strain,stress\n0,++1\n"), "t.csv:2: found '++1', expected a number for stress");
     EXPECT_EQ(refused("strain,stress\n\"0,0\n"),
-              "t.csv:2: found a quote that is not closed: \"0,0, expected a second one on the same line");
+              "t.csv:2: found a quote that is not closed: \"0,0, expected a closing quote on the same line");
     EXPECT_EQ(refused("strain,stress\n\"0\"1,0\n"),
-              "t.csv:2: found '1' behind a value in quotes, expected nothing between it and the next of the commas");
+              "t.csv:2: found '1' after a value in quotes, expected nothing before the next separator; "
+              "values are separated by commas");
     EXPECT_EQ(refused("strain,stress,strain\n0,0,0\n"),
               "t.csv:1: found two columns strain, expected one; rename or remove the other");
     EXPECT_EQ(refused(""), "t.csv:1: found no heading, expected strain and stress");
@@ -109,6 +110,19 @@ TEST(TableReader, ReadsListsOfAnyNumberOfValues) {
 TEST(TableReader, ReadsWordsALine) {
     EXPECT_EQ(lists("# labels\nquartz\n\n\"potassium feldspar\"\r\n mica, dark \n", TableReader::Form::words),
               (std::vector<std::vector<std::string>>{{"quartz"}, {"potassium feldspar"}, {"mica, dark"}}));
+}
+
+TEST(TextLines, ALineHasAnEnd) {
+    std::string text = "a\n" + std::string(most_bytes_of_line, 'b');
+    TextLines whole("t.csv", text);
+    while (whole.next()) continue;
+    EXPECT_EQ(whole.line(), 2);
+    text += 'b';
+    TextLines longer("t.csv", text);
+    longer.next();
+    EXPECT_EQ(
+        testing::refusal([&] { longer.next(); }),
+        "t.csv:2: found a line of 1000001 bytes, expected at most 1000000; save the file as text with line breaks");
 }
 
 }  // namespace

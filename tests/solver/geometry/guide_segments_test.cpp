@@ -88,7 +88,7 @@ TEST(DiscAgainstSegment, JumpsAtAFreeEndButNotAtAStraightJoint) {
     EXPECT_TRUE(
         within("jump of the force over k at a free end, r - |α|", push(free, -1e-9) - push(free, 1e-9), 2.0, 1e-8));
     EXPECT_TRUE(within("the same by sampling", largest_jump(free, -6.0, 6.0, 120001), 2.0, 1e-3));
-    // Steepest where (iii) and (ii) run apart; a thousandth of the way changes no more than that slope allows.
+    // Steepest where (iii) and (ii) run apart; a thousandth of the way changes at most what that slope allows.
     const double coarse = largest_jump(joined, -6.0, 6.0, 12001), fine = largest_jump(joined, -6.0, 6.0, 120001);
     fmt::print("  straight joint: largest change of a step {:.3g} at 1e-3, {:.3g} at 1e-4\n", coarse, fine);
     EXPECT_LT(fine, 0.11 * coarse);
@@ -155,8 +155,8 @@ std::pair<double, std::vector<double>> pressed(Scene scene) {
 }
 
 TEST(SegmentPairs, FacesAMillimetreApartCarryTheirFourDiscsTwice) {
-    // Squares 1 mm apart, shifted by 1 cm, t = 1.08 mm: two corners lie before the other's face, each at 0.08 mm and
-    // each the end of a facing edge and of an edge at right angles to it. Rounded: two points of 0.08 mm.
+    // Squares 1 mm apart, shifted by 1 cm, t = 1.08 mm: two corners lie before the other's face, each at 0.08 mm. Each
+    // is the end of a facing edge and of an edge at right angles to it. Rounded: two points of 0.08 mm.
     const double once = 8e-5;
     for (const SegmentLaw law : {SegmentLaw::rounded, SegmentLaw::demseg, SegmentLaw::demseg_mean}) {
         Scene scene = empty_scene(law);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bound on the stable step that is kept up while a bonded world moves lies below the exact limit at every moment,
-// whatever weights it starts from and however many points come to carry load at once.
+// The bound on the stable step that is updated while a bonded world moves lies below the exact limit at every moment.
+// This holds whatever weights it starts from and however many points come to carry load at once.
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A membrane about bonded discs and cells: it does no more than press, its work is pressure times the area lost, and it
-// follows what comes off.
+// A membrane about bonded discs and cells only presses, its work is pressure times the area lost, and it follows what
+// comes off.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -106,7 +106,7 @@ TEST(Membrane, AloneLeavesABondedSquareInItsPlaceHoweverItIsTurned) {
         lost.push_back((whole - membrane_area(world)) / whole);
         const Ledger ledger = measure_ledger(world);
         EXPECT_TRUE(within("kinetic energy over the membrane's work", ledger.kinetic / world.membrane.work, 0.0, 1e-9));
-        // The same chain each time that the neighbour list is built.
+        // The chain is the same each time that the neighbour list is built.
         EXPECT_TRUE(within("jumps of the area, of it", world.membrane.jumped / whole, 0.0, 1e-14));
     }
     EXPECT_GT(lost.front(), 1e-6);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The neighbour list against a plain search of everything against everything: no touching point is missed, for any
+// The neighbour list against a plain search of everything against everything. No touching point is missed, for any
 // mixture of sizes, at rest and in motion, and what a point remembers survives a rebuild.
 
 #include <algorithm>

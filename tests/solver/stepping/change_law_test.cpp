@@ -129,7 +129,7 @@ TEST(BondPairs, OfAFaceShareItAndLeaveTheBondsThatItHasAlone) {
     const Array<float> before = world.points.strength_share;
     EXPECT_NE(refusal([&] {
                   bond_pairs(world, {&both, 1}, 0.0);
-              }).find("bodies 4 and 9 with bonds between them"),
+              }).find("intact bonds on the face between bodies 4 and 9"),
               std::string::npos);
     for (std::size_t k = 0; k < before.size(); ++k) EXPECT_EQ(world.points.strength_share[k], before[k]);
 }
@@ -193,9 +193,9 @@ TEST(ChangeLaw, RefusesWhatNoLawCanBe) {
     says(world, 0, "normal_stiffness", 0.0, "> 0");
     says(world, 0, "normal_stiffness", std::nan(""), "found nan");
     says(world, 0, "shear_stiffness", -1.0, ">= 0");
-    says(world, 0, "shear_stiffness", 0.0, "a damping ratio");
+    says(world, 0, "shear_stiffness", 0.0, "the damping ratio");
     says(world, 0, "friction_angle", 90.0, "< 90");
-    says(world, 0, "cohesion", 1.0, "back-tension");
+    says(world, 0, "cohesion", 1.0, "expected bond.law = \"coulomb\"");
     says(world, 1, "friction_angle", 20.0, "materials 1 and 2, expected 1 to 1");
     says(coulomb, 0, "tensile_strength", 1e3, "beyond the apex");
 }

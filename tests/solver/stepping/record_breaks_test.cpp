@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is recorded of a break (solver/MODEL.md 5), against two discs pulled apart at given speeds: with x the opening
-// over the bonded overlap, the normal force is -x of the strength and the shear force r x k_s/k_n until it slides.
+// What is recorded of a break (solver/MODEL.md 5), against two discs pulled apart at given speeds. With x the opening
+// over the bonded overlap, the normal force is -x of the strength, and the shear force r x k_s/k_n until it slides.
 
 #include "solver/stepping/record_breaks.hpp"
 

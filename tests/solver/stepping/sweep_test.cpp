@@ -94,8 +94,7 @@ TEST(Sweep, HasTheBytesOfForcesThenMotionOnAnyNumberOfThreads) {
     }
 }
 
-// As under OMP_THREAD_LIMIT or OMP_DYNAMIC: within a parallel region of ours a team is one thread, whatever is asked
-// for.
+// OMP_THREAD_LIMIT and OMP_DYNAMIC are imitated: within a parallel region of ours a team is one thread.
 TEST(Sweep, HasTheSameBytesWhereFewerThreadsAreGivenThanAskedFor) {
     const SweptScene scenes[] = {{"discs", driven_discs(Integrator::leapfrog), 0.0, 1.0, true},
                                  {"cells", driven_cells(), 1.08e-3, 1.0, true}};

@@ -102,8 +102,8 @@ TEST(WorldGroups, NamesOfFieldsAreTheirOwn) {
     for (const FieldHash& field : hash_fields(World{})) EXPECT_TRUE(names.insert(field.name).second) << field.name;
 }
 
-/// Discs that touch, bonded, and a lone one far to their left; every array of points is remembered but what faces have
-/// by their area, or these in place of what the guide's law remembers.
+/// Discs that touch, bonded, and a lone one far to their left. Every array of points is remembered, except what faces
+/// have by their area, or these in place of what the guide's law remembers.
 World bonded_discs_and_a_lone_one(bool area) {
     Scene scene = triangular_lattice(4, 3, 0.02, 1e-4, verification::rock());
     scene.add_circle_body(100, 0, {{-1.0, 0.02}, 0.02});

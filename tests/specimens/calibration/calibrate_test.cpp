@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "solver/base/errors.hpp"
@@ -51,6 +52,18 @@ TEST_F(CalibrationTest, ElasticKeysComeFromTheLinearSolveOfTheSamePackings) {
     EXPECT_EQ(std::get<double>(seeds.rows[0][1]), 8.0);
 }
 
+TEST_F(CalibrationTest, ALinearSolveNamesAFolderWhoseNameIsNotUtf8) {
+    testing::write_text(folder_ / "\xff", "no folder");
+    const Rock any = rock_of(target_text("compression", "youngs_modulus", 1.0) + testing::elastic_keys);
+    try {
+        linear(any, {true_modulus, true_ratio}, "\xff");
+        ADD_FAILURE() << "packings were written into a file";
+    } catch (const OutputError& error) {
+        EXPECT_NE(std::string_view(error.what()).find((folder_ / "\xff").string()), std::string_view::npos)
+            << error.what();
+    }
+}
+
 TEST_F(CalibrationTest, AllStressesAndModuliTimesALambdaAreTheSameTests) {
     constexpr double lambda = 4.0;  // a power of two: speeds times sqrt(λ) exactly
     const Rock rock =
@@ -85,6 +98,75 @@ TEST_F(CalibrationTest, RatiosAndLawsAreThoseOfEachPackingsTests) {
         EXPECT_TRUE(agrees("m", all(k, 6), laws.hoek_brown_m, 1e-9));
         EXPECT_GT(all(k, 1), all(k, 0)) << "a pressure makes it stronger";
     }
+}
+
+/// Four packings whose results are altered in the ledger: the second lacks the strength under 3 MPa, and the third's
+/// compression did not fail.
+TEST_F(CalibrationTest, APackingThatLacksAStrengthHasNeitherLawNorModulusAtHalfThePeak) {
+    const Rock rock = rock_of(
+        std::string(testing::pressed_tests) +
+        "[[test]]\nname = \"between\"\ncase = \"compression.toml\"\n"
+        "set = {\"loading.kind\" = \"biaxial\", \"confinement.pressure\" = 2e6}\n" +
+        target_text("compression", "tangent_modulus_50", 1e10) + target_text("compression", "largest_stress", 1e7) +
+        testing::law_target_text("friction_angle", 40, "[\"compression\", \"pressed\", \"between\", \"squeezed\"]") +
+        testing::strength_keys);
+    const CampaignOptions options{.folder = folder_ / "out", .workers = 2};
+    const std::vector<double> here{true_tensile, true_cohesion};
+    const auto measured = [&] {
+        Measurements tests(rock, Keep::figures, options, {});
+        tests.measure({here}, {0, 4});
+        return tests.figures(here, {0, 4});
+    };
+    const Eigen::MatrixXd before = measured();
+    ASSERT_TRUE(before.array().isFinite().all());
+    {
+        CampaignLedger ledger = CampaignLedger::open(ledger_file(options.folder));
+        const auto unfailed = [&](std::int64_t packing, const char* test) {
+            const LedgerTable row = ledger.query(
+                fmt::format("SELECT * FROM results WHERE test = '{}' AND seed = {}", test, rock.first_seed + packing));
+            RowResult result;
+            result.state = row_done;
+            for (std::size_t k = 0; k < row.columns.size(); ++k) {
+                const std::string& name = row.columns[k];
+                const auto* number = std::get_if<double>(&row.rows[0][k]);
+                if (name == "identity") result.identity = std::get<std::string>(row.rows[0][k]);
+                for (const char* kept : {"tangent_modulus_50", "largest_stress", "confining_pressure"})
+                    if (name == kept && number != nullptr) result.figures.emplace_back(name, *number);
+            }
+            result.figures.emplace_back("failed", 0.0);
+            ledger.record(result, "here");
+        };
+        unfailed(1, "squeezed");
+        unfailed(2, "compression");
+    }
+    const Eigen::MatrixXd after = measured();
+    for (Eigen::Index k = 0; k < 4; ++k) {
+        EXPECT_EQ(std::isnan(after(k, 0)), k == 2) << "no window at half the peak: " << k;
+        EXPECT_EQ(after(k, 1), before(k, 1)) << "the largest stress needs no failure: " << k;
+        EXPECT_EQ(std::isnan(after(k, 2)), k == 1 || k == 2) << "a law of three strengths is another's: " << k;
+        if (k == 0 || k == 3) {
+            EXPECT_EQ(after(k, 2), before(k, 2)) << k;
+        }
+    }
+}
+
+/// Variances of independent errors add up. So twice the laboratory's error adds four times as much to the square of
+/// the interval's half width, whatever the scatter of the packings and the slope.
+TEST_F(CalibrationTest, TheLaboratorysErrorWidensTheIntervalAsItsSquare) {
+    const Rock any = rock_of(target_text("compression", "poissons_ratio", 1.0) + testing::elastic_keys);
+    const double aim = linear(any, {true_modulus, 2.5})[1];
+    std::array<double, 3> squares{};
+    for (std::size_t k = 0; k < squares.size(); ++k) {
+        const Rock rock =
+            rock_of(target_text("compression", "poissons_ratio", aim,
+                                fmt::format("tolerance = 0.01\nerror = {}", 0.01 * static_cast<double>(k))) +
+                    "[[free]]\nkey = \"material.stiffness_ratio\"\nfrom = 1\nto = 10\nstart = 2.5\n");
+        const FoundKey key = calibrated(rock).keys[0];
+        ASSERT_TRUE(key.determined);
+        squares.at(k) = std::pow(0.5 * std::log(key.high / key.low), 2.0);
+    }
+    EXPECT_TRUE(agrees("of twice the error over that of once", (squares[2] - squares[0]) / (squares[1] - squares[0]),
+                       4.0, 1e-6));
 }
 
 TEST_F(CalibrationTest, ANarrowRangeIsSearchedToItsRightEnd) {

@@ -66,6 +66,19 @@ TEST(Determination, NamesTheCombinationThatNoTargetFeels) {
     EXPECT_TRUE(found.determined[2]);
 }
 
+TEST(Determination, NamesKeysThatMoveByATenthOfTheStep) {
+    for (const auto& [part, determined] : {std::pair{0.3, false}, {0.05, true}}) {
+        // Felt across (1, part): along it the first key moves by the whole step, the second by this part of it.
+        MatrixXd slopes(1, 2);
+        slopes << -10.0 * part, 10.0;
+        const Determination found = determine(slopes, MatrixXd::Identity(1, 1), 0.3);
+        ASSERT_EQ(found.open.size(), 1U);
+        EXPECT_TRUE(agrees("part of the second", found.open[0].way[1] / found.open[0].way[0], part, 1e-12));
+        EXPECT_FALSE(found.determined[0]);
+        EXPECT_EQ(found.determined[1], determined) << part;
+    }
+}
+
 TEST(Determination, StatesTheLargestChangeOfATargetAlongTheStep) {
     // Along (1, 1) the step of both is 0.3: the target changes by 0.3 times 0.8 and as much again.
     MatrixXd slopes(1, 2);

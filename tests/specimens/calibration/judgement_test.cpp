@@ -34,9 +34,15 @@ TEST(Judgement, TheDifferenceOfTwoMeansHasBothErrors) {
     const double error = std::sqrt(2.0 / 3.0 / 4.0);
     EXPECT_TRUE(
         agrees("half width", difference_half_width(mean_of(a), mean_of(b)), 2.446912 * std::sqrt(2.0) * error, 1e-6));
-    // Of one that does not scatter the other's own: freedom 3, t = 3.182446.
+    // Where one does not scatter, the freedom is the other's own: 3, t = 3.182446.
     const std::array exact{5.0, 5.0, 5.0, 5.0};
     EXPECT_TRUE(agrees("half width", difference_half_width(mean_of(a), mean_of(exact)), 3.182446 * error, 1e-6));
+    // Three and seven values whose means are known alike, to 1: freedom 4/(1/2 + 1/6) = 6.
+    const double root = std::sqrt(3.0);
+    const std::array three{-root, 0.0, root};
+    const std::array seven{-3.0, 3.0, -3.0, 3.0, -root, root, 0.0};
+    EXPECT_TRUE(agrees("half width of unequal numbers", difference_half_width(mean_of(three), mean_of(seven)),
+                       2.446912 * std::sqrt(2.0), 1e-6));
     EXPECT_TRUE(std::isnan(difference_half_width(mean_of(a), mean_of(std::array{1.0}))));
     EXPECT_EQ(difference_half_width(mean_of(exact), mean_of(exact)), 0.0);
 }

@@ -36,11 +36,12 @@ class KnownRock : public ::testing::Test {
         return calibrate(rock, {.folder = folder_ / folder, .workers = 2});
     }
     /// What the fit packings of a rock give at given keys, by the linear solve.
-    std::vector<double> linear(const Rock& rock, const std::vector<double>& values) const {
+    std::vector<double> linear(const Rock& rock, const std::vector<double>& values,
+                               const char* packings = "packings") const {
         LinearRequest request;
         request.rock = &rock;
         request.tests = {0};
-        request.packings = folder_ / "packings";
+        request.packings = folder_ / packings;
         request.workers = 2;
         return mean_linear_figures(request, values)[0];
     }

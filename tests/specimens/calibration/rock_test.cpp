@@ -46,9 +46,9 @@ TEST_F(RockFile, IsReadWithItsDefaults) {
     EXPECT_EQ(rock.title, "rock");
     EXPECT_TRUE(agrees("start between bounds above 0: their geometric mean", rock.free[0].start, 1e7, 1e-12));
     const TestCase test = rock.case_of(1, std::vector<double>{4e6, 2.5});
-    EXPECT_EQ(test.loading.kind, "tension");
+    EXPECT_EQ(test.loading.kind, LoadingKind::tension);
     EXPECT_EQ(test.material.tensile_strength, 4e6);
-    EXPECT_EQ(test.material.cohesion, 2.5 * 4e6) << "found is the ratio";
+    EXPECT_EQ(test.material.cohesion, 2.5 * 4e6) << "the search is for the ratio";
 }
 
 TEST_F(RockFile, VariablesGoBothWaysAndStayWithinTheBounds) {
@@ -73,9 +73,9 @@ TEST_F(RockFile, RefusesWithFileLineAndKey) {
     expect_refused(tests_ + "[[target]]\nfigure = \"peak_stress\"\nvalue = 1\n" + free,
                    "[[target]] test: found nothing");
     expect_refused(tests_ + target_ + "[[free]]\nkey = \"material.beauty\"\nfrom = 1\nto = 2\n", "a key of a case");
-    expect_refused(tests_ + target_ + "[[free]]\nkey = \"bond.law\"\nfrom = 1\nto = 2\n", "one that has a number");
+    expect_refused(tests_ + target_ + "[[free]]\nkey = \"bond.law\"\nfrom = 1\nto = 2\n", "a key with a number");
     expect_refused(tests_ + target_ + "[[free]]\nkey = \"material.cohesion\"\nfrom = 2\nto = 1\n", "a number > from");
-    expect_refused(tests_ + target_ + free + free, "one [[free]] a key");
+    expect_refused(tests_ + target_ + free + free, "one [[free]] per key");
     expect_refused(tests_ + target_ + free + "start = 1\n", "a number between");
     expect_refused(
         tests_ + target_ + "[[free]]\nkey = \"material.cohesion\"\nof = \"material.density\"\nfrom = 1\nto = 2\n",
@@ -86,7 +86,7 @@ TEST_F(RockFile, RefusesWithFileLineAndKey) {
     expect_refused(tests_ + target_ + target_ + free, "peak_stress twice");
     expect_refused(tests_ + target_text("tension", "peak_stress.foo", 1) + free, "a figure of summary.json");
     expect_refused(tests_ + target_ + "[[free]]\nkey = \"loading.max_axial_strain\"\nfrom = 1e-3\nto = 1e-2\n",
-                   "what tests are run with is no property of it");
+                   "a key of the rock, not one that only describes how it is tested");
     expect_refused("[[test]]\nname = \"../evil\"\ncase = \"tension.toml\"\n" + free, "a name without /");
     expect_refused("[[test]]\ncase = \"compression.toml\"\nset = {\"material.cohesion\" = 1e7}\n" + target_ + free,
                    "which `set` of test compression gives a value");
@@ -114,7 +114,7 @@ TEST_F(RockFile, KeysAndTargetsGoToTheSearchThatFindsThem) {
     EXPECT_EQ(space.other_keys, (std::vector<Eigen::Index>{2, 3}));
     EXPECT_EQ(space.level_key, 2);
     EXPECT_TRUE(space.goes_with_level(1));
-    // Without an elastic key a modulus is a target like others, that no strength moves in proportion.
+    // Without an elastic key a modulus is a target like others, and no strength changes it in proportion.
     const Rock strengths = rock_of(tests_ + modulus + target_ + strengths_);
     const SearchSpace other(strengths);
     EXPECT_TRUE(other.linear_targets.empty());
@@ -159,7 +159,7 @@ TEST_F(RockFile, RefusesRatiosAndLawsThatAreNone) {
     expect_refused(pressed + testing::law_target_text("peak_stress", 1) + strengths_,
                    "of several tests, expected one of friction_angle, hoek_brown_m");
     expect_refused(pressed + target_text("pressed", "friction_angle", 40) + strengths_,
-                   "[[target]] tests: found nothing, expected the compressions that friction_angle is fitted to");
+                   "[[target]] tests: found nothing, expected the compressions to which friction_angle is fitted");
     expect_refused(
         pressed + testing::law_target_text("friction_angle", 40, "[\"compression\", \"sheared\"]") + strengths_,
         "found \"sheared\", expected one of compression, tension, pressed, squeezed");
@@ -174,7 +174,7 @@ TEST_F(RockFile, RefusesRatiosAndLawsThatAreNone) {
                        strengths_,
                    "found tension, a tension, expected compressions");
     expect_refused(pressed + testing::law_target_text("friction_angle", 40) + "over = \"peak_stress\"\n" + strengths_,
-                   "found it beside tests");
+                   "found this key together with tests");
 }
 
 TEST_F(RockFile, CornersOfTheBoundsAreJudgedBeforeAnyTest) {

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "specimens/calibration/box_minimum.hpp"
+#include "specimens/calibration/surface_search.hpp"
 #include "tests/support/claim.hpp"
 
 namespace crackle {
@@ -92,6 +93,22 @@ TEST(Surface, TooFewPointsAreRefused) {
     EXPECT_THROW(Surface(Vector2d::Zero(), line, VectorXd::Zero(4), VectorXd::Constant(2, unknown)),
                  std::invalid_argument)
         << "they lie on a line";
+}
+
+TEST(CompleteRows, AreThoseOfPackingsThatHaveAllFigures) {
+    MatrixXd figures(5, 2);
+    figures << 1.0, 2.0, 3.0, unknown, unknown, 4.0, -5.0, 6.0, 7.0, 8.0;
+    const MatrixXd kept = complete_rows(figures);
+    ASSERT_EQ(kept.rows(), 2);
+    EXPECT_EQ(kept(0, 1), 2.0);
+    EXPECT_EQ(kept(1, 0), 7.0);
+}
+
+TEST(CompleteRows, AreEnoughWhereHalfOfThePackingsAndThreeHaveAll) {
+    EXPECT_TRUE(are_enough(5, 10));
+    EXPECT_FALSE(are_enough(4, 10));
+    EXPECT_TRUE(are_enough(3, 4));
+    EXPECT_FALSE(are_enough(2, 4)) << "two have no scatter to speak of";
 }
 
 /// r = (x + 2y − 4, x − y), its minimum at (4/3, 4/3).

@@ -5,11 +5,13 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <cstdlib>
 #include <map>
+#include <new>
 #include <string>
 #include <thread>
 #include <vector>
@@ -59,6 +61,35 @@ TEST(Crew, TellsHowAProcessEndedAndGoesOnWithTheOthers) {
     EXPECT_EQ(ends[2].at(0).code, 7);
     for (const std::size_t piece : {std::size_t{0}, std::size_t{3}, std::size_t{4}, std::size_t{5}})
         EXPECT_EQ(ends[piece].at(0).answer, "done") << piece;
+}
+
+TEST(Crew, GoesOnWhereTheOnlyProcessEndedBetweenTwoPieces) {
+    std::size_t next = 0;
+    std::map<std::size_t, std::vector<PieceEnd>> ends;
+    CrewWork crew = counting(4, next, ends);
+    crew.work = [](std::size_t) { return std::to_string(::getpid()); };
+    crew.ended = [&](std::size_t piece, const PieceEnd& end) {
+        ends[piece].push_back(end);
+        if (piece != 0) return;
+        const int idle = std::stoi(end.answer);
+        ::kill(idle, SIGKILL);
+        siginfo_t state{};
+        ::waitid(P_PID, static_cast<id_t>(idle), &state, WEXITED | WNOWAIT);
+    };
+    EXPECT_TRUE(run_crew(1, crew));
+    ASSERT_EQ(ends.size(), 4U);
+    EXPECT_EQ(ends[1].at(0).how, PieceEnd::How::killed);
+    EXPECT_EQ(ends[3].at(0).how, PieceEnd::How::answered);
+}
+
+TEST(Crew, AProcessWithoutMemorySaysSo) {
+    std::size_t next = 0;
+    std::map<std::size_t, std::vector<PieceEnd>> ends;
+    CrewWork crew = counting(1, next, ends);
+    crew.work = [](std::size_t) -> std::string { throw std::bad_alloc(); };
+    EXPECT_TRUE(run_crew(1, crew));
+    EXPECT_EQ(ends[0].at(0).how, PieceEnd::How::ended);
+    EXPECT_EQ(ends[0].at(0).code, worker_without_memory);
 }
 
 TEST(Crew, EndsWhatTakesTooLong) {

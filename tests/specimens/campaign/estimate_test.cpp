@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a plan is said to take before it has begun, and the script for a cluster.
+// The estimate of a plan before it has begun, and the script for a cluster.
 
 #include "specimens/campaign/estimate.hpp"
 
@@ -33,6 +33,19 @@ TEST(Estimate, IsOfTheRightSizeBeforeAndOfTheMeasuredTestsAfterwards) {
     fmt::print("  estimated {:.3g} s, took {:.3g} s\n", before.seconds, outcome.processor_seconds);
     EXPECT_GT(before.seconds, outcome.processor_seconds / 20.0);
     EXPECT_LT(before.seconds, outcome.processor_seconds * 20.0);
+}
+
+/// At half the step, and at half the rate, a test takes twice as long.
+TEST(Estimate, CompanionsTakeTwiceAsLong) {
+    const testing::ScratchFolder scratch;
+    testing::write_packed_case(scratch / "tension.toml");
+    testing::write_text(scratch / "plan.toml", "[[test]]\ncase = \"tension.toml\"\n[packings]\ncount = 3\n");
+    const PlanEstimate alone = estimate_plan(read_plan(scratch / "plan.toml"), nullptr);
+    const PlanEstimate all = estimate_plan(read_plan(scratch / "plan.toml", true), nullptr);
+    EXPECT_EQ(alone.kinds[0].rows, 3);
+    EXPECT_EQ(all.kinds[0].rows, 9);
+    EXPECT_TRUE(testing::agrees("three tests", alone.seconds, 3.0 * alone.kinds[0].seconds, 1e-12));
+    EXPECT_TRUE(testing::agrees("with companions", all.seconds, (3.0 + 6.0 * 2.0) * all.kinds[0].seconds, 1e-12));
 }
 
 TEST(BatchScript, LargestShareHasWholePackingsOrSingleTests) {

@@ -45,7 +45,7 @@ TEST_F(PlanTest, HasEveryCombinationWithEveryPacking) {
     ASSERT_EQ(plan.rows.size(), 12U);
     for (std::size_t k = 0; k < plan.rows.size(); ++k) EXPECT_EQ(plan.rows[k].seed, 1 + static_cast<int>(k) / 4);
     const TestCase last = plan.test_of(plan.rows.back());
-    EXPECT_EQ(last.loading.kind, "compression");
+    EXPECT_EQ(last.loading.kind, LoadingKind::compression);
     EXPECT_EQ(last.material.friction_angle, 35.0);
     EXPECT_EQ(last.packing.seed, 3);
     EXPECT_EQ(plan.test_of(plan.rows[0]).material.friction_angle, 20.0);
@@ -85,6 +85,19 @@ TEST_F(PlanTest, SpacesAxesEvenlyInValuesOrInTheirLogarithms) {
     EXPECT_EQ(plan.test_of(plan.rows[1]).packing.count, 50) << "the last axis changes fastest";
 }
 
+TEST_F(PlanTest, EachValueOfAnAxisMeetsEachOfTheOther) {
+    const Plan plan = plan_of(test_ +
+                              "[[axis]]\nkey = \"material.friction_angle\"\nvalues = [20, 35]\n"
+                              "[[axis]]\nkey = \"packing.count\"\nvalues = [40, 50, 60]\n");
+    std::vector<std::pair<double, std::int64_t>> met;
+    for (const PlanRow& row : plan.rows) {
+        const TestCase test = plan.test_of(row);
+        met.emplace_back(test.material.friction_angle.value(), test.packing.count.value());
+    }
+    EXPECT_EQ(met, (std::vector<std::pair<double, std::int64_t>>{
+                       {20.0, 40}, {20.0, 50}, {20.0, 60}, {35.0, 40}, {35.0, 50}, {35.0, 60}}));
+}
+
 /// Largest difference of the share of points in a box from its size, over boxes from the corner 0.
 double star_discrepancy(const std::vector<std::vector<double>>& points) {
     double worst = 0.0;
@@ -105,7 +118,7 @@ TEST_F(PlanTest, DesignsFillTheBoxEvenly) {
         fmt::print("  discrepancy of 256 points: {:.3g}, of random ones about {:.3g}\n", worst, 1.0 / 16.0);
         EXPECT_LT(worst, 0.02);
         const auto fewer = design_points(sequence, 10, 2);
-        EXPECT_TRUE(std::equal(fewer.begin(), fewer.end(), points.begin())) << "a design can be gone on with";
+        EXPECT_TRUE(std::equal(fewer.begin(), fewer.end(), points.begin())) << "a design can be continued";
         const auto many = design_points(sequence, 64, most_design_axes);
         for (const auto& point : many)
             for (const double share : point) EXPECT_TRUE(share >= 0.0 && share < 1.0);
@@ -162,9 +175,9 @@ TEST_F(PlanTest, ThoseThatAreShippedArePossible) {
     for (const auto& entry :
          std::filesystem::directory_iterator(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/plans")) {
         const Plan plan = read_plan(entry.path());
-        // An ensemble, but for the one that has a test of each kind.
+        // An ensemble, except the one that has a test of each kind.
         const bool one_of_each = entry.path().stem() == "granite_laboratory";
-        EXPECT_GE(plan.rows.size(), one_of_each ? test_kind_names().size() : 20U) << entry.path();
+        EXPECT_GE(plan.rows.size(), one_of_each ? table_of_names<LoadingKind>.size() : 20U) << entry.path();
         ++count;
     }
     EXPECT_GE(count, 3U);
@@ -178,7 +191,8 @@ TEST_F(PlanTest, RefusesWhatCannotBe) {
     expect_refused(test_ + "[[axis]]\nkey = \"material.colour\"\nvalues = [1]\n", "\"material.colour\"");
     expect_refused(test_ + "[[axis]]\nkey = \"material.friction_angle\"\n", "values, or from and to");
     expect_refused(test_ + "[[axis]]\nkey = \"material.friction_angle\"\nvalues = []\n", "values: found none");
-    expect_refused(test_ + "[[axis]]\nkey = \"material.friction_angle\"\nvalues = [1]\nfrom = 2\n", "one of both");
+    expect_refused(test_ + "[[axis]]\nkey = \"material.friction_angle\"\nvalues = [1]\nfrom = 2\n",
+                   "only one of the two");
     expect_refused(test_ + "[[axis]]\nkey = \"material.friction_angle\"\nvalues = [120]\n", "found 120");
     expect_refused(test_ + "[[axis]]\nkey = \"material.friction_angle\"\nvalues = [20, \"steep\"]\n",
                    "test tension at material.friction_angle = steep");

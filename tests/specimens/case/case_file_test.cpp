@@ -66,13 +66,13 @@ TEST_F(CaseFile, ReadsWhatIsWrittenAndFillsInDefaults) {
     const TestCase test = read(good_case);
     EXPECT_EQ(test.packing.count, 50);
     EXPECT_EQ(test.material.density, 2500.0) << "a whole number is a number";
-    EXPECT_EQ(test.loading.kind, "tension");
-    EXPECT_EQ(test.loading.platens, "glued") << "what pulls is stronger than the rock";
+    EXPECT_EQ(test.loading.kind, LoadingKind::tension);
+    EXPECT_EQ(test.loading.platens, PlatenKind::glued) << "what pulls is stronger than the rock";
     EXPECT_EQ(test.loading.grip, default_grip);
     EXPECT_EQ(test.loading.strength_drop, 0.1);
     EXPECT_EQ(test.loading.stop_at_share_of_peak, 0.5);
     EXPECT_EQ(test.packing.seed, 1);
-    EXPECT_EQ(test.mesh.boundary, "domain");
+    EXPECT_EQ(test.mesh.boundary, Boundary::domain);
     EXPECT_FALSE(test.output.out_of_plane_thickness.has_value());
     EXPECT_EQ(test.output.curve_rows, 2000);
     EXPECT_EQ(test.output.checkpoint_interval, 60.0);
@@ -103,7 +103,7 @@ TEST_F(CaseFile, EveryKeyHasASentenceAndEveryDefaultIsInItsRange) {
 TEST_F(CaseFile, IncludedFileHoldsWhereTheCaseIsSilent) {
     std::ofstream(scratch_ / "rock.toml") << good_case;
     const TestCase test = read("include = \"rock.toml\"\n[loading]\nkind = \"compression\"\n");
-    EXPECT_EQ(test.loading.kind, "compression") << "the case's own";
+    EXPECT_EQ(test.loading.kind, LoadingKind::compression) << "the case's own";
     EXPECT_EQ(test.loading.axial_strain_rate, 0.01) << "the included file's";
     EXPECT_EQ(test.inputs.size(), 2u);
     EXPECT_NE(refusal("include = \"rocks.toml\"\n").find(":1: include: found no file"), std::string::npos);
@@ -169,7 +169,7 @@ TEST_F(CaseFile, IncludesNestButNotInARing) {
     EXPECT_EQ(test.loading.axial_strain_rate, 0.5) << "the nearer file's";
     EXPECT_EQ(test.inputs.size(), 3u);
     std::ofstream(scratch_ / "rock.toml") << "include = \"faster.toml\"\n";
-    EXPECT_NE(refusal("include = \"faster.toml\"\n").find("expected no ring"), std::string::npos);
+    EXPECT_NE(refusal("include = \"faster.toml\"\n").find("expected no cycle"), std::string::npos);
 }
 
 TEST_F(CaseFile, OwnWayOfSayingItStandsOverTheIncludedFiles) {
@@ -260,9 +260,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"HalfADashpot", "damping_ratio = 0.2\n", "normal_damping = 10\n",
                 ":6: material.shear_damping: found nothing"},
         Refusal{"TwoSpecimens", "[packing]", "[particles]\nfile = \"x\"\n[packing]",
-                ":3: packing: found [particles] beside it"},
+                ":3: packing: found a [particles] table, too"},
         Refusal{"TwoTargets", "mean_overlap = 1e-4", "mean_overlap = 1e-4\nvoid_ratio = 0.2",
-                ":6: packing.void_ratio cannot be given here: mean_overlap is the packing's target; remove the key"},
+                ":6: packing.void_ratio cannot be given here: mean_overlap is given as the target of the packing; "
+                "remove the key"},
         Refusal{"MeshWithoutBond", "[loading]", "[mesh]\nkind = \"voronoi\"\nthick = 1e-3\n[loading]",
                 "bond.thick: found nothing"},
         Refusal{"BondWithinTheGap", "[loading]",
@@ -270,13 +271,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "bond.thick: found 0.001 m, expected more than mesh.thick = 0.001 m"},
         Refusal{"CellsBesideRadii", "radius_min = 0.01\nradius_max = 0.02",
                 "radius_max = 0.02\ncell_diameter = 0.03\ncell_spread = 0.1",
-                ":3: packing.radius_max cannot be given here: cell_diameter and cell_spread give the sizes"},
+                ":3: packing.radius_max cannot be given here: cell_diameter and cell_spread determine the sizes"},
         Refusal{"MedianOfUniform", "radius_max = 0.02", "radius_max = 0.02\nradius_median = 0.015",
                 ":5: packing.radius_median needs sizes = \"lognormal\"; add that, or remove the key"},
         Refusal{"PressureOfAnotherKind", "[loading]", "[confinement]\npressure = 1\n[loading]",
                 "confinement.pressure needs loading.kind = \"biaxial\"; add that, or remove the key"},
         Refusal{"CellsWithoutMesh", "radius_min = 0.01\nradius_max = 0.02", "cell_diameter = 0.03\ncell_spread = 0.1",
-                ":3: packing.cell_diameter: found no [mesh] beside it"},
+                ":3: packing.cell_diameter: found no [mesh] table"},
         Refusal{"CellsWithoutSpread", "radius_min = 0.01\nradius_max = 0.02\nmean_overlap = 1e-4",
                 "cell_diameter = 0.03\nmean_overlap = 1e-4\n[mesh]\nkind = \"voronoi\"\nthick = 1e-3",
                 "packing.cell_spread: found nothing, expected a number > 0 and <= 1; cell_diameter needs"},
@@ -285,7 +286,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "\"voronoi\"\nthick = 1e-3",
                 "packing.sizes: found \"sieve\", expected \"uniform\" or \"lognormal\""},
         Refusal{"GapOfBackTensionDerived", "[loading]", "[mesh]\nkind = \"voronoi\"\n[bond]\nthick = 1e-3\n[loading]",
-                "mesh.thick: found nothing, expected a number > 0 in m; by back-tension the excess"},
+                "mesh.thick: found nothing, expected a number > 0 in m; with back-tension the excess"},
         Refusal{"BondThicknessOfADerivedGap", "[loading]",
                 "tensile_strength = 1\ncohesion = 2\n[mesh]\nkind = \"voronoi\"\n[bond]\nlaw = \"coulomb\"\nthick = "
                 "1e-3\n[loading]",

@@ -22,7 +22,7 @@ struct Refusal {
     const char* says;
 };
 
-/// What is said of a small case with the minerals at its end.
+/// Message on a small case with the minerals at its end.
 std::string refusal(const std::string& minerals) {
     const testing::ScratchFolder scratch;
     const auto path = testing::write_small_case(scratch / "", {});
@@ -50,13 +50,13 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Refusal{"SharesOverOne",
                 "[[mineral]]\nname = \"a\"\narea_share = 0.7\n[[mineral]]\nname = \"b\"\narea_share = 0.6\n",
-                ":21: mineral[2].area_share: found 0.6, with those before it 1.3, expected at most 1 in sum"},
+                ":21: mineral[2].area_share: found 0.6, which makes a sum of 1.3, expected a sum of at most 1"},
         Refusal{"SharesUnderOne", "[[mineral]]\nname = \"a\"\narea_share = 0.7\n",
-                ":16: mineral[1]: found shares of 0.7 in sum, expected 1 in sum"},
+                ":16: mineral[1]: found shares with a sum of 0.7, expected a sum of 1"},
         Refusal{"TwoRests", "[[mineral]]\nname = \"a\"\n[[mineral]]\nname = \"b\"\n",
                 "found 2 minerals without area_share, expected at most one"},
         Refusal{"NoRest", "[[mineral]]\nname = \"a\"\narea_share = 1\n[[mineral]]\nname = \"b\"\n",
-                "found a mineral without area_share where the others fill all"},
+                "found a mineral without area_share although the others fill the specimen"},
         Refusal{"NoShare", "[[mineral]]\nname = \"a\"\narea_share = 0\n",
                 ":18: mineral[1].area_share: found 0, expected a number > 0 and <= 1"},
         Refusal{"NamedTwice", "[[mineral]]\nname = \"a\"\n[[mineral]]\nname = \"a\"\n",
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"OneTable", "[mineral]\nname = \"a\"\n",
                 ":16: mineral: found a table, expected a list of tables; write [[mineral]] above each"},
         Refusal{"Dashpot", "[[mineral]]\nname = \"a\"\nnormal_damping = 3\n",
-                ":18: mineral[1].normal_damping: found a dashpot where [material] has none"},
+                ":18: mineral[1].normal_damping: found a dashpot although [material] has no dashpots"},
         Refusal{"NegativeSeed", "[minerals]\nseed = -1\n[[mineral]]\nname = \"a\"\n",
                 ":17: minerals.seed: found -1, expected a whole number >= 0"},
         Refusal{"AssignWord", "[minerals]\nassign = \"best\"\n[[mineral]]\nname = \"a\"\n",
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"StrengthBeyondTheApex",
                 "[bond]\nlaw = \"coulomb\"\n[[mineral]]\nname = \"a\"\nfriction_angle = 45\n"
                 "tensile_strength = 30\ncohesion = 20\n",
-                ":21: mineral[1].tensile_strength: found 30 N, expected at most cohesion over tan(friction_angle) of "
+                ":21: mineral[1].tensile_strength: found 30 N, expected at most cohesion/tan(friction_angle) of "
                 "mineral[1], 20 N"},
         Refusal{"NoStrengthAtAll",
                 "[bond]\nlaw = \"coulomb\"\n[[mineral]]\nname = \"a\"\ntensile_strength = 0\ncohesion = 20\n",
@@ -109,8 +109,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "[bond]\nlaw = \"coulomb\"\n[[mineral]]\nname = \"a\"\nfriction_angle = 45\n"
                 "tensile_strength = 10\ncohesion = 20\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\n"
                 "tensile_strength = 30\n",
-                ":25: mineral_pair[1].tensile_strength: found 30 N, expected at most cohesion over "
-                "tan(friction_angle) of mineral_pair[1], 20 N"},
+                ":25: mineral_pair[1].tensile_strength: found 30 N, expected at most "
+                "cohesion/tan(friction_angle) of mineral_pair[1], 20 N"},
         Refusal{"PairRougherWhenBroken",
                 "[bond]\nlaw = \"coulomb\"\n[[mineral]]\nname = \"a\"\nfriction_angle = 30\n"
                 "tensile_strength = 10\ncohesion = 20\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\n"
@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "[[mineral_pair]]\nbetween = [\"a\", \"a\"]\nfriction_angle = 1\n",
                 ":22: mineral_pair[2].between: found a and a a second time"},
         Refusal{"PairOfNames", "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\n",
-                ":18: mineral_pair[1]: found names alone, expected one at least of normal_stiffness"},
+                ":18: mineral_pair[1]: found only the names, expected at least one of normal_stiffness"},
         Refusal{"PairDensity", "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\ndensity = 1\n",
                 ":20: mineral_pair.density: found an unknown key, expected one of between"}),
     [](const auto& refused) { return refused.param.name; });

@@ -144,7 +144,7 @@ TEST_F(ElasticAnalysisOf, FirstBreakIsTheLeastOfAllBondsAndNoneBreaksBeforeItSli
     EXPECT_TRUE(agrees("stress at the first break", a.first_break->stress, a.youngs_modulus * least, 1e-12));
 }
 
-/// A square lattice of discs between walls, in place of the small rock, as a file has it: to so many digits.
+/// A square lattice of discs between walls, in place of the small rock, written with this number of digits.
 TestCase square_lattice_case(const testing::ScratchFolder& folder, const SmallCase& wanted, const char* digits) {
     const std::filesystem::path file = testing::write_small_case(folder / "", wanted);
     constexpr double radius = 0.5, overlap = 1e-4;

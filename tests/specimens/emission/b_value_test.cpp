@@ -21,10 +21,10 @@ using testing::agrees;
 using testing::within;
 
 constexpr int catalogues = 200;
-// Of 200 tries, each right with probability 0.95, fewer than 182 are in 1 of 100 cases.
+// Out of 200 tries, each right with probability 0.95, fewer than 182 are right in 1 of 100 cases.
 constexpr int fewest_right = 182;
 
-/// Above `least` all are heard; with a roll-off of width s those of magnitude M in Φ((M - least)/s) of all cases.
+/// Above `least` all are recorded; with a roll-off of width s those of magnitude M in Φ((M - least)/s) of all cases.
 std::vector<double> catalogue(double b, double least, double roll_off, int events, std::mt19937_64& generator) {
     std::vector<double> magnitudes;
     const double lowest = least - 5.0 * roll_off;
@@ -96,7 +96,7 @@ TEST(BValue, AboveMaximumCurvatureIsRecoveredInsideItsErrors) {
                 return fit_b_value(magnitudes, Completeness::maximum_curvature);
             });
             EXPECT_GE(all.in_interval, fewest_right * all.known / catalogues);
-            // Of few the roll-off reaches beyond Mc, and those whose Mc came out high have no b.
+            // With few events the roll-off reaches beyond Mc, and catalogues whose Mc came out high have no b.
             EXPECT_TRUE(agrees("mean b", all.mean, b, events < 400 ? 0.05 : 0.025));
             EXPECT_TRUE(agrees("stated error", all.mean_error, all.deviation, 0.15));
         }
@@ -120,6 +120,19 @@ TEST(BValue, IsNotStraightWhereMagnitudesFollowNoSuchLaw) {
     const BValue value = b_value_above(uniform, -7.0);
     EXPECT_TRUE(value.known());
     EXPECT_FALSE(value.straight);
+}
+
+/// Quantiles of the law at the middles of a hundred equal shares, but none below the share `cut`. There the distance is
+/// that share, and the mean is 1.002 to 1.004 in place of 1. Stephens' 5 % point is 1.094, his 1 % point 1.308, of
+/// (D - 0.2/N) (sqrt N + 0.26 + 0.5/sqrt N) = 10.31 D - 0.02 here.
+TEST(BValue, IsStraightUpToTheFivePercentPointOfItsDistance) {
+    for (const auto& [cut, straight] : {std::pair{0.10, true}, {0.12, false}}) {
+        std::vector<double> magnitudes;
+        for (int k = 0; k < 100; ++k) magnitudes.push_back(-6.0 - std::log1p(-std::max(cut, (k + 0.5) / 100.0)));
+        const BValue value = b_value_above(magnitudes, -6.0);
+        EXPECT_TRUE(within("distance", value.distance, cut, 0.005 * cut));
+        EXPECT_EQ(value.straight, straight) << cut;
+    }
 }
 
 TEST(BValue, IsThatOfTheFormulas) {

@@ -217,6 +217,27 @@ TEST(EmissionRule, GoesByAMeanFieldWhereModuliAreNotKnown) {
     EXPECT_TRUE(agrees("speed, m/s", rule.shear_wave_speed, std::sqrt(ratio * sum / setup.area / rule.density), 1e-9));
 }
 
+TEST(EmissionRule, OfADiscHasItsDensityAndTheDashpotsThatAreGiven) {
+    World world = chain(0.0, 0.1);
+    TestSetup setup = ends_of(world);
+    setup.uniaxial = false;
+    setup.width = setup.height = 0.1;
+    setup.area = 0.25 * std::numbers::pi * 0.01;  // of the disc in that box
+    const double mass = 2500.0 * std::numbers::pi * radius * radius;
+    const auto rule = [&] { return emission_rule(world, setup, std::nan(""), std::nan(""), 1.0); };
+    EXPECT_TRUE(agrees("density, kg/m2", rule().density, 4.0 * mass / setup.area, 1e-12));
+    EXPECT_TRUE(agrees("damping ratio", rule().damping_ratio, 0.1, 1e-12));
+    // Two equal masses on a spring are damped critically at 2 sqrt(k m/2), one that hangs on a held body at 2 sqrt(k
+    // m). The chain has one spring of the first kind and two of the second.
+    const double critical = 2.0 * std::sqrt(stiffness * 0.5 * mass);
+    for (ContactLaw& law : world.settings.laws) {
+        law.normal_damping = 0.3 * critical;
+        law.normal_damping_ratio_term = 0.0;
+    }
+    EXPECT_TRUE(agrees("damping ratio of dashpots in N s/m", rule().damping_ratio,
+                       (0.3 + 2.0 * 0.3 / std::numbers::sqrt2) / 3.0, 1e-12));
+}
+
 TEST(EmissionRule, OfAMeanFieldIsNoSlowerThanThatOfTheModuli) {
     for (const char* mesh : {"", "voronoi"}) {
         const testing::ScratchFolder scratch;

@@ -7,7 +7,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
+#include "specimens/emission/acoustic_event.hpp"
 #include "tests/support/claim.hpp"
 
 namespace crackle {
@@ -74,6 +76,37 @@ TEST(SourceType, ChangesAtThirtyPercent) {
         const MomentTensor opposite = sum(dipole(-1.0, 0.0, 0.4), dipole(-q, 0.0, 0.4 + right_angle));
         EXPECT_EQ(source_type(isotropic_percent(opposite)), q < -0.4 ? SourceType::shear : SourceType::closing);
     }
+}
+
+/// What a column of ae.csv has of an event.
+std::string column_of(const AcousticEvent& event, double thickness, const std::string& name) {
+    for (const AcousticColumn& column : acoustic_columns())
+        if (column.what.name == name) return column.text(event, thickness);
+    return "no such column";
+}
+
+TEST(AcousticColumns, HaveMagnitudesOfTheWholeThickness) {
+    constexpr double thickness = 0.05;
+    AcousticEvent event;
+    event.energy = std::pow(10.0, 4.8) / thickness;                       // Me = 0
+    event.moment.xx = event.moment.yy = std::pow(10.0, 4.5) / thickness;  // Mw = -3
+    EXPECT_TRUE(within("Mw", std::stod(column_of(event, thickness, "moment_magnitude")), -3.0, 1e-12));
+    EXPECT_TRUE(within("Me", std::stod(column_of(event, thickness, "energy_magnitude")), 0.0, 1e-12));
+}
+
+TEST(AcousticColumns, HaveTheSymmetricPartOfTheMoment) {
+    AcousticEvent event;
+    event.moment = {2.0, 3.0, 5.0, -6.0};
+    EXPECT_EQ(column_of(event, 1.0, "moment_xx"), "2");
+    EXPECT_EQ(column_of(event, 1.0, "moment_xy"), "4");
+    EXPECT_EQ(column_of(event, 1.0, "moment_yy"), "-6");
+    // tr M = -4, and a deviator of 2 sqrt(4² + 4²): R = -100 4/(4 + 11.31).
+    EXPECT_TRUE(
+        agrees("R", std::stod(column_of(event, 1.0, "isotropic")), -400.0 / (4.0 + 8.0 * std::sqrt(2.0)), 1e-12));
+    EXPECT_EQ(column_of(event, 1.0, "type"), "shear");
+    event.moment = {};
+    EXPECT_EQ(column_of(event, 1.0, "type"), "none");
+    EXPECT_EQ(column_of(event, 1.0, "moment_magnitude"), "nan");
 }
 
 TEST(Magnitude, OfMomentAndEnergyIsThatOfTheFormulas) {

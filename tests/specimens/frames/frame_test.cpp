@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A frame shows the moment it was taken in: places, forces and losses of the world itself, whatever the list of points
-// does and however many frames the painter has written before.
+// A frame shows the moment of its taking: places, forces and losses of the world itself. It depends neither on the list
+// of points nor on the frames that the painter has written before.
 
 #include <gtest/gtest.h>
 
@@ -78,7 +78,7 @@ class Frames : public ::testing::Test {
     }
     PolyData read(const VirtualTest& test, const Frame& frame, Picture picture) const {
         std::ofstream out(scratch_ / "frame.vtp", std::ios::binary);
-        write(out, test, FramePainter(test.world, test.setup, PointPrecision::single_), frame, picture);
+        write(out, test, FramePainter(test.world, test.setup, FramePrecision::single_), frame, picture);
         out.close();
         return read_polydata(scratch_ / "frame.vtp");
     }
@@ -199,13 +199,13 @@ TEST_F(Frames, OutlinesAndBondsLieWhereTheBodiesAre) {
 TEST_F(Frames, DoNotDependOnThoseWrittenBefore) {
     for (const std::string mesh : {"", "voronoi"}) {
         VirtualTest test = broken_test(mesh);
-        const FramePainter used(test.world, test.setup, PointPrecision::single_);
+        const FramePainter used(test.world, test.setup, FramePrecision::single_);
         const std::string before = all_pictures(test, used, taken(test));
         for (int k = 0; k < 50; ++k) step(test.world);
         compute_forces(test.world);
         const Frame second = taken(test);
         const std::string one = all_pictures(test, used, second);
-        EXPECT_TRUE(one == all_pictures(test, FramePainter(test.world, test.setup, PointPrecision::single_), second))
+        EXPECT_TRUE(one == all_pictures(test, FramePainter(test.world, test.setup, FramePrecision::single_), second))
             << mesh;
         EXPECT_FALSE(one == before) << mesh;
     }
@@ -214,7 +214,7 @@ TEST_F(Frames, DoNotDependOnThoseWrittenBefore) {
 TEST_F(Frames, HaveTheTypesThatAreWrittenDown) {
     VirtualTest test = broken_test("");
     const std::string text =
-        all_pictures(test, FramePainter(test.world, test.setup, PointPrecision::single_), taken(test));
+        all_pictures(test, FramePainter(test.world, test.setup, FramePrecision::single_), taken(test));
     for (const char* array :
          {"Float32\" Name=\"points",    "Int32\" Name=\"connectivity",   "Int32\" Name=\"offsets",
           "Int32\" Name=\"id",          "Float64\" Name=\"radius",       "Float64\" Name=\"displacement",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nodes of a survey that nearly coincide become one: nothing moves further than snap, what is not concerned keeps its
-// bytes, and the mesher has no gap left that no grain can see.
+// Nodes of a survey that nearly coincide become one. Nothing moves farther than snap, other points keep their bytes,
+// and the mesher has no gap left that no grain can see.
 
 #include "specimens/joints/clean_traces.hpp"
 
@@ -187,6 +187,19 @@ TEST(CleanTraces, ANodeOffAnotherTraceIsOnIt) {
         EXPECT_EQ(report.brought_together, 1U);
         EXPECT_TRUE(testing::agrees("largest displacement", report.largest_displacement, off, 1e-6));
         EXPECT_EQ(traces[0].points, (std::vector<Vec2>{{0.1, 0.5}, {0.5, 0.5 + off}, {0.9, 0.5}}));
+    }
+}
+
+// The second trace has a node 1e-12 m off the first, which counts as unmoved. The third crosses both near that node.
+TEST(CleanTraces, ANodeOffAnUnmovedTraceLeavesNoGapWhereAThirdCrosses) {
+    const Lines lines{
+        {{1.648294312902, 0.666818864450}, {0.372899834964, 0.581710215315}},
+        {{0.668239214558, 0.217755988036}, {0.930052507966, 0.618889701490}, {1.073049407279, 0.956702979299}},
+        {{1.429141621306741, 0.0}, {0.567422259262, 1.116111204584}}};
+    for (const double snap : {0.015, 0.01966, 0.03}) {
+        std::vector<JointTrace> traces = traces_of(lines);
+        clean_traces(traces, box(2.0, 2.0), snap, 1.25 * snap);
+        EXPECT_GE(narrowest_gap(traces, box(2.0, 2.0)), 0.25 * snap) << snap;
     }
 }
 

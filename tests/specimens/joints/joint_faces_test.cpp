@@ -129,7 +129,7 @@ TEST(JointFaces, OfCirclesLieOnTheTracesThatHaveMechanics) {
         "[[trace]]\npoints = [0.0, 0.1, 0.15, 0.2, 0.3, 0.42]\nfriction_angle = 20.0\n"
         "[[trace]]\nname = \"idle\"\npoints = [0.2, 0.0, 0.1, 0.5]\n";
     const Specimen specimen = make_specimen(case_of(area_rock + joints), {});
-    EXPECT_EQ(specimen.kind, "circles");
+    EXPECT_EQ(specimen.kind, SpecimenKind::circles);
     ASSERT_EQ(specimen.scene.joints.size(), 1u);
     EXPECT_EQ(specimen.scene.trace_joints, (std::vector<std::int32_t>{0, -1}));
     EXPECT_EQ(specimen.scene.trace_pieces.size(), 3u);
@@ -169,8 +169,8 @@ TEST(JointFaces, OfCirclesLieOnTheTracesThatHaveMechanics) {
             if (part == 0 || right == 0) {
                 EXPECT_GE(covered, length - 1e-12);
             }
-            // In the wedge between the second part and the wall to its right circles are few, and reach three radii r:
-            // the owner of a bare place has there a power of at least 9 r² - r², and all others have more.
+            // In the wedge between the second part and the wall to its right circles are few, and reach three radii r.
+            // The owner of a bare place has there a power of at least 9 r² - r², and all others have more.
             for (double p = 0.0; p < length; p += 1e-4) {
                 if (std::ranges::any_of(faces,
                                         [&](const auto& f) { return f.first <= p + 1e-12 && p <= f.second + 1e-12; }))

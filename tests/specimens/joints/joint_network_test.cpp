@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Networks of traces: amounts are reached, traces lie in the box and end on its faces, what is drawn follows the laws
+// Networks of traces: amounts are reached, and traces lie in the box and end on its faces. Draws follow the laws
 // whatever the box, and the same seed gives the same traces.
 
 #include "specimens/joints/joint_network.hpp"
@@ -106,7 +106,7 @@ TEST(JointNetwork, LinesAtAFixedSpacingLieThroughThePoint) {
     std::vector<double> places;
     for (const JointTrace& t : network.traces) places.push_back(t.points.front().x);
     std::sort(places.begin(), places.end());
-    // Those on the side walls, at 0 and 1, are there by rounding or not.
+    // Lines on the side walls, at 0 and 1, are there or not, by rounding.
     for (int k = 1; k < 8; ++k) {
         EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](double x) {
             return std::abs(x - 0.125 * k) < 1e-12;
@@ -115,8 +115,8 @@ TEST(JointNetwork, LinesAtAFixedSpacingLieThroughThePoint) {
     EXPECT_LE(places.size(), 9U);
 }
 
-// Where lines and, along each, joints begin is drawn: over many seeds all places of a cycle come alike. A mean of n
-// phases, uniform in [0, 1), errs by 1/sqrt(12 n).
+// The beginnings of lines, and of joints along each, are drawn: over many seeds all places of a cycle are as likely. A
+// mean of n phases, uniform in [0, 1), errs by 1/sqrt(12 n).
 TEST(JointNetwork, LinesAndTheJointsAlongThemBeginAnywhere) {
     constexpr int seeds = 400;
     double across = 0.0, along = 0.0, lines = 0.0, squares_across = 0.0, squares_along = 0.0;
@@ -143,7 +143,7 @@ TEST(JointNetwork, LinesAndTheJointsAlongThemBeginAnywhere) {
     }
     EXPECT_TRUE(within("mean place of lines", across / seeds, 0.5, 4.0 / std::sqrt(12.0 * seeds)));
     EXPECT_TRUE(within("mean place of joints", along / lines, 0.5, 4.0 / std::sqrt(12.0 * lines)));
-    // Of squares the mean is 1/3, the variance 1/5 - 1/9.
+    // The mean of squares is 1/3, their variance 1/5 - 1/9.
     EXPECT_TRUE(within("mean square, lines", squares_across / seeds, 1.0 / 3.0, 4.0 * std::sqrt(4.0 / 45.0 / seeds)));
     EXPECT_TRUE(within("mean square, joints", squares_along / lines, 1.0 / 3.0, 4.0 * std::sqrt(4.0 / 45.0 / lines)));
 }
@@ -195,8 +195,8 @@ TEST(JointNetwork, GapsLeaveThePersistence) {
     EXPECT_TRUE(within("persistence", total_length(network) / (200.0 * 10.0), 0.75, 0.005));
 }
 
-// Traces of a line of their own are as long, and lie, as those of an unbounded plane: lengths of midpoints in the box
-// follow the law, and the density is the same at the rim and in the middle.
+// Traces of a line of their own have the lengths and places of those of an unbounded plane. Lengths of midpoints in the
+// box follow the law, and the density is the same at the rim and in the middle.
 TEST(JointNetwork, TheRimIsNoDifferentFromTheMiddle) {
     for (const char* length : {lengths[3], lengths[4]}) {
         const std::string text = set_of(std::string(directions[1]) + length + "number = 30000\n");
@@ -226,8 +226,7 @@ TEST(JointNetwork, TheRimIsNoDifferentFromTheMiddle) {
 }
 
 TEST(JointNetwork, LinesMeetTheBoxAsOftenAsTheirWidthSays) {
-    // Of lines all round through a box of 4 by 1 the directions have the density of its width across them, |4 sin| +
-    // |cos|.
+    // Directions of lines all round through a box of 4 by 1 have the density of its width across them, |4 sin| + |cos|.
     const JointNetwork network =
         make_joints(joints_of(set_of(std::string(directions[1]) + "number = 20000\n")), box(4.0, 1.0));
     double steep = 0.0;
@@ -276,7 +275,7 @@ TEST(JointNetwork, ForAMeshTracesShorterThanItsSpacingAreLeftOut) {
     ASSERT_EQ(network.notices.size(), 1U);
     EXPECT_EQ(
         network.notices[0],
-        "1 traces shorter than 0.1 m (the mean spacing of the cells; joints.shortest says otherwise) are left out, "
+        "1 traces shorter than 0.1 m (the mean spacing of the cells; joints.shortest sets another limit) are left out, "
         "0.08 m in all");
     EXPECT_EQ(make_joints(joints_of("[joints]\nshortest = 0.01\n" + traces), box(1.0, 1.0), 100).traces.size(), 2U);
     EXPECT_EQ(make_joints(joints_of(traces), box(1.0, 1.0)).traces.size(), 2U) << "drawn alone";
@@ -321,7 +320,7 @@ TEST(JointNetwork, LengthsThatWouldBeDrawnWithoutEndAreRefused) {
     for (const char* far : {"1e6\nnumber = 1000\n", "1e5\np20 = 50.0\n", "1e9\np21 = 50.0\n"})
         EXPECT_NE(refused(fixed + far).find("joint_set[1].length_mean: found 1"), std::string::npos);
     EXPECT_NE(refused(power_law + "length_min = 0.1\nlength_max = 1e9\nlength_exponent = 1.0\nnumber = 100\n")
-                  .find("joint_set[1].length_max: found 1000000000 m, expected lengths nearer"),
+                  .find("joint_set[1].length_max: found 1000000000 m, expected lengths closer"),
               std::string::npos);
     for (const char* amount : {"number = 5\n", "p20 = 5.0\n"})
         EXPECT_NE(refused(fixed + "1e-20\n" + amount).find("joint_set[1].length_mean: found 1e-20 m"),

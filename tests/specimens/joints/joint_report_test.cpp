@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "specimens/joints/orientation_law.hpp"
 #include "tests/specimens/joints/cases.hpp"
 #include "tests/support/claim.hpp"
 
@@ -86,7 +87,7 @@ TEST(JointReport, ParallelTracesAreOnePetal) {
     }
 }
 
-/// Of a set of nearly parallel planes in a section.
+/// Report of a set of nearly parallel planes in a section.
 SourceReport planes_in(const char* section, double trend, double dip, double dip_direction) {
     return report_of(fmt::format("[joints]\nsection = \"{}\"\nsection_trend = {}\n[[joint_set]]\nname = \"a\"\n"
                                  "orientation = \"fisher\"\ndip = {}\ndip_direction = {}\nfisher_k = 1e6\n"
@@ -135,6 +136,22 @@ TEST(JointReport, AmountsOfMeasuredTracesAreThoseCountedByHand) {
     EXPECT_TRUE(agrees("P10", report.all.p10, 1.5 / 3.0, 1e-12));
     EXPECT_TRUE(agrees("scan line across the third", line_direction(report.sources[2].scan_line + 90.0), 90.0, 1e-12));
     EXPECT_TRUE(agrees("P10 of the third", report.sources[2].p10, 0.4 / 3.0, 1e-12));
+}
+
+// Four short ones along x and two long ones at 40 degrees: κ is of directions, each once, the mean by length.
+TEST(JointReport, KappaCountsEachTraceOnce) {
+    const double c = std::cos(40.0 * degree), s = std::sin(40.0 * degree);
+    const SourceReport all =
+        report_of(fmt::format("[[trace]]\npoints = [0.1, 0.1, 0.2, 0.1]\n[[trace]]\npoints = [0.1, 0.3, 0.2, 0.3]\n"
+                              "[[trace]]\npoints = [0.1, 0.5, 0.2, 0.5]\n[[trace]]\npoints = [0.1, 0.7, 0.2, 0.7]\n"
+                              "[[trace]]\npoints = [0.5, 0.1, {:.17g}, {:.17g}]\n"
+                              "[[trace]]\npoints = [0.9, 0.1, {:.17g}, {:.17g}]\n",
+                              0.5 + c, 0.1 + s, 0.9 + c, 0.1 + s),
+                  box(2.0, 1.5))
+            .all;
+    const double c2 = std::cos(80.0 * degree), s2 = std::sin(80.0 * degree);  // of doubled angles
+    EXPECT_TRUE(agrees("kappa", all.kappa, fitted_kappa(std::hypot(2.0 + c2, s2) / 3.0, 6), 1e-9));
+    EXPECT_TRUE(agrees("direction", all.direction, 0.5 * std::atan2(s2, 0.2 + c2) / degree, 1e-9));
 }
 
 TEST(JointReport, AScanLineGivenIsTheOneCounted) {

@@ -31,14 +31,15 @@ TEST(JointedSpecimen, HasItsTracesAsFacesAndSaysSo) {
                            [&](const std::string& line) { return line.find(text) != std::string::npos; });
     };
     EXPECT_TRUE(has("m of traces are"));
-    EXPECT_TRUE(has("cells beside those without joints"));
+    EXPECT_TRUE(has("cells, and those without joints in brackets"));
     EXPECT_TRUE(std::any_of(specimen.notices.begin(), specimen.notices.end(), [](const std::string& n) {
         return n.find("the rock's own properties") != std::string::npos;
     }));
 }
 
-// specimens/METHODS.md states 6 %: 9.5 % are of even rows of cells beside the traces. k_n/k_s = 2.5, five cells between
-// the traces. Over 20 packings 5.9 %, from one to the other by 0.9 %: the mean of three lies within three deviations.
+// specimens/joints/METHODS.md states 6 %: 9.5 % are of even rows of cells beside the traces. k_n/k_s = 2.5, five cells
+// between the traces. Over 20 packings 5.9 %, from one to the other by 0.9 %: the mean of three lies within three
+// deviations.
 TEST(JointedSpecimen, StraightLinesOfFacesSoftenVoronoiCellsAsStated) {
     const auto modulus = [](int seed, const std::string& joints) {
         return moduli_of(prepare_test(case_of(fmt::format(R"([packing]
@@ -87,8 +88,8 @@ TEST(JointedSpecimen, ErrorsNameTracesByTheirSource) {
                            "[[trace]]\nname = \"south\"\npoints = [0.0, 0.5001, 0.5, 0.5001]\n"),
             TestHooks{});
     });
-    EXPECT_NE(text.find("is of north, from (0, 0.5) to (0.5, 0.5)"), std::string::npos);
-    EXPECT_NE(text.find("is of south"), std::string::npos);
+    EXPECT_NE(text.find("belongs to north, from (0, 0.5) to (0.5, 0.5)"), std::string::npos);
+    EXPECT_NE(text.find("belongs to south"), std::string::npos);
 }
 
 TEST(JointedSpecimen, WhatCannotHaveJointsIsRefused) {

@@ -126,7 +126,8 @@ TEST(OrientationLaw, FittedKappaSolvesTheLikelihoodEquation) {
 
 TEST(OrientationLaw, FisherPlanesCutSquareAreVonMisesLike) {
     // Normals in a section are those of planes square to it: about a mean plane square to the section, the trace's
-    // angle has the density of n projected: for large K and small deviations normal of variance 1/K, weights near 1.
+    // angle has the density of n projected. For large K and small deviations it is normal of variance 1/K, with weights
+    // near 1.
     const double k = 2000.0;
     const Section section = Section::vertical(90.0 * degree);
     const OrientationLaw law = OrientationLaw::fisher(30.0 * degree, 90.0 * degree, k, section);

@@ -57,8 +57,8 @@ TEST(TraceFiles, HeightsAreNamed) {
     const auto named = [](const std::string& text) { return refused("a.txt", text).find("found x y z of each point"); };
     EXPECT_EQ(
         refused("a.txt", "0.2 0.3 101.1 1.8 1.5 101.4\n"),
-        "a.txt:1: found x y z of each point, expected x y; remove every third number, or, if these are x y, say so "
-        "by a first line '# x1 y1 x2 y2'");
+        "a.txt:1: found x y z of each point, expected x y; remove every third number. If the numbers are x y, state "
+        "this in a first line '# x1 y1 x2 y2'");
     EXPECT_NE(named("0.2 0.3 0 1.8 1.5 0\n0.1 1.7 0 0.9 0.2 0\n"), std::string::npos) << "one height";
     EXPECT_NE(named("# x y z\n0 0 0 1 1 1 2 2 2\n"), std::string::npos);
     EXPECT_NE(named("512000.2 4170000.3 801 512001.8 4170001.5 802.4\n"), std::string::npos);
@@ -78,8 +78,8 @@ TEST(TraceFiles, OtherKindsOfFileAreNamed) {
     for (const auto& [text, kind] : {std::pair{R"({ "type": "FeatureCollection", "features": [] })", "GeoJSON"},
                                      {"<svg><path d='M0 0'/></svg>", "an SVG drawing"}})
         EXPECT_EQ(refused("a.csv", text), std::string("a.csv: found ") + kind +
-                                              ", expected CSV (trace,x,y or x1,y1,x2,y2), DXF, or x1 y1 x2 y2 ... of a "
-                                              "trace a line; export it as one of them");
+                                              ", expected CSV (trace,x,y or x1,y1,x2,y2), DXF, or x1 y1 x2 y2 ... with "
+                                              "a trace per line; export it as one of them");
 }
 
 TEST(TraceFiles, ALayerIsReadAlone) {
@@ -118,15 +118,17 @@ TEST(TraceFiles, WhatIsWrongIsNamedWithItsLine) {
     EXPECT_NE(
         refused("a.txt", "0 0 1 1e200\n").find("found '1e200', expected a number for y, 0 or of a size from 1e-30"),
         std::string::npos);
-    EXPECT_NE(refused("a.txt", "1 2 1 2\n").find("a.txt:1: found a trace of one place"), std::string::npos);
+    EXPECT_NE(refused("a.txt", "1 2 1 2\n").find("a.txt:1: found only traces whose points coincide"),
+              std::string::npos);
     EXPECT_NE(refused("a.txt", "# nothing\n").find("found no trace"), std::string::npos);
     EXPECT_NE(refused("a.csv", "x,y\n").find("a.csv:1: found 'x,y', expected a heading"), std::string::npos);
     EXPECT_NE(refused("a.csv", "").find("no heading"), std::string::npos);
     EXPECT_NE(refused("a.csv", "trace,x,y\n1,0,0\n1,1\n").find("a.csv:3: found 2 values between commas"),
               std::string::npos);
-    EXPECT_NE(refused("a.csv", "trace,x,y\n1,0,0\n1,1,1\n2,0,0\n2,1,1\n1,5,5\n").find("a.csv:6: found trace 1 again"),
+    EXPECT_NE(refused("a.csv", "trace,x,y\n1,0,0\n1,1,1\n2,0,0\n2,1,1\n1,5,5\n")
+                  .find("a.csv:6: found points of trace 1 after those of another"),
               std::string::npos);
-    EXPECT_NE(refused("a.csv", "trace,x,y\n1,0,0\n2,1,1\n").find("a.csv:2: found a trace of one place"),
+    EXPECT_NE(refused("a.csv", "trace,x,y\n1,0,0\n2,1,1\n").find("a.csv:2: found only traces whose points coincide"),
               std::string::npos);
     EXPECT_NE(refused("a.dxf", "hello\n").find("a.dxf:1: found 'hello', expected a group code"), std::string::npos);
     EXPECT_NE(refused("a.dxf", "0\nSECTION\n2\nHEADER\n0\nENDSEC\n0\nEOF\n").find("no section ENTITIES"),

@@ -24,12 +24,17 @@ using testing::within;
 constexpr double degree = std::numbers::pi / 180.0;
 
 TEST(TestKinds, TheCaseKnowsEveryKindByItsName) {
-    EXPECT_EQ(find_parameter("loading", "kind")->choices, test_kind_names());
-    for (const TestKind& kind : test_kinds()) {
+    EXPECT_EQ(find_parameter("loading", "kind")->choices, names_of<LoadingKind>());
+    for (const std::string& name : names_of<LoadingKind>()) {
+        const LoadingKind value = *from_name<LoadingKind>(name);
+        const TestKind& kind = test_kind(value);
         TestCase test;
-        test.loading.kind = kind.name;
-        EXPECT_EQ(test.uniaxial(), kind.uniaxial) << kind.name;
-        EXPECT_EQ(kind.apparatus == nullptr, kind.uniaxial) << kind.name;
+        test.loading.kind = value;
+        EXPECT_EQ(kind.kind, value) << name;
+        EXPECT_EQ(test.uniaxial(), kind.uniaxial) << name;
+        EXPECT_EQ(test.pressed(), kind.shear_box || test.confined()) << name;
+        EXPECT_EQ(kind.apparatus == nullptr, kind.uniaxial) << name;
+        EXPECT_EQ(kind.valid_failure == ValidFailure::between_platens, kind.uniaxial) << name;
     }
 }
 
@@ -58,13 +63,13 @@ TEST(TestKinds, ANotchPartsWhatLiesOnEitherSideOfIt) {
 /// A jaw's face is where the parts of a test say: outline and face of every jaw are apart by what it touches at.
 TEST(TestKinds, JawsThatAreNotBondedJustTouchTheDisc) {
     TestCase test;
-    test.loading.kind = "brazilian";
-    test.loading.platens = "frictional";
+    test.loading.kind = LoadingKind::brazilian;
+    test.loading.platens = PlatenKind::frictional;
     constexpr double reach = 1e-5;
     KindRequest request{test, {0.0, 0.1, 0.0, 0.1, {}}, 0.005};
     const Shape shape = brazilian_shape(request);
     for (const Vec2 corner : shape.outline) request.surface.push_back({corner, reach});
-    for (const char* jaws : {"arc", "flat", "curved"}) {
+    for (const JawShape jaws : {JawShape::arc, JawShape::flat, JawShape::curved}) {
         test.loading.jaws = jaws;
         const Apparatus apparatus = brazilian_apparatus(request, shape);
         ASSERT_EQ(apparatus.parts.size(), 2U);
@@ -74,8 +79,8 @@ TEST(TestKinds, JawsThatAreNotBondedJustTouchTheDisc) {
                 for (const Vec2 corner : shape.outline)
                     nearest = std::min(nearest, Notch{part.corners[k], part.corners[k + 1]}.distance(corner));
             // Sides are allowed for by the whole of their depth, of which a corner uses some: 1/8 (side/radius)² of it.
-            EXPECT_GE(nearest, reach * (1.0 - 1e-9)) << jaws;
-            EXPECT_LE(nearest, reach + 1e-4 * shape.width) << jaws;
+            EXPECT_GE(nearest, reach * (1.0 - 1e-9)) << name_of(jaws);
+            EXPECT_LE(nearest, reach + 1e-4 * shape.width) << name_of(jaws);
         }
     }
 }
@@ -92,7 +97,7 @@ TEST(TestKinds, SupportsOfABeamCarryHalfTheLoadEachAndNoThrust) {
     const std::vector<BodyMotion>& reaction = test.small_strain->moduli.solution.reaction;
     ASSERT_EQ(reaction.size(), 3U);
     const double load = reaction.back().y;
-    // The lattice is symmetric about midspan but for its odd rows, half a disc shorter at both ends.
+    // The lattice is symmetric about midspan, except its odd rows, half a disc shorter at both ends.
     EXPECT_TRUE(within("left support over the load", -reaction[0].y / load, 0.5, 1e-3));
     EXPECT_TRUE(within("right support over the load", -reaction[1].y / load, 0.5, 1e-3));
     for (const BodyMotion& one : reaction) EXPECT_TRUE(within("thrust over the load", one.x / load, 0.0, 1e-6));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A specimen under a membrane between platens: equilibrium before loading, what the pressure does to its area, and a
-// test that goes on from there.
+// test that continues from there.
 
 #include "specimens/loading/confine.hpp"
 
@@ -64,6 +64,10 @@ TEST_F(Confined, SpecimenIsInEquilibriumBeforeLoadingBegins) {
             EXPECT_TRUE(within("lateral strain", row.lateral_strain, 0.0, 1e-15));
             EXPECT_EQ(world.bonds.broken, 0);
             EXPECT_EQ(test.setup.confining_pressure, pressure);
+            // The disc that is rolled about the specimen is as large as a mean particle.
+            const double particle =
+                std::sqrt(test.setup.width * test.setup.height / static_cast<double>(test.setup.particles));
+            EXPECT_TRUE(agrees("radius of the membrane's disc, m", world.membrane.probe, 0.5 * particle, 1e-12));
         }
     }
 }
@@ -166,7 +170,7 @@ TEST_F(Confined, LoadingBetweenWallsBeginsWithoutAShock) {
         };
         const double first = kinetic();
         for (int n = 0; n < 12; ++n) step(test.world);
-        // Walls that stand still at first take 5e-4 of it in so many steps: a fifth of that would be seen.
+        // Walls that stand still at first take 5e-4 of it in twelve steps: a fifth of that would be seen.
         EXPECT_TRUE(agrees("kinetic energy after twelve steps, J", kinetic(), first, 1e-4));
     }
 }

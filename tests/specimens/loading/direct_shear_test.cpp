@@ -74,7 +74,7 @@ TEST_F(Kinds, OpenJointAmongCirclesSlidesAtItsFriction) {
     VirtualTest test = prepare_test(description);
     const double strength = 5e6 * std::tan(30.0 * std::numbers::pi / 180.0);
     const double strain = test.setup.rate_rule.first_strain;
-    // Before it slides the solution is linear, and its points share the stress evenly but for the boxes' ends.
+    // Before it slides the solution is linear, and its points share the stress evenly, except at the boxes' ends.
     EXPECT_TRUE(within("strain of the rule over the stress that slides by the modulus",
                        strain * test.small_strain->moduli.youngs_modulus / strength, 1.0, 0.3));
     load_specimen(test);

@@ -16,7 +16,7 @@ namespace {
 
 using testing::agrees;
 
-VirtualTest bonded(const std::string& specimen, const std::string& law) {
+VirtualTest bonded(const std::string& specimen, SegmentLaw law) {
     TestCase test =
         read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/guide_rock" / (specimen + "_tension.toml"));
     test.numerics.contact_law = law;
@@ -24,8 +24,8 @@ VirtualTest bonded(const std::string& specimen, const std::string& law) {
 }
 
 TEST(GuideRock, UnderItsOwnLawHasTheGuidesContactsAndItsBackTensionBetweenSumAndMean) {
-    const VirtualTest circles = bonded("circles", "demseg"), sum = bonded("delaunay", "demseg"),
-                      mean = bonded("delaunay", "demseg_mean");
+    const VirtualTest circles = bonded("circles", SegmentLaw::demseg), sum = bonded("delaunay", SegmentLaw::demseg),
+                      mean = bonded("delaunay", SegmentLaw::demseg_mean);
     const auto contacts = [](const VirtualTest& test) { return static_cast<double>(test.setup.contacts_initial); };
     const double back_tension = 753.0;  // N, the guide's
     fmt::print(

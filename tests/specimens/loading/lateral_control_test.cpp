@@ -60,7 +60,7 @@ class WidenedRock : public ::testing::Test {
         TestCase description = read_case(testing::write_small_case(scratch_ / "", wanted));
         description.loading.axial_strain_rate.reset();
         description.loading.rate_tolerance = 0.01;
-        description.loading.control = "lateral";
+        description.loading.control = LoadingControl::lateral;
         return description;
     }
     testing::ScratchFolder scratch_;
@@ -107,7 +107,9 @@ TEST_F(WidenedRock, ControlThatMakesNoSenseIsRefused) {
         return testing::refusal([&] { read_case(testing::write_small_case(scratch_ / "", wanted)); });
     };
     EXPECT_NE(refusal("tension", "control = \"lateral\"").find("expected \"axial\""), std::string::npos);
-    EXPECT_NE(refusal("compression", "control = \"lateral\"").find("expected loading by tolerance"), std::string::npos);
+    EXPECT_NE(
+        refusal("compression", "control = \"lateral\"").find("expected a loading rate controlled by rate_tolerance"),
+        std::string::npos);
     EXPECT_NE(refusal("compression", "control = \"radial\"").find("expected \"axial\" or \"lateral\""),
               std::string::npos);
 }

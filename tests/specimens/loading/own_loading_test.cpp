@@ -121,7 +121,7 @@ TEST_F(OwnLoading, RowsFollowThePlatenBackAndForth) {
     const auto top = std::ranges::max_element(rows, {}, &CurveRow::axial_strain);
     EXPECT_NEAR(top->axial_strain, 2e-4, 1e-6);
     EXPECT_LT(rows.back().axial_strain, 1e-4);
-    // As many rows to a strain on the way back as on the way up.
+    // The way back has as many rows per strain as the way up.
     const double up = static_cast<double>(top - rows.begin()) / 2e-4;
     const double down = static_cast<double>(rows.end() - top) / 1e-4;
     EXPECT_NEAR(down / up, 1.0, 0.02);

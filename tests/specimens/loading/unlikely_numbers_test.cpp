@@ -12,13 +12,13 @@ namespace {
 
 TestCase granite() {
     TestCase test;
-    test.material.units = "area";
+    test.material.units = StiffnessUnits::area;
     test.material.density = 2650.0;
     test.material.friction_angle = 40.0;
     test.material.contact_modulus = 76e9;
     test.material.tensile_strength = 12e6;
     test.material.cohesion = 60e6;
-    test.bond.law = "coulomb";
+    test.bond.law = BondLaw::coulomb;
     return test;
 }
 
@@ -48,16 +48,17 @@ TEST(UnlikelyNumbers, AreNamedWithWhatTheyAreLikelyToMean) {
     EXPECT_EQ(with([](TestCase& t) { t.material.density = 2.65; }),
               "material.density = 2.65 kg/m2 is lighter than any rock: is it meant in g/cm3? That is 2650 kg/m2");
     EXPECT_EQ(with([](TestCase& t) { t.material.friction_angle = 0.6; }),
-              "material.friction_angle = 0.6 degrees is next to nothing: is it meant in radians? That is 34.4 degrees");
+              "material.friction_angle = 0.6 degrees is almost zero: is it meant in radians? That is 34.4 degrees");
     EXPECT_EQ(
         with([](TestCase& t) { t.material.friction_angle = 0.0; }),
-        "material.friction_angle = 0 degrees lets broken faces slide freely, and no pressure makes bonds stronger: "
+        "material.friction_angle = 0 degrees lets broken faces slide freely, and pressure does not strengthen bonds; "
         "rocks have 20 to 45");
     EXPECT_NE(with([](TestCase& t) { t.material.residual_friction_angle = 0.5; }).find("residual_friction_angle = 0.5"),
               std::string::npos);
-    EXPECT_EQ(with([](TestCase& t) { t.material.cohesion = 240e6; }),
-              "material.cohesion = 2.4e+08 Pa is 20 times the tensile strength: bonds of rocks have 1 to 10; is one of "
-              "them in another unit?");
+    EXPECT_EQ(
+        with([](TestCase& t) { t.material.cohesion = 240e6; }),
+        "material.cohesion = 2.4e+08 Pa is 20 times the tensile strength, while 1 to 10 is usual for rocks; is one of "
+        "them in another unit?");
     EXPECT_NE(with([](TestCase& t) { t.material.tensile_strength = 12.0; }).find("is it meant in MPa?"),
               std::string::npos);
     EXPECT_NE(with([](TestCase& t) { t.material.contact_modulus = 76.0; }).find("is it meant in GPa?"),
@@ -71,8 +72,8 @@ TEST(UnlikelyNumbers, MillimetresAreNoMetres) {
     large.area = 5000.0;
     EXPECT_EQ(
         notices_of(granite(), large),
-        "the specimen is 50 m by 100 m, of grains of 2 m as stiff as rock: are its lengths meant in mm? Numbers are "
-        "in m");
+        "the specimen is 50 m by 100 m, with grains of 2 m that are as stiff as rock: are its lengths meant in mm? "
+        "Numbers are in m");
     TestCase mass = granite();
     mass.trace.emplace_back();
     EXPECT_EQ(notices_of(mass, large), "") << "blocks between joints may be large";

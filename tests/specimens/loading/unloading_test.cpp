@@ -206,7 +206,8 @@ TEST_F(UnloadedRock, ListsThatMakeNoSenseAreRefused) {
         wanted.loading = keys;
         return testing::refusal([&] { read_case(testing::write_small_case(scratch_ / "", wanted)); });
     };
-    EXPECT_NE(refusal("unload_at_strain = [0.001]").find("expected loading by tolerance"), std::string::npos);
+    EXPECT_NE(refusal("unload_at_strain = [0.001]").find("expected a loading rate controlled by rate_tolerance"),
+              std::string::npos);
     EXPECT_NE(refusal("unload_at_strain = 0.001").find("expected numbers in square brackets"), std::string::npos);
     EXPECT_NE(refusal("unload_at_strain = []").find("expected numbers in square brackets"), std::string::npos);
     EXPECT_NE(refusal("unload_at_strain = [0.001, -1.0]").find("found -1"), std::string::npos);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The shipped Voronoi compression, loaded five times as fast and past failure: its bytes depend neither on the number
+// The shipped Voronoi compression, loaded five times as fast and past failure. Its bytes depend neither on the number
 // of threads, each of which has worked, nor on where it was stopped and resumed.
 
 #include <gtest/gtest.h>
@@ -86,9 +86,9 @@ TEST(VoronoiCompression, HasTheSameFilesForAnyNumberOfThreadsAndResumedAtFiveRan
     options.command = "crackle test";
     options.folder = scratch / "one";
     const TestOutcome first = run_test(test, options);
-    ASSERT_TRUE(first.summary.flag("failed"));
+    ASSERT_TRUE(*first.summary.about.failed);
     const auto one = contents(scratch / "one");
-    const auto questions = static_cast<std::int64_t>(first.summary.number("steps").value()) / steps_between_questions;
+    const auto questions = *first.summary.numerics.steps / steps_between_questions;
 
     std::mt19937_64 generator(5);
     for (const int threads : {1, 2, 3, 7}) {
@@ -116,7 +116,7 @@ TEST(VoronoiCompression, HasTheSameFilesForAnyNumberOfThreadsAndResumedAtFiveRan
         TestOutcome outcome = run_test(test, options, stop());
         int interrupts = 0;
         for (; outcome.interrupted; ++interrupts) {
-            fmt::print("  stopped at step {}\n", outcome.summary.text_of("steps"));
+            fmt::print("  stopped at step {}\n", *outcome.summary.numerics.steps);
             outcome = resume_test(options, interrupts < 4 ? stop() : TestHooks{});
         }
         EXPECT_EQ(interrupts, 5);

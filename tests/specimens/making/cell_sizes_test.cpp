@@ -21,7 +21,7 @@ namespace {
 using testing::agrees;
 using testing::within;
 
-TestCase cells_case(const char* kind, double diameter, double spread) {
+TestCase cells_case(MeshKind kind, double diameter, double spread) {
     TestCase test;
     test.source = "cells.toml";
     test.table_present["packing"] = test.table_present["mesh"] = true;
@@ -37,7 +37,7 @@ TestCase cells_case(const char* kind, double diameter, double spread) {
     test.material.friction_angle = 27.0;
     test.material.tensile_strength = 1e3;
     test.material.cohesion = 2e3;
-    test.bond.law = "coulomb";
+    test.bond.law = BondLaw::coulomb;
     return test;
 }
 
@@ -66,19 +66,21 @@ TEST(CellSizes, OfASquareGridAreThoseOfItsSquares) {
 
 TEST(CellSizes, AskedForAreReached) {
     struct Asked {
-        const char *kind, *sizes;
+        MeshKind kind;
+        RadiusLaw sizes;
         double spread;
     };
     for (const Asked& asked :
-         {Asked{"voronoi", "uniform", 0.12}, Asked{"voronoi", "lognormal", 0.24}, Asked{"voronoi", "lognormal", 0.35},
-          Asked{"delaunay", "uniform", 0.2}, Asked{"delaunay", "lognormal", 0.5}}) {
+         {Asked{MeshKind::voronoi, RadiusLaw::uniform, 0.12}, Asked{MeshKind::voronoi, RadiusLaw::lognormal, 0.24},
+          Asked{MeshKind::voronoi, RadiusLaw::lognormal, 0.35}, Asked{MeshKind::delaunay, RadiusLaw::uniform, 0.2},
+          Asked{MeshKind::delaunay, RadiusLaw::lognormal, 0.5}}) {
         TestCase test = cells_case(asked.kind, 0.004, asked.spread);
         test.packing.sizes = asked.sizes;
         test.mesh.thick = 4e-9;
         test.mesh.merge_destroyed = true;
         const Specimen specimen = make_specimen(test, {});
         const CellSizes made = recounted(specimen.scene);
-        const std::string what = std::string(asked.kind) + ", " + asked.sizes;
+        const std::string what = std::string(name_of(asked.kind)) + ", " + name_of(asked.sizes);
         EXPECT_TRUE(agrees(what + ": mean diameter", made.mean, 0.004, 0.003));
         EXPECT_TRUE(within(what + ": spread", made.spread, asked.spread, 0.02));
         double stated[2] = {};
@@ -92,7 +94,7 @@ TEST(CellSizes, AskedForAreReached) {
 }
 
 TEST(CellSizes, InABoxTakeAsManyCirclesAsFillIt) {
-    TestCase test = cells_case("voronoi", 0.004, 0.15);
+    TestCase test = cells_case(MeshKind::voronoi, 0.004, 0.15);
     test.packing.count.reset();
     test.packing.height_to_width.reset();
     test.packing.width = 0.06;
@@ -104,8 +106,8 @@ TEST(CellSizes, InABoxTakeAsManyCirclesAsFillIt) {
 }
 
 TEST(CellSizes, OutOfReachAreRefusedWithTheirKey) {
-    const auto refusal = [](double spread, const char* sizes) -> std::string {
-        TestCase test = cells_case("voronoi", 0.004, spread);
+    const auto refusal = [](double spread, RadiusLaw sizes) -> std::string {
+        TestCase test = cells_case(MeshKind::voronoi, 0.004, spread);
         test.packing.sizes = sizes;
         try {
             make_specimen(test, {});
@@ -114,21 +116,21 @@ TEST(CellSizes, OutOfReachAreRefusedWithTheirKey) {
         }
         return "made without complaint";
     };
-    EXPECT_NE(refusal(0.02, "uniform").find("packing.cell_spread: found 0.02, expected 0.037 to 0.211"),
+    EXPECT_NE(refusal(0.02, RadiusLaw::uniform).find("packing.cell_spread: found 0.02, expected 0.037 to 0.211"),
               std::string::npos)
-        << refusal(0.02, "uniform");
-    EXPECT_NE(refusal(0.3, "uniform")
+        << refusal(0.02, RadiusLaw::uniform);
+    EXPECT_NE(refusal(0.3, RadiusLaw::uniform)
                   .find("expected 0.037 to 0.211 for Voronoi cells of uniform circles; "
                         "sizes = \"lognormal\" reaches 0.536"),
               std::string::npos)
-        << refusal(0.3, "uniform");
-    for (const char* sizes : {"uniform", "lognormal"})
+        << refusal(0.3, RadiusLaw::uniform);
+    for (const RadiusLaw sizes : {RadiusLaw::uniform, RadiusLaw::lognormal})
         EXPECT_NE(refusal(0.6, sizes).find("; 0.536 is the most that packed circles reach"), std::string::npos)
             << refusal(0.6, sizes);
 }
 
 TEST(DerivedGap, IsAFiftiethOfTheMeanCellSize) {
-    TestCase test = cells_case("voronoi", 0.004, 0.15);
+    TestCase test = cells_case(MeshKind::voronoi, 0.004, 0.15);
     const Specimen specimen = make_specimen(test, {});
     const double size = std::sqrt(specimen.width * specimen.height / static_cast<double>(specimen.scene.bodies.size()));
     EXPECT_TRUE(agrees("mesh.thick", specimen.mesh_thick, 0.02 * size, 1e-12));

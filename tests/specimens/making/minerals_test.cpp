@@ -13,15 +13,12 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <numeric>
 #include <set>
 #include <sstream>
 
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
-#include "solver/stepping/build_world.hpp"
-#include "solver/world/world.hpp"
 #include "specimens/case/case_file.hpp"
 #include "specimens/case/parameters.hpp"
 #include "specimens/loading/prepare.hpp"
@@ -39,6 +36,7 @@ namespace crackle {
 namespace {
 
 using testing::agrees;
+using testing::odd_stiffness;
 using testing::ScratchFolder;
 using testing::SmallCase;
 using testing::within;
@@ -48,8 +46,6 @@ constexpr const char* three_minerals =
     "[[mineral]]\nname = \"quartz\"\narea_share = 0.3\ncolour = \"#ff0000\"\nnormal_stiffness = 2e7\n"
     "[[mineral]]\nname = \"feldspar\"\ncolour = \"#00FF00\"\n"
     "[[mineral]]\nname = \"mica\"\narea_share = 0.1\ncolour = \"#0000ff\"\nfriction_angle = 10\ndensity = 2800\n";
-
-constexpr double odd_stiffness = 16572823.625;  // N/m; springs in series, 2kk/(k + k), miss it in the last bit
 
 class MineralRock : public ::testing::Test {
   protected:
@@ -83,7 +79,7 @@ double area_of(const Specimen& specimen, const Body& body) {
            specimen.scene.materials[static_cast<std::size_t>(body.material)].density;
 }
 
-/// Share of the area that each mineral has, counted anew; and the largest grain's.
+/// Share of the area that each mineral has, counted again; and the largest grain's.
 std::pair<std::vector<double>, double> counted_shares(const Specimen& specimen) {
     std::vector<double> shares(specimen.minerals.size(), 0.0);
     double all = 0.0, largest = 0.0;
@@ -101,7 +97,7 @@ TEST_F(MineralRock, HasWhatItsTableGivesAndTheRestOfMaterial) {
     const TestCase test = read_case(write(three_minerals));
     ASSERT_EQ(test.mineral.size(), 3u);
     EXPECT_EQ(test.mineral[1].name, "feldspar");
-    EXPECT_EQ(test.minerals.assign, "random");
+    EXPECT_EQ(test.minerals.assign, MineralAssignment::random);
     EXPECT_EQ(mineral_material(test, 0).normal_stiffness, 2e7);
     EXPECT_EQ(mineral_material(test, 0).damping_ratio, 0.2) << "[material]'s";
     EXPECT_FALSE(mineral_material(test, 1).normal_stiffness.has_value()) << "the file's";
@@ -205,8 +201,8 @@ TEST_F(MineralRock, SameSeedGivesTheSameGrainsInAnyOrderOfTheFile) {
 }
 
 TEST_F(MineralRock, NoMineralIsDrawnForPlaceOrSize) {
-    // Two halves of 1,000 cells: of 400 seeds, the share of mineral 0 in the left half and among the larger half is 0.5
-    // on average; one draw has a standard deviation of 0.5/sqrt(1000) = 0.016, the mean of 400 one of 0.0008.
+    // Two halves of 1,000 cells: over 400 seeds, the share of mineral 0 in the left half and among the larger half is
+    // 0.5 on average. One draw has a standard deviation of 0.5/sqrt(1000) = 0.016, the mean of 400 one of 0.0008.
     Scene scene = square_lattice(40, 25, 0.01, 1e-5, undamped_rock(1e7, 27.0));
     scene.materials.resize(3, scene.materials[0]);
     for (std::size_t k = 0; k < scene.circles.size(); ++k)
@@ -273,6 +269,11 @@ TEST_F(MineralRock, LabelsByNameOrNumberInTheOrderOfTheFile) {
     EXPECT_NE(refusal(minerals + three_minerals).find("found 1 labels"), std::string::npos) << "a byte order mark";
     std::filesystem::remove(scratch_ / "labels.txt");
     EXPECT_NE(refusal(minerals + three_minerals).find("minerals.labels: found no file"), std::string::npos);
+    std::ofstream(scratch_ / "labels.txt") << "1 quartz\n";
+    std::filesystem::resize_file(scratch_ / "labels.txt", most_bytes_of_table + 1);
+    EXPECT_NE(refusal(minerals + three_minerals).find("labels.txt: found more than 1073741824 bytes"),
+              std::string::npos);
+    std::filesystem::remove(scratch_ / "labels.txt");
     std::filesystem::create_directory(scratch_ / "labels.txt");
     EXPECT_NE(refusal(minerals + three_minerals).find("labels.txt: found a folder, expected a file"),
               std::string::npos);
@@ -349,6 +350,82 @@ TEST_F(MineralRock, ImagesThatDoNotFitAreRefused) {
     EXPECT_NE(refusal(minerals).find("found a transparent pixel"), std::string::npos);
 }
 
+/// Images of 4 x 3 red pixels, each with one flaw; what comes behind IHDR's name.
+struct FlawedImage {
+    std::string bytes;
+    const char* flaw;
+};
+
+std::vector<FlawedImage> flawed_images() {
+    // Octal: no letter behind an escape belongs to it.
+    const auto text = []<std::size_t N>(const char(&bytes)[N]) { return std::string(bytes, N - 1); };
+    return {
+        {text("\000\000\000\004\000\000\000\003\010\002\000\000\000\073\226\071\221\000\000\000\000\111\105\116\104\256"
+              "\102\140\202"),
+         "no chunk IDAT, hence no pixels"},
+        {text("\000\000\000\004\000\000\000\003\010\002\000\000\000\073\226\071\221\000\000\000\025\111\104\101\124\147"
+              "\141\162\142\141\147\145\147\141\162\142\141\147\145\147\141\162\142\141\147\145\177\366\030\341\000\000"
+              "\000\000\111\105\116\104\256\102\140\202"),
+         "IDAT chunks that cannot be decompressed"},
+        {text("\000\000\000\004\000\000\000\003\010\002\000\000\000\073\226\071\221\000\000\000\015\111\104\101\124\170"
+              "\234\143\370\317\300\000\101\000\021\370\002\376\343\345\357\266\000\000\000\000\111\105\116\104\256\102"
+              "\140\202"),
+         "pixels for only 0 of 3 rows"},
+        {text("\000\000\000\000\000\000\000\003\010\002\000\000\000\062\175\231\353\000\000\000\020\111\104\101\124\170"
+              "\234\143\370\317\300\000\107\014\070\071\000\365\061\013\365\065\173\373\202\000\000\000\000\111\105\116"
+              "\104\256\102\140\202"),
+         "0 x 3 pixels, outside of 1 to 32767 each"},
+        {text("\000\000\234\100\000\000\000\001\010\002\000\000\000\062\002\134\323\000\000\000\020\111\104\101\124\170"
+              "\234\143\370\317\300\000\107\014\070\071\000\365\061\013\365\065\173\373\202\000\000\000\000\111\105\116"
+              "\104\256\102\140\202"),
+         "40000 x 1 pixels, outside of 1 to 32767 each"},
+        {text("\000\000\000\004\000\000\000\003\007\002\000\000\000\271\306\256\100\000\000\000\020\111\104\101\124\170"
+              "\234\143\370\317\300\000\107\014\070\071\000\365\061\013\365\065\173\373\202\000\000\000\000\111\105\116"
+              "\104\256\102\140\202"),
+         "7 bits per channel and colour type 2"},
+        {text("\000\000\000\004\000\000\000\003\010\003\000\000\000\203\052\136\364\000\000\000\020\111\104\101\124\170"
+              "\234\143\370\317\300\000\107\014\070\071\000\365\061\013\365\065\173\373\202\000\000\000\000\111\105\116"
+              "\104\256\102\140\202"),
+         "palette colours without a chunk PLTE"},
+        {text("\000\000\000\004\000\000\000\003\010\002\000\100\000\313\357\166\224\000\000\000\020\111\104\101"
+              "\124\170\234\143\370\317\300\000\107\014\070\071\000\365\061\013\365\065\173\373\202\000\000\000"
+              "\000\111\105\116\104\256\102\140\202"),
+         "a method of compression, filtering or interlacing that PNG does not have"},
+        {text("\000\000\000\004\000\000\000\003\004\002\000\000\000\376\146\324\220\000\000\000\020\111\104\101"
+              "\124\170\234\143\370\317\300\000\107\014\070\071\000\365\061\013\365\065\173\373\202\000\000\000"
+              "\000\111\105\116\104\256\102\140\202"),
+         "4 bits per channel and colour type 2"},
+        {text("\000\000\000\004\000\000\000\003\010\002\000\000\000\073\226\071\221\000\000\000\000\101\102\103"
+              "\104\333\027\040\245\000\000\000\020\111\104\101\124\170\234\143\370\317\300\000\107\014\070\071"
+              "\000\365\061\013\365\065\173\373\202\000\000\000\000\111\105\116\104\256\102\140\202"),
+         "a defect in one of its chunks"},
+    };
+}
+
+TEST_F(MineralRock, ImagesThatAreMalformedAreToldWhy) {
+    const std::string minerals =
+        std::string("[minerals]\nassign = \"image\"\nimage = \"section.png\"\n") + three_minerals;
+    const auto refusal_of = [&](const std::string& bytes) {
+        std::ofstream(scratch_ / "section.png", std::ios::binary) << bytes;
+        return refusal(minerals);
+    };
+    const std::string head("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+    for (const FlawedImage& image : flawed_images())
+        EXPECT_NE(refusal_of(head + image.bytes).find(std::string("because it has ") + image.flaw), std::string::npos)
+            << refusal_of(head + image.bytes);
+    write_png(scratch_ / "section.png", 2, {red, green, blue, blue});
+    const std::string whole = read_file(scratch_ / "section.png");
+    EXPECT_NE(refusal_of(whole.substr(0, whole.size() - 8)).find("an end at byte"), std::string::npos);
+    EXPECT_NE(refusal_of("GIF89a").find("because it has other data"), std::string::npos);
+    std::string changed = whole;
+    changed[whole.find("IDAT") + 6] ^= 1;
+    EXPECT_NE(refusal_of(changed).find("the chunk IDAT at byte"), std::string::npos) << refusal_of(changed);
+    changed = whole;
+    changed[8] = 1;
+    EXPECT_NE(refusal_of(changed).find("a chunk of 16777229 bytes at byte 8, beyond the end"), std::string::npos);
+    EXPECT_EQ(refusal_of(changed).find("memory"), std::string::npos);
+}
+
 TEST_F(MineralRock, FileWithMaterialsOfItsOwnIsRefused) {
     const auto path = write(three_minerals);
     Scene scene = testing::small_rock_scene();
@@ -382,7 +459,7 @@ TEST_F(MineralRock, TwoMineralsOfEqualPropertiesGiveTheBytesOfOne) {
             const TestOutcome outcome = run_test(read_case(path), options);
             curves.push_back(read_file(outcome.folder / "curve.csv"));
             events.push_back(read_file(outcome.folder / "events.csv"));
-            EXPECT_EQ(outcome.summary.contains("minerals"), minerals);
+            EXPECT_EQ(outcome.summary.minerals.has_value(), minerals);
         }
         EXPECT_GT(std::ranges::count(events[0], '\n'), 5) << "breaks";
         EXPECT_EQ(curves[0], curves[1]) << mesh;
@@ -404,12 +481,12 @@ TEST_F(MineralRock, FramesAndSummaryTellTheMinerals) {
         ++compared;
     }
     EXPECT_EQ(compared, 77u);
-    const auto& minerals = outcome.summary.json().at("minerals");
+    const std::vector<MineralFigures>& minerals = *outcome.summary.minerals;
     ASSERT_EQ(minerals.size(), 3u);
-    EXPECT_EQ(minerals[0].at("name"), "quartz");
-    EXPECT_EQ(minerals[0].at("area_share"), 0.3);
-    EXPECT_EQ(minerals[2].at("grains"), rock.minerals[2].grains);
-    EXPECT_EQ(minerals[2].at("area_share_reached"), rock.minerals[2].reached);
+    EXPECT_EQ(minerals[0].name, "quartz");
+    EXPECT_EQ(minerals[0].area_share, 0.3);
+    EXPECT_EQ(minerals[2].grains, rock.minerals[2].grains);
+    EXPECT_EQ(minerals[2].area_share_reached, rock.minerals[2].reached);
 }
 
 /// Discs one above another, so that columns are springs in series: `below` rows of quartz, the others of feldspar.
@@ -458,97 +535,6 @@ TEST_F(LayeredColumn, HasTheStiffnessThatThePairTableGivesBetweenTheLayers) {
             column(fmt::format("[[mineral_pair]]\nbetween = [{}]\nnormal_stiffness = 2e6\n", names));
         EXPECT_TRUE(agrees("E of two layers", test.state.youngs_modulus, series_modulus(test.setup, 2e6), 1e-9));
     }
-}
-
-TEST(MaterialPair, OverridesStiffnessFrictionAndTheDashpotsThatHangOnIt) {
-    Scene scene = disc_chain(3, 0.02, 0.0399, undamped_rock(1e7, 30.0));
-    Material other = undamped_rock(4e7, 20.0);
-    scene.materials[0].damping_ratio = 0.1;
-    other.damping_ratio = 0.1;
-    scene.materials.push_back(other);
-    scene.bodies[1].material = 1;
-    scene.bodies[2].material = 1;
-    scene.material_pairs = {{1, 0, 5e6, 3e6, 35.0}};
-    const World world = build_world(scene);
-    const auto law = [&](int a, int b) {
-        const auto of_id = [&](int id) {
-            std::size_t body = 0;
-            while (world.bodies.info(body).id != id) ++body;
-            return static_cast<BodyIndex>(body);
-        };
-        return world.settings.laws[law_between(world, of_id(a), of_id(b))];
-    };
-    for (const auto& [a, b] : {std::pair(1, 2), std::pair(2, 1)}) {
-        EXPECT_EQ(law(a, b).normal_stiffness, 5e6);
-        EXPECT_EQ(law(a, b).shear_stiffness, 3e6);
-        EXPECT_EQ(law(a, b).friction, std::tan(35.0 * std::numbers::pi / 180.0));
-        EXPECT_EQ(law(a, b).normal_damping_ratio_term, 2.0 * 0.1 * std::sqrt(5e6));
-        EXPECT_EQ(law(a, b).shear_damping_ratio_term, 2.0 * 0.1 * std::sqrt(3e6));
-    }
-    EXPECT_EQ(law(2, 3).normal_stiffness, 4e7) << "within the other material";
-    EXPECT_EQ(law(2, 3).friction, std::tan(20.0 * std::numbers::pi / 180.0));
-}
-
-TEST(MaterialPair, OverridesTheStrengthsOfCoulombBonds) {
-    Scene scene = disc_chain(3, 0.02, 0.0399, undamped_rock(1e7, 30.0));
-    scene.bond_law = BondLaw::coulomb;
-    Material& first = scene.materials[0];
-    first.tensile_strength = 10.0, first.cohesion = 50.0, first.residual_friction_angle = 25.0;
-    Material other = first;
-    other.tensile_strength = 20.0, other.cohesion = 40.0, other.residual_friction_angle = 20.0;
-    scene.materials.push_back(other);
-    scene.bodies[1].material = 1;
-    const auto law = [&] { return build_world(scene).settings.laws[1]; };  // between the two
-    const auto tangent = [](double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); };
-    EXPECT_EQ(law().tensile_strength, 10.0) << "the weaker";
-    EXPECT_EQ(law().cohesion, 40.0);
-    EXPECT_EQ(law().friction, tangent(20.0));
-    MaterialPair pair{1, 0};
-    pair.tensile_strength = 30.0, pair.cohesion = 60.0, pair.residual_friction_angle = 28.0;
-    scene.material_pairs = {pair};
-    EXPECT_EQ(law().tensile_strength, 30.0);
-    EXPECT_EQ(law().cohesion, 60.0);
-    EXPECT_EQ(law().friction, tangent(28.0));
-    EXPECT_EQ(law().bond_friction, tangent(30.0));
-    scene.material_pairs[0].residual_friction_angle = 31.0;
-    EXPECT_NE(testing::refusal([&] { validate(scene); }).find("material pair 1: residual friction angle: found 31"),
-              std::string::npos);
-    scene.material_pairs[0] = {1, 0, {}, {}, {}, {}, -1.0};
-    EXPECT_NE(testing::refusal([&] { validate(scene); }).find("material pair 1: cohesion: found -1"),
-              std::string::npos);
-    scene.material_pairs[0] = {1, 0, {}, 0.0};
-    EXPECT_NE(testing::refusal([&] { validate(scene); }).find("shear stiffness: found 0 with coulomb bonds"),
-              std::string::npos);
-    scene.material_pairs[0] = {1, 0, {}, {}, {}, 1.0};
-    scene.bond_law = BondLaw::back_tension;
-    scene.materials[0].tensile_strength = scene.materials[0].cohesion = 0.0;
-    scene.materials[1] = scene.materials[0];
-    EXPECT_NE(testing::refusal([&] { validate(scene); }).find("expected the bond law coulomb"), std::string::npos);
-}
-
-TEST(MaterialPair, OfEqualStiffnessHasItToTheBit) {
-    Scene scene = disc_chain(2, 0.02, 0.0399, undamped_rock(odd_stiffness, 30.0, 1.0));
-    scene.materials.push_back(scene.materials[0]);
-    scene.bodies[1].material = 1;
-    const World world = build_world(scene);
-    const ContactLaw& law = world.settings.laws[law_between(world, 0, 1)];
-    EXPECT_EQ(law.normal_stiffness, odd_stiffness);
-    EXPECT_EQ(law.shear_stiffness, odd_stiffness);
-}
-
-TEST(MaterialPair, IsRefusedWhereItMakesNoSense) {
-    const auto complaint = [](const MaterialPair& pair, const MaterialPair& second = {0, 0, 1e7, {}, {}}) {
-        Scene scene = disc_chain(2, 0.02, 0.0399, undamped_rock(1e7, 30.0));
-        scene.material_pairs = {second, pair};
-        scene.materials.push_back(scene.materials[0]);
-        return testing::refusal([&] { validate(scene); });
-    };
-    EXPECT_EQ(complaint({0, 1, 1e6, {}, {}}), "accepted");
-    EXPECT_NE(complaint({0, 2, 1e6, {}, {}}).find("material pair 2: material: found 3"), std::string::npos);
-    EXPECT_NE(complaint({0, 1, 0.0, {}, {}}).find("normal stiffness: found 0"), std::string::npos);
-    EXPECT_NE(complaint({0, 1, {}, -1.0, {}}).find("shear stiffness: found -1"), std::string::npos);
-    EXPECT_NE(complaint({0, 1, {}, {}, 90.0}).find("friction angle: found 90"), std::string::npos);
-    EXPECT_NE(complaint({1, 0, 1e6, {}, {}}, {0, 1, 1e6, {}, {}}).find("a second time"), std::string::npos);
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ TEST(Specimen, IsAtRestWithoutGravityWhateverTheFileSays) {
         specimen.notices, [](const std::string& notice) { return notice.find("gravity") != std::string::npos; }));
 }
 
-/// What is said of the small rock after a change of its file.
+/// Message on the small rock after a change of its file.
 std::string refusal_after(const std::function<void(Scene&)>& change) {
     const testing::ScratchFolder folder;
     const std::filesystem::path file = testing::write_small_case(folder / "", {});
@@ -96,14 +96,14 @@ TEST(Specimen, IsRefusedWithABodyOutsideOrTwice) {
                      again.centre.x += share * again.radius;
                      rock.add_circle_body(9999, 0, again);
                  }),
-                 "and 9999 at one place");
+                 "and 9999 at the same place");
     }
     left_out(refusal_after([](Scene& rock) {
                  CircleElement within = rock.circles[2];
                  within.radius *= 0.5;
                  rock.add_circle_body(9999, 0, within);
              }),
-             "and 9999 at one place");
+             "and 9999 at the same place");
 }
 
 }  // namespace

@@ -74,10 +74,40 @@ TEST(CrackThresholds, OfNoisyStrainsAreWhereTheyLeaveTheNoise) {
     EXPECT_GT(found.crack_strain, begin);
 }
 
+/// Rows alternate by ±a between a tenth and a quarter of the peak, and are exact otherwise. Of the 250 quiet rows 150
+/// scatter, by a sqrt(150/249) as a deviation, and the opening leaves three of these at sqrt(3 deviations/k).
+TEST(CrackThresholds, NoiseIsThatOfTheRowsUpToAQuarterOfThePeak) {
+    constexpr double a = 2e-6;
+    std::vector<CurveRow> rows = cracking_curve();
+    for (std::size_t n = 100; n < 250; ++n) rows[n].lateral_strain += n % 2 == 0 ? a : -a;
+    const double k = (1.0 - ratio) / (2.0 * modulus * (join - begin)), deviation = a * std::sqrt(150.0 / 249.0);
+    EXPECT_TRUE(
+        within("crack strain, Pa", of(rows).crack_strain, begin + std::sqrt(3.0 * deviation / k), 2.0 * spacing));
+}
+
+TEST(CrackThresholds, NoiseIsNotKnownOfFewerThanTenRows) {
+    for (const auto& [stride, known] : {std::pair{20, true}, {40, false}}) {  // 13 and 7 rows below a quarter
+        std::vector<CurveRow> few;
+        const std::vector<CurveRow> rows = cracking_curve();
+        for (std::size_t n = 0; n <= rows_to_peak; n += static_cast<std::size_t>(stride)) few.push_back(rows[n]);
+        const CrackThresholds found =
+            find_crack_thresholds(few, static_cast<std::int64_t>(few.size()) - 1, modulus, ratio);
+        EXPECT_EQ(std::isfinite(found.crack_strain), known) << stride;
+        EXPECT_TRUE(std::isfinite(found.damage));
+    }
+}
+
 TEST(CrackThresholds, DropsOnTheWayDoNotCountTwice) {
     std::vector<CurveRow> rows = cracking_curve();
     for (int n = 600; n < 620; ++n) rows[static_cast<std::size_t>(n)].axial_stress *= 0.7;
     EXPECT_TRUE(within("break of the count, Pa", of(rows).count_break, begin, 0.8 * peak / 100.0));
+}
+
+// Near the peak cracks join, and their count rises far steeper than where they begin.
+TEST(CrackThresholds, BreaksBeyondFourFifthsOfThePeakDoNotMoveTheBreakOfTheCount) {
+    std::vector<CurveRow> rows = cracking_curve();
+    for (std::size_t n = 850; n < rows.size(); ++n) rows[n].bonds_broken += 100 * static_cast<int>(n - 850);
+    EXPECT_TRUE(within("break of the count, Pa", of(rows).count_break, begin, 0.8 * peak / 200.0));
 }
 
 TEST(CrackThresholds, ThatCannotBeReadAreNotNumbers) {

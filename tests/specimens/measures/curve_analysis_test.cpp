@@ -92,6 +92,18 @@ TEST(Moduli, BeyondThePeakAreOfTheFall) {
     EXPECT_TRUE(std::isnan(tangent_beyond_peak(drops_at_once, 200, true).modulus)) << "one row only";
 }
 
+// To nine tenths of the peak it falls by 2 GPa, and then by 10 GPa.
+TEST(Moduli, BeyondThePeakAreOfTheFallFromNineTenths) {
+    std::vector<CurveRow> curve;
+    for (int k = 0; k <= 300; ++k) {
+        CurveRow row;
+        row.axial_strain = 1e-6 * k;
+        row.axial_stress = k <= 200 ? 5e3 * k : k <= 250 ? 1e6 - 2e3 * (k - 200) : 0.9e6 - 10e3 * (k - 250);
+        curve.push_back(row);
+    }
+    EXPECT_TRUE(agrees("modulus beyond the peak", tangent_beyond_peak(curve, 200, true).modulus, -10e9, 1e-9));
+}
+
 TEST(AreaStrain, IsShorteningLessWidening) {
     CurveRow row;
     row.axial_strain = 3e-3;

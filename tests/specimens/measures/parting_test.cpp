@@ -49,25 +49,25 @@ TEST(Parting, IsOfTheLargestCrackWhichIsBrokenBondsThatShareParticles) {
     const std::optional<Parting> parting = find_parting(chain(0.1), broken({0, 3, 8, 4}));
     ASSERT_TRUE(parting);
     EXPECT_EQ(parting->bonds, 2);
-    EXPECT_EQ(parting->place, "gauge");
+    EXPECT_EQ(parting->place, PartingPlace::gauge);
     EXPECT_NEAR(parting->height, 0.45, 1e-12);  // of 0.40 and 0.50
 }
 
 TEST(Parting, WithinTheDepthOfAGripIsTheGrips) {
-    EXPECT_EQ(find_parting(chain(0.15), broken({0}))->place, "grip");  // at 0.10
-    EXPECT_EQ(find_parting(chain(0.15), broken({8}))->place, "grip");  // at 0.90
-    EXPECT_EQ(find_parting(chain(0.05), broken({0}))->place, "gauge");
+    EXPECT_EQ(find_parting(chain(0.15), broken({0}))->place, PartingPlace::grip);  // at 0.10
+    EXPECT_EQ(find_parting(chain(0.15), broken({8}))->place, PartingPlace::grip);  // at 0.90
+    EXPECT_EQ(find_parting(chain(0.05), broken({0}))->place, PartingPlace::gauge);
 }
 
 TEST(Parting, HalfOfWhoseBondsAreAPlatensIsThePlatens) {
     // Both bonds of the lower platen and one between particles, 1 and 2: two of three.
     const Parting parting = *find_parting(chain(0.1), broken({9, 10, 1}));
-    EXPECT_EQ(parting.place, "platen");
+    EXPECT_EQ(parting.place, PartingPlace::platen);
     EXPECT_EQ(parting.bonds, 3);
     EXPECT_EQ(parting.of_platen, 2);
     EXPECT_NEAR(parting.height, (0.05 + 0.15 + 0.20) / 3.0, 1e-12);
-    EXPECT_EQ(find_parting(chain(0.0), broken({11, 8}))->place, "platen") << "half";
-    EXPECT_EQ(find_parting(chain(0.0), broken({11, 8, 7}))->place, "gauge") << "a third";
+    EXPECT_EQ(find_parting(chain(0.0), broken({11, 8}))->place, PartingPlace::platen) << "half";
+    EXPECT_EQ(find_parting(chain(0.0), broken({11, 8, 7}))->place, PartingPlace::gauge) << "a third";
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "specimens/measures/shear_box.hpp"
 #include "tests/support/claim.hpp"
@@ -20,10 +21,10 @@ using testing::within;
 /// Particles on a grid of spacing 1, and cracks between neighbours of it.
 class Cracked {
   public:
-    Cracked(const std::string& kind, int columns, int rows) : columns_(columns) {
+    Cracked(LoadingKind kind, int columns, int rows) : columns_(columns) {
         setup.kind = kind;
-        setup.uniaxial = kind == "compression" || kind == "tension";
-        setup.compression = kind != "tension" && kind != "direct_shear";
+        setup.uniaxial = kind == LoadingKind::compression || kind == LoadingKind::tension;
+        setup.compression = kind != LoadingKind::tension && kind != LoadingKind::direct_shear;
         setup.width = columns;
         setup.height = rows;
         setup.area = columns * rows;
@@ -73,14 +74,14 @@ class Cracked {
 };
 
 TEST(Verdicts, DiscThatSplitsAlongItsLoadIsValid) {
-    Cracked disc("brazilian", 21, 21);
+    Cracked disc(LoadingKind::brazilian, 21, 21);
     disc.split(10, 3, 17);
     for (const Verdict& verdict : disc.verdicts())
         EXPECT_EQ(verdict.holds, true) << verdict.claim << ": " << verdict.found;
 }
 
 TEST(Verdicts, DiscThatIsCrushedAtBothJawsIsNot) {
-    Cracked disc("brazilian", 21, 21);
+    Cracked disc(LoadingKind::brazilian, 21, 21);
     disc.split(10, 0, 2);  // whose mean place is the centre
     disc.split(10, 18, 20);
     for (const Verdict& verdict : disc.verdicts())
@@ -88,7 +89,7 @@ TEST(Verdicts, DiscThatIsCrushedAtBothJawsIsNot) {
 }
 
 TEST(Verdicts, BreaksAfterTheFirstDropDoNotCountAgainstADisc) {
-    Cracked disc("brazilian", 21, 21);
+    Cracked disc(LoadingKind::brazilian, 21, 21);
     disc.break_between(disc.at(10, 10), disc.at(11, 10), 1.0);
     disc.break_between(disc.at(10, 0), disc.at(11, 0), 2.5, 1000.0);
     const auto verdicts = disc.verdicts();
@@ -97,7 +98,7 @@ TEST(Verdicts, BreaksAfterTheFirstDropDoNotCountAgainstADisc) {
 }
 
 TEST(Verdicts, SlantedCrackOfADiscIsNotASplit) {
-    Cracked disc("brazilian", 21, 21);
+    Cracked disc(LoadingKind::brazilian, 21, 21);
     for (int k = 4; k < 16; ++k) {
         disc.break_between(disc.at(k, k), disc.at(k + 1, k));
         disc.break_between(disc.at(k + 1, k), disc.at(k + 1, k + 1));
@@ -107,15 +108,46 @@ TEST(Verdicts, SlantedCrackOfADiscIsNotASplit) {
 }
 
 TEST(Verdicts, BeamBreaksAtMidspanOrNot) {
-    Cracked middle("bending", 81, 21), end("bending", 81, 21);
+    Cracked middle(LoadingKind::bending, 81, 21), end(LoadingKind::bending, 81, 21);
     middle.split(40, 0, 15);
     end.split(70, 0, 15);
     EXPECT_EQ(middle.verdicts()[0].holds, true) << middle.verdicts()[0].found;
     EXPECT_EQ(end.verdicts()[0].holds, false) << end.verdicts()[0].found;
 }
 
+TEST(Verdicts, ACrackAtThirtyDegreesIsNoSplitAndOneAtTenIs) {
+    for (const auto& [rise, valid] :
+         {std::pair{std::tan(std::numbers::pi / 6.0), false}, {std::tan(std::numbers::pi / 18.0), true}}) {
+        Cracked disc(LoadingKind::brazilian, 21, 21);
+        const auto column = [&](int row) { return static_cast<int>(std::lround(10.0 + rise * (row - 10))); };
+        for (int row = 3; row <= 17; ++row) {
+            const int at = column(row);
+            disc.break_between(disc.at(at, row), disc.at(at + 1, row));
+            if (row < 17 && column(row + 1) != at) disc.break_between(disc.at(at + 1, row), disc.at(at + 1, row + 1));
+        }
+        const Verdict split = disc.verdicts()[2];
+        EXPECT_EQ(split.holds, valid) << split.found;
+    }
+}
+
+TEST(Verdicts, MidspanIsAQuarterOfTheHeightToEitherSide) {
+    Cracked near(LoadingKind::bending, 81, 21), far(LoadingKind::bending, 81, 21);
+    near.split(44, 0, 15);  // 4.5 from the middle, of 5.25
+    far.split(47, 0, 15);   // 7.5
+    EXPECT_EQ(near.verdicts()[0].holds, true) << near.verdicts()[0].found;
+    EXPECT_EQ(far.verdicts()[0].holds, false) << far.verdicts()[0].found;
+}
+
+TEST(Verdicts, ACrackSpansHalfOfWhatTheNotchHasLeft) {
+    Cracked beam(LoadingKind::bending, 81, 21);
+    beam.split(40, 12, 18);  // 6 of a height of 21
+    EXPECT_EQ(beam.verdicts()[0].holds, false) << beam.verdicts()[0].found;
+    beam.setup.notch = 11.0;  // of the 10 left
+    EXPECT_EQ(beam.verdicts()[0].holds, true) << beam.verdicts()[0].found;
+}
+
 TEST(Verdicts, BoxShearsAlongItsGapOrNot) {
-    Cracked along("direct_shear", 41, 21), across("direct_shear", 41, 21);
+    Cracked along(LoadingKind::direct_shear, 41, 21), across(LoadingKind::direct_shear, 41, 21);
     for (int k = 0; k < 40; ++k) along.break_between(along.at(k, 10), along.at(k, 11));
     for (int k = 0; k < 20; ++k) across.break_between(across.at(k, k), across.at(k + 1, k));
     EXPECT_EQ(along.verdicts()[0].holds, true) << along.verdicts()[0].found;
@@ -123,14 +155,14 @@ TEST(Verdicts, BoxShearsAlongItsGapOrNot) {
 }
 
 TEST(Verdicts, SpecimenBetweenPlatensIsWideEnoughAndPartsInTheMiddleOrNot) {
-    Cracked good("tension", 20, 40), bad("tension", 10, 40);
+    Cracked good(LoadingKind::tension, 20, 40), bad(LoadingKind::tension, 10, 40);
     good.break_between(good.at(5, 20), good.at(5, 21));
     bad.break_between(bad.at(5, 0), bad.setup.bottom);
     for (const Verdict& verdict : good.verdicts())
         EXPECT_EQ(verdict.holds, true) << verdict.claim << ": " << verdict.found;
     for (const Verdict& verdict : bad.verdicts())
         EXPECT_EQ(verdict.holds, false) << verdict.claim << ": " << verdict.found;
-    EXPECT_FALSE(Cracked("tension", 20, 40).verdicts()[1].holds.has_value());
+    EXPECT_FALSE(Cracked(LoadingKind::tension, 20, 40).verdicts()[1].holds.has_value());
 }
 
 TEST(Verdicts, EachClaimThatDoesNotHoldHasASentence) {
@@ -139,7 +171,8 @@ TEST(Verdicts, EachClaimThatDoesNotHoldHasASentence) {
     EXPECT_EQ(broken_claim("the moon is round", "a cube"), "it does not hold that the moon is round: a cube")
         << "of another version's summary";
     std::size_t claims = 0;
-    for (const char* kind : {"compression", "tension", "brazilian", "bending", "direct_shear"}) {
+    for (const LoadingKind kind : {LoadingKind::compression, LoadingKind::tension, LoadingKind::brazilian,
+                                   LoadingKind::bending, LoadingKind::direct_shear}) {
         for (const Verdict& verdict : Cracked(kind, 21, 21).verdicts()) {
             const std::string sentence = broken_claim(verdict.claim, "<found>");
             EXPECT_EQ(sentence.find("it does not hold"), std::string::npos) << sentence;
@@ -162,6 +195,9 @@ TEST(ShearBox, ResidualAndDilationAreThoseOfTheCurve) {
     const ShearBoxFigures figures = measure_shear_box(rows, 50, true, height, length);
     EXPECT_TRUE(agrees("residual stress", figures.residual, 3.0, 1e-12));
     EXPECT_TRUE(agrees("dilation angle", figures.dilation_at_peak, 12.0, 1e-9));
+    for (std::size_t k = 80; k < 90; ++k) rows[k].axial_stress = 5.0;
+    EXPECT_TRUE(agrees("of the last tenth of the strain alone",
+                       measure_shear_box(rows, 50, true, height, length).residual, 3.0, 1e-12));
     EXPECT_TRUE(std::isnan(measure_shear_box(rows, 50, false, height, length).residual));
     EXPECT_TRUE(std::isnan(measure_shear_box({}, -1, true, height, length).dilation_at_peak));
 }

@@ -52,14 +52,14 @@ class PastOfRock : public ::testing::Test {
     PolyData contacts(const VirtualTest& test, const Frame& frame) const {
         const PlacedFrame placed(test.world, test.setup, frame);
         write([&](std::ostream& out) {
-            FramePainter(test.world, test.setup, PointPrecision::single_)
+            FramePainter(test.world, test.setup, FramePrecision::single_)
                 .write_contacts(out, placed, find_forces(placed), std::span(test.state.history.cracks));
         });
         return read_polydata(scratch_ / "frame.vtp");
     }
     PolyData cracks(const VirtualTest& test, const Frame& frame) const {
         write([&](std::ostream& out) {
-            FramePainter(test.world, test.setup, PointPrecision::single_)
+            FramePainter(test.world, test.setup, FramePrecision::single_)
                 .write_cracks(out, PlacedFrame(test.world, test.setup, frame),
                               std::span(test.state.history.cracks).first(frame.cracks));
         });
@@ -218,7 +218,7 @@ TEST_F(PastOfRock, CracksAreTheEvents) {
     }
 }
 
-/// Of a bond whose points have not moved yet, from i to j.
+/// Normal of a bond whose points have not moved yet, from i to j.
 Vec2 normal_at_start(const VirtualTest& test, PointIndex bond) {
     for (PointIndex k = 0; k < test.world.points.size(); ++k) {
         const ContactPoint point = test.world.points.contact[k], wanted = test.setup.bonds[bond];

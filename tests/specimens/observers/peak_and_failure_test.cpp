@@ -68,7 +68,7 @@ std::int64_t failing_row(FailureTracker& tracker, const std::vector<double>& str
     return -1;
 }
 
-/// The same to the end of the rows. @return row at which the peak is known, -1 if it is not
+/// Feeds all rows to the tracker. @return row at which the peak is known, -1 if it is not
 std::int64_t known_row(FailureTracker& tracker, const std::vector<double>& stress) {
     std::int64_t known = -1;
     for (std::size_t row = 0; row < stress.size(); ++row) {
@@ -78,7 +78,7 @@ std::int64_t known_row(FailureTracker& tracker, const std::vector<double>& stres
     return known;
 }
 
-/// The beginning, then `value` so many times.
+/// The beginning, then `value` `times` times.
 std::vector<double> then(std::vector<double> stress, double value, int times) {
     stress.insert(stress.end(), static_cast<std::size_t>(times), value);
     return stress;

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <random>
 #include <sstream>
 #include <vector>
 
@@ -292,6 +293,17 @@ TEST(Packing, LargeOnesMoveAgainstADragToTheSameEquilibriumAndBytesForAnyNumberO
     EXPECT_TRUE(bytes_of(make_packing(request).scene) == bytes_of(packing.scene));
 }
 
+// A progress hook may stop the packing: a pass over twenty million circles takes seconds.
+TEST(Packing, LargeOnesReportAfterEachFewPasses) {
+    std::mt19937_64 generator(1);
+    std::vector<Disc> discs(300'000);
+    for (Disc& disc : discs) disc = {uniform_number(generator), uniform_number(generator), 1e-3};
+    DiscAssembly assembly(1.0, 1.0, std::move(discs), 1);
+    int reports = 0;
+    relax(assembly, {}, 0.0, 10, [&](double) { ++reports; });
+    EXPECT_EQ(reports, 4);
+}
+
 TEST(Packing, DeckHoldsTheCirclesNumberedFromOneAtRest) {
     const Packing packing = make_packing(guide_rock(4));
     const testing::ScratchFolder folder;
@@ -460,6 +472,46 @@ TEST(Packing, RefusesRequestsThatContradictThemselves) {
     EXPECT_NE(complaint([](auto& r) { r.sizes = UniformRadii{0.02, 0.01}; }).find("radius_max"), std::string::npos);
     EXPECT_NE(complaint([](auto& r) { r.sizes = UniformRadii{-0.02, 0.01}; }).find("radius_min"), std::string::npos);
     EXPECT_NE(complaint([](auto& r) { r.material.density = -1.0; }).find("density"), std::string::npos);
+}
+
+/// Two circles that overlap by 2 mm, each within a side wall by 1 mm, and one within the floor by 4 mm.
+TEST(PackingReport, OfThreeCirclesIsThatByHand) {
+    Scene scene;
+    scene.materials = {rock()};
+    scene.domain = {0.0, 0.116, 0.0, 0.3, {true, true, true, true}};
+    const Vec2 centres[] = {{0.029, 0.2}, {0.087, 0.2}, {0.058, 0.026}};
+    int id = 0;
+    for (const Vec2 centre : centres) scene.add_circle_body(++id, 0, {centre, 0.03, 0.0});
+    const PackingReport report = measure_packing(scene, UniformRadii{0.03, 0.03});
+    const double stiffness = scene.materials[0].normal_stiffness;
+    EXPECT_EQ(report.circle_contacts, 1);
+    EXPECT_NEAR(report.coordination, 2.0 / 3.0, 1e-15);
+    EXPECT_NEAR(report.coordination_of_carrying, (2.0 + 3.0) / 3.0, 1e-15);
+    // Mean of four contacts; without the side walls 3 mm.
+    EXPECT_NEAR(report.mean_contact_force / stiffness, 0.25 * (2e-3 + 2 * 1e-3 + 4e-3), 1e-12);
+    EXPECT_NEAR(report.mean_overlap, 3e-3, 1e-12);
+    EXPECT_NEAR(report.stress_x / stiffness, 1e-3 / 0.3, 1e-12);
+    EXPECT_NEAR(report.stress_y / stiffness, 0.5 * 4e-3 / 0.116, 1e-12);
+}
+
+TEST(PackingReport, TellsOfABoxThatIsWiderOrNarrowerThanAsked) {
+    for (const double error : {-0.002, 0.002}) {
+        PackingReport report;
+        report.aspect_error = error;
+        report.radius_scale = 1.0;
+        const auto notices = packing_notices(report);
+        ASSERT_EQ(notices.size(), 1U) << error;
+        const char* const expected =
+            error < 0.0 ? "differs from the requested one by -0.2 %" : "differs from the requested one by 0.2 %";
+        EXPECT_NE(notices[0].find(expected), std::string::npos) << notices[0];
+    }
+}
+
+TEST(SizeDistribution, DistanceOfAFewSizesIsThatByHand) {
+    // The shares 0 to 1 over 0 to 1: at 0.5 all are below, and half should be.
+    EXPECT_NEAR(kolmogorov_distance(UniformRadii{1.0, 2.0}, {1.25, 1.5}), 0.5, 1e-12);
+    EXPECT_NEAR(kolmogorov_distance(UniformRadii{1.0, 2.0}, {1.5, 1.75}), 0.5, 1e-12);
+    EXPECT_NEAR(kolmogorov_distance(UniformRadii{1.0, 2.0}, {1.25, 1.75}), 0.25, 1e-12);
 }
 
 TEST(PackingReport, ACircleThatTouchesAWallAloneDoesNotFloat) {

@@ -14,15 +14,18 @@
 #include <set>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/system_failure.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/frames/frame.hpp"
 #include "specimens/frames/read_frames.hpp"
 #include "specimens/loading/run.hpp"
 #include "specimens/recordings/recording.hpp"
 #include "specimens/results/output_folder.hpp"
+#include "specimens/summary/summary_file.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/folder_contents.hpp"
+#include "tests/support/little_room.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/small_rock.hpp"
 
@@ -112,18 +115,18 @@ class TestFolder : public ::testing::Test {
         TestOptions straight = options("straight"), broken = options("broken");
         straight.force = broken.force = true;
         const TestOutcome whole = run_test(test, straight);
-        EXPECT_GT(whole.summary.json()["bonds_broken"].get<int>(), 0);
+        EXPECT_GT(*whole.summary.damage.bonds_broken, 0);
 
         TestOutcome outcome = run_test(test, broken, stopping_at(1));
         int interrupts = 0;
         while (outcome.interrupted) {
             ++interrupts;
-            EXPECT_EQ(outcome.summary.json()["ended_by"], "interrupt");
+            EXPECT_EQ(outcome.summary.about.ended_by, "interrupt");
             broken.folder = outcome.folder;
             outcome = resume_test(broken, stopping_at(1 + longer * interrupts));
         }
         fmt::print("  {}: {} interrupts in {} steps, {} bonds broken\n", what, interrupts,
-                   whole.summary.json()["steps"].get<int>(), whole.summary.json()["bonds_broken"].get<int>());
+                   *whole.summary.numerics.steps, *whole.summary.damage.bonds_broken);
         EXPECT_GE(interrupts, 5);
         expect_same(contents(outcome.folder), contents(scratch_ / "straight"), what);
         fs::remove_all(outcome.folder);
@@ -137,13 +140,13 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
     const TestOutcome outcome = run_test(small_case(), options("out"));
     const Recording recording = read_test_recording(scratch_ / "out", 3);
     const TestResults& results = recording.results;
-    EXPECT_TRUE(results.summary.json()["failed"].get<bool>());
+    EXPECT_TRUE(*results.summary.about.failed);
     ASSERT_EQ(recording.frames.size(), 3u);
     std::vector<std::string> roles;
     for (const FrameHead& head : recording.frames) roles.insert(roles.end(), head.roles.begin(), head.roles.end());
     EXPECT_EQ(roles, (std::vector<std::string>{"start", "peak", "end"}));
     EXPECT_EQ(recording.cells.size(), 79u) << "77 discs and two platens";
-    EXPECT_EQ(recording.bonds.size(), results.summary.json()["bonds_initial"].get<std::size_t>());
+    EXPECT_EQ(recording.bonds.size(), static_cast<std::size_t>(*results.summary.specimen.bonds_initial));
     for (const RecordedBond& bond : recording.bonds) {
         const auto gap = [&](std::int32_t cell) {
             const RecordedCell& disc = recording.cells[static_cast<std::size_t>(cell)];
@@ -153,18 +156,20 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
     }
     const std::string curve = read_file(scratch_ / "out/curve.csv");
     EXPECT_EQ(static_cast<std::ptrdiff_t>(results.curve.rows()), std::count(curve.begin(), curve.end(), '\n') - 1);
-    EXPECT_EQ(results.events.rows(), results.summary.json()["bonds_broken"].get<std::size_t>());
+    EXPECT_EQ(results.events.rows(), static_cast<std::size_t>(*results.summary.damage.bonds_broken));
     const std::vector<double>& stress = *results.curve.find("axial_stress");
-    EXPECT_EQ(*std::max_element(stress.begin(), stress.end()), results.summary.json()["largest_stress"].get<double>())
+    EXPECT_EQ(*std::max_element(stress.begin(), stress.end()), *results.summary.strength.largest_stress)
         << "the same number in both files";
     const std::vector<double>& ids = *results.events.find("body_i");
     EXPECT_GT(*std::min_element(ids.begin(), ids.end()), 100.0) << "ids of the input";
     // Figures and their presence: tests/recount.
-    EXPECT_EQ(outcome.summary.json()["title"], "case");
-    EXPECT_EQ(outcome.summary.json()["command"], options("out").command);
+    EXPECT_EQ(outcome.summary.about.title, "case");
+    EXPECT_EQ(outcome.summary.run.command, options("out").command);
     const std::string text = read_file(scratch_ / "out/case.toml");
-    EXPECT_NE(text.find("crackle " + outcome.summary.json()["version"].get<std::string>()), std::string::npos) << text;
-    EXPECT_EQ(outcome.summary.json()["columns"].size(), results.curve.columns.size());
+    EXPECT_NE(text.find("crackle " + *outcome.summary.run.version), std::string::npos) << text;
+    std::vector<std::string> columns;
+    for (const auto& [name, unit] : *outcome.summary.columns) columns.push_back(name);
+    EXPECT_EQ(columns, results.curve.names) << "each column of the curve has its unit, in their order";
     EXPECT_NE(
         curve.find("axial_strain,axial_stress,stress_top,stress_bottom,lateral_strain,bonds_broken,kinetic_energy,"
                    "strain_energy,time,"
@@ -201,12 +206,12 @@ TEST_F(TestFolder, EndsBeforeFailureWithAPeakSoFar) {
     SmallCase wanted;
     wanted.max_strain = 2e-4;
     const TestOutcome outcome = run_test(small_case(wanted), options("out"));
-    EXPECT_FALSE(outcome.summary.json()["failed"].get<bool>());
+    EXPECT_FALSE(*outcome.summary.about.failed);
     const TestResults results = read_test_recording(scratch_ / "out", 3).results;
     const std::vector<double>& stress = *results.curve.find("axial_stress");
-    EXPECT_EQ(outcome.summary.json()["peak_stress_so_far"].get<double>(), *std::ranges::max_element(stress));
-    EXPECT_FALSE(outcome.summary.json().contains("peak_stress"));
-    EXPECT_EQ(outcome.summary.json()["ended_by"], "max_axial_strain");
+    EXPECT_EQ(*outcome.summary.strength.peak_stress_so_far, *std::ranges::max_element(stress));
+    EXPECT_FALSE(outcome.summary.strength.peak_stress.stated());
+    EXPECT_EQ(outcome.summary.about.ended_by, "max_axial_strain");
 }
 
 TEST_F(TestFolder, ResolvedCaseRunsToTheSameCurve) {
@@ -226,7 +231,7 @@ TEST_F(TestFolder, HasTheSameBytesForAnyNumberOfThreads) {
         TestOptions single = options("one");
         single.force = true;
         const TestOutcome first = run_test(test, single);
-        EXPECT_GT(first.summary.json()["bonds_broken"].get<int>(), 0);
+        EXPECT_GT(*first.summary.damage.bonds_broken, 0);
         const auto one = contents(scratch_ / "one");
         for (const int threads : {2, 3, 7}) {
             TestOptions several = options("several");
@@ -273,7 +278,7 @@ TEST_F(TestFolder, ResumedKnowsHowOldItsContactsAre) {
     TestOutcome outcome = run_test(test, options("broken"), stopping_at(2));
     std::set<double> interrupts;  // s
     while (outcome.interrupted) {
-        interrupts.insert(outcome.summary.json()["simulated_time"].get<double>());
+        interrupts.insert(*outcome.summary.numerics.simulated_time);
         outcome = resume_test(options("broken"), stopping_at(4));
     }
     expect_same(contents(scratch_ / "broken"), contents(scratch_ / "straight"), "resumed");
@@ -296,7 +301,7 @@ TEST_F(TestFolder, ResumingTakesAwayWhatCameAfterTheCheckpoint) {
     const TestCase test = small_case();
     run_test(test, options("straight"));
     run_test(test, options("broken"), stopping_at(4));
-    // As after a kill: the files have grown beyond the checkpoint.
+    // The files have grown beyond the checkpoint, as after a kill.
     std::ofstream(scratch_ / "broken/curve.csv", std::ios::app) << "1,2,3\n";
     std::ofstream(scratch_ / "broken/events.csv", std::ios::app) << "1,2,3\n";
     for (const char* picture : {"particles_99999.vtp", "contacts_99999.vtp", "cracks_99999.vtp"})
@@ -329,7 +334,7 @@ TEST_F(TestFolder, ResumingRefusesWhatDoesNotFit) {
     refused("found other data");
     put(checkpoint);
     std::ofstream(scratch_ / "out/case.toml", std::ios::app) << "# edited\n";
-    refused("found another case than the one the checkpoint belongs to");
+    refused("found a case that differs from the one of the checkpoint");
     fs::remove(scratch_ / "out/checkpoint");
     refused("found no checkpoint");
 }
@@ -351,18 +356,109 @@ TEST_F(TestFolder, KeepsEarlierResultsUntilNewOnesAreComplete) {
     EXPECT_EQ(stopped.folder, scratch_ / "out.new");
     expect_same(contents(scratch_ / "out"), earlier, "after an interrupt");
 
-    run_test(small_case(wanted), forced);
+    EXPECT_NE(refusal([&] {
+                  run_test(small_case(wanted), forced);
+              }).find("go on with `crackle test --resume " + (scratch_ / "out.new").string() + "`"),
+              std::string::npos);
+    expect_same(contents(scratch_ / "out"), earlier, "beside an unfinished test");
+    forced.begins_again = true;
+    EXPECT_TRUE(run_test(small_case(wanted), forced, stopping_at(3)).interrupted);
+    // Resumed, and stopped again: still beside the earlier ones.
+    const TestOutcome again = resume_test(options("out.new"), stopping_at(3));
+    EXPECT_TRUE(again.interrupted);
+    EXPECT_EQ(again.folder, scratch_ / "out.new");
+    expect_same(contents(scratch_ / "out"), earlier, "after an interrupt of the resumed one");
+
+    const TestOutcome resumed = resume_test(options("out.new/"));
+    EXPECT_FALSE(resumed.interrupted);
+    EXPECT_EQ(resumed.folder, scratch_ / "out");
     EXPECT_FALSE(fs::exists(scratch_ / "out.new"));
-    EXPECT_NE(contents(scratch_ / "out")["case.toml"], earlier.at("case.toml")) << "replaced";
-    EXPECT_EQ(read_file(scratch_ / "out/notes.txt"), "mine\n") << "what is not ours stays";
+    auto now = contents(scratch_ / "out");
+    EXPECT_EQ(now.erase("notes.txt"), 1U) << "what is not ours stays";
+    TestOptions whole = options("whole");
+    run_test(small_case(wanted), whole);
+    expect_same(now, contents(scratch_ / "whole"), "resumed in the place of the earlier ones");
+}
+
+TEST_F(TestFolder, OfAForcedTestThatOnlyHasToTakeItsPlaceDoesSo) {
+    run_test(small_case(), options("out"));
+    SmallCase wanted;
+    wanted.max_strain = 4e-3;
+    run_test(small_case(wanted), options("whole"));
+    const auto whole = contents(scratch_ / "whole");
+    for (const bool earlier_there : {true, false}) {
+        fs::copy(scratch_ / "whole", scratch_ / "out.new", fs::copy_options::recursive);
+        std::ofstream(scratch_ / "out.new/replaces-older-results") << "";
+        if (!earlier_there) fs::remove_all(scratch_ / "out");
+        const TestOutcome outcome = resume_test(options("out.new"));
+        EXPECT_EQ(outcome.folder, scratch_ / "out");
+        EXPECT_FALSE(fs::exists(scratch_ / "out.new"));
+        expect_same(contents(scratch_ / "out"), whole, "moved");
+    }
+    fs::rename(scratch_ / "out", scratch_ / "out.new");
+    std::ofstream(scratch_ / "out.new/replaces-older-results") << "";
+    fs::create_directories(scratch_ / "out");
+    std::ofstream(scratch_ / "out/curve.csv") << "mine\n";
+    EXPECT_NE(refusal([&] { resume_test(options("out.new")); }).find("out: found curve.csv, expected results"),
+              std::string::npos);
+    EXPECT_EQ(read_file(scratch_ / "out/curve.csv"), "mine\n");
+}
+
+TEST_F(TestFolder, ThatHoldsFilesWithoutAMarkOfATestIsRefusedAndNamesOne) {
+    TestOptions mine = options("mine");
+    mine.force = true;
+    for (const char* name : {"notes.txt", "curve.csv", "summary.json", "checkpoint", "case.toml", "frames/x.png"}) {
+        fs::create_directories((scratch_ / "mine" / name).parent_path());
+        std::ofstream(scratch_ / "mine" / name) << "{}\n";  // contents() reads summary.json
+        const auto before = contents(scratch_ / "mine");
+        const std::string first = fs::path(name).begin()->string();
+        for (const bool force : {false, true}) {
+            mine.force = force;
+            EXPECT_NE(refusal([&] { run_test(small_case(), mine); }).find("mine: found " + first + ", expected a new"),
+                      std::string::npos)
+                << name;
+        }
+        expect_same(contents(scratch_ / "mine"), before, name);
+        fs::remove_all(scratch_ / "mine");
+    }
+    fs::create_directories(scratch_ / "mine");
+    std::ofstream(scratch_ / "mine/0123456789abcdef.crackle_tmp") << "half";
+    EXPECT_FALSE(run_test(small_case(), mine).interrupted) << "of a test that was stopped at once";
+    EXPECT_FALSE(fs::exists(scratch_ / "mine/0123456789abcdef.crackle_tmp"));
+}
+
+TEST_F(TestFolder, KeepsNotesAndFiguresOfTheUserWhateverIsForced) {
+    run_test(small_case(), options("out"));
+    fs::create_directories(scratch_ / "out/figures");
+    for (const char* name : {"notes.txt", "figures/curve.pdf", "report.html", "frames/view.pvsm"})
+        std::ofstream(scratch_ / "out" / name) << "mine\n";
+    TestOptions forced = options("out");
+    forced.force = true;
+    run_test(small_case(), forced);
+    for (const char* name : {"notes.txt", "figures/curve.pdf", "report.html", "frames/view.pvsm"})
+        EXPECT_EQ(read_file(scratch_ / "out" / name), "mine\n");
+}
+
+TEST_F(TestFolder, WritesThroughNoLinkThatAStrangerHasPutThere) {
+    std::ofstream(scratch_ / "stranger") << "mine\n";
+    run_test(small_case(), options("out"));
+    for (const char* name : {"summary.json", "curve.csv", "case.toml"}) {
+        const fs::path link = scratch_ / "out" / (std::string(name) + ".tmp");
+        fs::create_symlink(scratch_ / "stranger", link);
+    }
+    fs::create_directories(scratch_ / "out.new");
+    TestOptions forced = options("out");
+    forced.force = true;
+    run_test(small_case(), forced);
+    EXPECT_EQ(read_file(scratch_ / "stranger"), "mine\n");
 }
 
 TEST_F(TestFolder, PeakAndFailureDoNotDependOnTheRowsWritten) {
     SmallCase wanted;
     wanted.output = "curve_rows = 10\nframes = 5";
-    const auto few = run_test(small_case(wanted), options("few")).summary.json();
+    const auto few = json_of(run_test(small_case(wanted), options("few")).summary);
     wanted.output = "curve_rows = 2000\nframes = 5";
-    const auto many = run_test(small_case(wanted), options("many")).summary.json();
+    const auto many = json_of(run_test(small_case(wanted), options("many")).summary);
     for (const char* key :
          {"failed", "peak_stress", "peak_strain", "initial_tangent_modulus", "platen_out_of_balance"}) {
         EXPECT_EQ(few[key], many[key]) << key;
@@ -382,7 +478,9 @@ TEST_F(TestFolder, IsRefusedWhereAnInputOrForeignFilesWouldBeReplaced) {
     here.folder = scratch_ / "";
     here.force = true;
     const auto before = contents(scratch_ / "");
-    EXPECT_NE(refusal([&] { run_test(read_case(scratch_ / "case.toml"), here); }).find("is an input of the test"),
+    EXPECT_NE(refusal([&] {
+                  run_test(read_case(scratch_ / "case.toml"), here);
+              }).find(" in this folder, expected a folder for results only"),
               std::string::npos);
     expect_same(contents(scratch_ / ""), before, "an input in the way");
 
@@ -390,13 +488,15 @@ TEST_F(TestFolder, IsRefusedWhereAnInputOrForeignFilesWouldBeReplaced) {
     std::ofstream(scratch_ / "mine/frames/holiday.png") << "mine\n";
     TestOptions mine = options("mine");
     mine.force = true;
-    EXPECT_NE(refusal([&] { run_test(small_case(), mine); }).find("that no test wrote"), std::string::npos);
+    EXPECT_NE(refusal([&] { run_test(small_case(), mine); }).find("mine: found frames"), std::string::npos);
 
     run_test(small_case(), options("out"));
     run_test(small_case(), options("out.new"));
     TestOptions forced = options("out");
     forced.force = true;
-    EXPECT_NE(refusal([&] { run_test(small_case(), forced); }).find("out.new: found results"), std::string::npos);
+    EXPECT_NE(
+        refusal([&] { run_test(small_case(), forced); }).find("out.new: found case.toml, expected no other files"),
+        std::string::npos);
     fs::remove_all(scratch_ / "out.new");
     std::ofstream(scratch_ / "out/frames/holiday.png") << "mine\n";
     std::ofstream(scratch_ / "out/report.html") << "my own page\n";
@@ -438,10 +538,11 @@ TEST_F(TestFolder, SaysWhereItsNumbersAreNoResults) {
     SmallCase wanted;
     wanted.numerics = "time_step = 1.0e-2\nallow_unstable = true";
     wanted.rate = 1e-4;
-    const std::string notices = run_test(small_case(wanted), options("out")).summary.text_of("notices");
+    const std::string notices =
+        fmt::format("{}", fmt::join(*run_test(small_case(wanted), options("out")).summary.notices, "; "));
     fmt::print("  {}\n", notices);
-    EXPECT_NE(notices.find("above the stable bound"), std::string::npos);
-    EXPECT_NE(notices.find("energy balance misses"), std::string::npos);
+    EXPECT_NE(notices.find("exceeds the stable limit"), std::string::npos);
+    EXPECT_NE(notices.find("energy account does not close"), std::string::npos);
 }
 
 TEST_F(TestFolder, IsNotMadeForACaseThatCannotBeTested) {
@@ -455,9 +556,10 @@ TEST_F(TestFolder, IsNotMadeForACaseThatCannotBeTested) {
 TEST_F(TestFolder, OfStagedResultsGoesOnceNothingIsKeptInIt) {
     fs::create_directories(scratch_ / "out");
     for (const char* name : {"curve.csv", "summary.json"}) std::ofstream(scratch_ / "out" / name) << "1\n2\n";
+    std::ofstream(scratch_ / "out/case.toml") << resolved_case_mark;
     const fs::path staged = scratch_ / "out.new", kept = staged / ".nfs0001";
     {
-        OutputFolder folder = OutputFolder::create(scratch_ / "out", true, {});
+        OutputFolder folder = OutputFolder::create(scratch_ / "out", Earlier::replaced, {});
         ASSERT_EQ(folder.path(), staged);
         folder.write("summary.json", "new");
         std::ofstream(kept) << "open";
@@ -470,11 +572,16 @@ TEST_F(TestFolder, OfStagedResultsGoesOnceNothingIsKeptInIt) {
 }
 
 TEST_F(TestFolder, FullDiscIsOneErrorThatNamesTheFile) {
-    const OutputFolder folder = OutputFolder::create(scratch_ / "out", false, {});
-    fs::create_symlink("/dev/full", scratch_ / "out/case.toml.tmp");
-    const std::string message = refusal([&] { folder.write("case.toml", std::string(100000, 'x')); });
-    EXPECT_NE(message.find("case.toml: cannot be written (No space left on device)"), std::string::npos) << message;
-    EXPECT_FALSE(fs::exists(scratch_ / "out/case.toml"));
+    const OutputFolder folder = OutputFolder::create(scratch_ / "out", Earlier::refused, {});
+    std::string message;
+    try {
+        const testing::LittleRoom room(1000);
+        folder.write("case.toml", std::string(100000, 'x'));
+    } catch (const SystemFailure& failure) {
+        message = failure.what();
+    }
+    EXPECT_NE(message.find("case.toml: cannot be written (File too large)"), std::string::npos) << message;
+    EXPECT_TRUE(fs::is_empty(scratch_ / "out"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A file that grows goes on from what a checkpoint marks, and from nothing else.
+// A file that grows continues from what a checkpoint marks, and from nothing else.
 
 #include "specimens/results/growing_file.hpp"
 

@@ -31,14 +31,14 @@ constexpr std::size_t always = 0, never = std::numeric_limits<std::size_t>::max(
 
 class PeakFrame : public ::testing::Test {
   protected:
-    /// A test of some looks at the clock, gone on with by new files, as after a restart, until it has passed its peak.
+    /// A test of some looks at the clock, resumed with new files, as after a restart, until it has passed its peak.
     /// @param large_frame of both parts
     Contents loaded(std::size_t large_frame) {
         testing::SmallCase wanted;
         wanted.kind = "compression";
         VirtualTest test = bond_test(read_case(testing::write_small_case(scratch_ / "", wanted)));
         const fs::path folder = scratch_ / std::to_string(large_frame);
-        const OutputFolder output = OutputFolder::create(folder, false, {});
+        const OutputFolder output = OutputFolder::create(folder, Earlier::refused, {});
         std::int64_t kept = -1;
         for (const bool first : {true, false}) {
             TestFiles files(output, "", test.state, {.large_frame = large_frame});

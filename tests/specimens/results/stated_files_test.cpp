@@ -13,6 +13,7 @@
 #include "solver/files/read_file.hpp"
 #include "specimens/loading/run.hpp"
 #include "specimens/recordings/test_results.hpp"
+#include "specimens/summary/summary_file.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/small_rock.hpp"
@@ -26,29 +27,6 @@ using Json = nlohmann::ordered_json;
 
 void expect_says(const std::string& got, const std::string& expected) {
     EXPECT_NE(got.find(expected), std::string::npos) << got;
-}
-
-TEST(TestSummary, IsAskedByPlacesForValuesOfOneKind) {
-    const TestSummary summary = TestSummary::parse(R"({"steps": 7, "kind": "tension", "failed": true, "peak": null,
-        "emission": {"window": 0.5, "of": {"name": "set"}}, "list": [1]})");
-    EXPECT_EQ(summary.number("steps"), 7.0);
-    EXPECT_EQ(summary.number("emission.window"), 0.5);
-    EXPECT_EQ(summary.word("kind"), "tension");
-    EXPECT_EQ(summary.word("emission.of.name"), "set");
-    EXPECT_TRUE(summary.flag("failed"));
-    EXPECT_TRUE(summary.contains("peak"));
-    EXPECT_EQ(summary.text_of("steps"), "7");
-    EXPECT_EQ(summary.text_of("emission.of"), R"({"name":"set"})");
-    for (const char* place : {"kind", "peak", "none", "emission", "emission.none", "kind.name", "list.0", "steps.", ""})
-        EXPECT_FALSE(summary.number(place)) << place;
-    EXPECT_EQ(summary.word("steps"), "");
-    EXPECT_FALSE(summary.flag("steps"));
-    EXPECT_FALSE(summary.contains("emission.none"));
-    TestSummary copy = summary;
-    copy.json()["steps"] = 8;
-    EXPECT_EQ(summary.number("steps"), 7.0);
-    EXPECT_FALSE(TestSummary::parse("{\"steps\": ").contains("steps"));
-    EXPECT_FALSE(TestSummary().contains("steps"));
 }
 
 /// A small test that records slips, pulled to its end.
@@ -69,7 +47,7 @@ class FinishedTest : public ::testing::Test {
     void write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / name, std::ios::binary) << text;
     }
-    /// Does so with each of the files that are read, and looks at what is said of it.
+    /// Does so with each of the files that are read, and checks the message.
     void expect_refused(const std::function<std::string(std::string)>& change, const std::string& says) const {
         for (const std::string name : {"curve.csv", "events.csv", "slips.csv"}) {
             const std::string text = read_file(folder_ / name);
@@ -86,11 +64,11 @@ class FinishedTest : public ::testing::Test {
 
     testing::ScratchFolder scratch_;
     const fs::path folder_ = scratch_ / "out";
-    TestSummary summary_;
+    Summary summary_;
 };
 
 TEST_F(FinishedTest, StatesItsFilesAsTheyAre) {
-    EXPECT_EQ(summary_.json(), Json::parse(read_file(folder_ / "summary.json")));
+    EXPECT_EQ(json_of(summary_), Json::parse(read_file(folder_ / "summary.json")));
     const FileMarks stated = stated_files(summary_, "summary.json");
     ASSERT_EQ(stated.size(), 4U);
     for (const auto& [name, mark] : stated) {
@@ -125,7 +103,7 @@ TEST_F(FinishedTest, ReadsNoFileThatIsGoneOrThatItDidNotWrite) {
     fs::remove(folder_ / "slips.csv");
     expect_says(refusal([&] { read_results(folder_); }), "slips.csv: file not found");
     write("slips.csv", text);
-    Json without = summary_.json();
+    Json without = json_of(summary_);
     without["files"].erase("slips.csv");
     write("summary.json", without.dump());
     expect_says(refusal([&] { read_results(folder_); }),
@@ -134,7 +112,7 @@ TEST_F(FinishedTest, ReadsNoFileThatIsGoneOrThatItDidNotWrite) {
 }
 
 TEST_F(FinishedTest, TakesNoOtherCheckpointForItsOwn) {
-    Json other = summary_.json();
+    Json other = json_of(summary_);
     other["files"]["checkpoint"]["xxh3"] = "0123456789abcdef";
     write("summary.json", other.dump());
     expect_says(refusal([&] { resume_test(options()); }), "checkpoint: found ");
@@ -142,7 +120,7 @@ TEST_F(FinishedTest, TakesNoOtherCheckpointForItsOwn) {
 }
 
 TEST_F(FinishedTest, OfAnEarlierVersionIsReadAsItIs) {
-    Json silent = summary_.json();
+    Json silent = json_of(summary_);
     silent.erase("files");
     write("summary.json", silent.dump());
     write("curve.csv", read_file(folder_ / "curve.csv") + "1\n");
@@ -152,9 +130,9 @@ TEST_F(FinishedTest, OfAnEarlierVersionIsReadAsItIs) {
 }
 
 TEST_F(FinishedTest, WhoseSummaryStatesItsFilesWronglyIsRefused) {
-    const Json good = summary_.json()["files"]["curve.csv"];
+    const Json good = json_of(summary_)["files"]["curve.csv"];
     const auto refused = [&](const Json& files) {
-        Json wrong = summary_.json();
+        Json wrong = json_of(summary_);
         wrong["files"] = files;
         write("summary.json", wrong.dump());
         expect_says(refusal([&] { read_results(folder_); }), "found no bytes and xxh3 of files");

@@ -93,7 +93,7 @@ TEST(Setup, CountsContactsThatTouchAndBondsApart) {
     Platens platens;
     platens.bottom_id = test.setup.bottom_id;
     platens.top_id = test.setup.top_id;
-    const TestSetup again = record_setup(test.world, Specimen{}, platens, test_kind("tension"), 0.0);
+    const TestSetup again = record_setup(test.world, Specimen{}, platens, LoadingKind::tension, 0.0);
     EXPECT_EQ(again.contacts_initial, bonds);
     EXPECT_EQ(static_cast<std::int64_t>(again.bonds.size()), bonds - 3);
 }

@@ -17,8 +17,9 @@
 #include "specimens/loading/prepare.hpp"
 #include "specimens/measures/trace_motion.hpp"
 #include "specimens/results/files.hpp"
+#include "specimens/results/make_summary.hpp"
 #include "specimens/results/output_folder.hpp"
-#include "specimens/results/summary.hpp"
+#include "specimens/results/trace_figures.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/small_rock.hpp"
 
@@ -82,6 +83,41 @@ TEST(TraceFaces, TurnWithTheMeanOfTheirBodies) {
     EXPECT_NEAR(face.opening, 0.0, 1e-15);
     EXPECT_NEAR(face.slip, -2.0 * std::sqrt(0.5) * std::sin(0.5 * turn), 1e-15);
     EXPECT_NEAR(std::atan2((face.end - face.begin).y, (face.end - face.begin).x), 0.75 * pi + 0.5 * turn, 1e-14);
+}
+
+/// Two faces of a trace, 0.2 m with bonds that have all broken and 0.6 m without any, and a second trace of one of 0.4
+/// m.
+TEST(TraceFigures, OfOpenAndBondedFacesAreByHand) {
+    TestSetup setup = one_face(0, 1);
+    setup.traces = {{"survey", 0.8}, {"survey", 0.4}};
+    setup.trace_faces.push_back(setup.trace_faces[0]);
+    setup.trace_faces[1].bonds = 0;
+    setup.trace_faces[1].length = 0.6;
+    setup.trace_faces.push_back(setup.trace_faces[0]);
+    setup.trace_faces[2].trace = 1;
+    setup.trace_faces[2].length = 0.4;
+    setup.bond_faces = {0, 0, 2, 2};
+    TestState state;
+    for (const PointIndex bond : {0U, 1U, 2U}) state.history.cracks.push_back({.bond = bond});
+    World world;
+    world.bodies.state.resize(2);
+    for (BodyIndex b = 0; b < 2; ++b) {
+        const StartPlace& place = setup.start[b];
+        world.bodies.state[b].x = place.x, world.bodies.state[b].y = place.y, world.bodies.state[b].angle = place.angle;
+    }
+    const JointedFigures figures = trace_figures(setup, state, world);
+    const JointFigures& first = figures.traces->front();
+    EXPECT_EQ(first.faces, 2);
+    EXPECT_NEAR(*first.length_of_faces, 0.8, 1e-15);
+    EXPECT_NEAR(*first.bonded_share, 0.25, 1e-15);
+    EXPECT_NEAR(*first.at_end->failed_share, 1.0, 1e-15) << "all that had bonds";
+    EXPECT_TRUE(first.at_peak.stated() && !first.at_peak);
+    const JointFigures& both = figures.joints->front();
+    EXPECT_EQ(both.traces, 2);
+    EXPECT_NEAR(*both.length, 1.2, 1e-15);
+    EXPECT_NEAR(*both.bonded_share, 0.5, 1e-15);
+    EXPECT_NEAR(*both.at_end->failed_share, 0.2 / 0.6, 1e-15) << "the second has a bond left";
+    EXPECT_EQ(figures.bonds_broken_on_joints, 3);
 }
 
 class JointedTest : public ::testing::Test {
@@ -216,7 +252,7 @@ TEST_F(JointedTest, FlatFacesOfCirclesAreFacesOfTheirTrace) {
 TEST_F(JointedTest, WhatTracesHaveComeToAtThePeakIsThatOfThePeaksFrame) {
     VirtualTest test = jointed("friction_angle = 20.0\nstrength_factor = 0.5", "voronoi", "tension");
     test.state.failure.share_of_peak = 0.8;
-    const OutputFolder output = OutputFolder::create(scratch_ / "out", false, {});
+    const OutputFolder output = OutputFolder::create(scratch_ / "out", Earlier::refused, {});
     TestFiles files(output, "", test.state, {});
     load_specimen(test, {}, &files);
     const TestSetup& setup = test.setup;
@@ -233,16 +269,16 @@ TEST_F(JointedTest, WhatTracesHaveComeToAtThePeakIsThatOfThePeaksFrame) {
     const std::vector<Crack>& cracks = test.state.history.cracks;
     ASSERT_LT(to_peak, cracks.size());
     const auto motions = trace_motions(setup, places, std::span(cracks).first(to_peak));
-    const TestSummary made = make_summary(test.description, setup, test.state, test.world, {});
-    const auto& summary = made.json();
+    const Summary summary = make_summary(test.description, setup, test.state, test.world, {});
+    const std::vector<JointFigures>& traces = *summary.jointed.traces;
     for (std::size_t k = 0; k < 2; ++k) {
-        const auto& got = summary["traces"][k]["at_peak"];
-        fmt::print("  trace {}: slip at peak expected {}, got {}, at the end {}\n", k, motions[k].slip,
-                   got["slip"].get<double>(), summary["traces"][k]["at_end"]["slip"].get<double>());
-        EXPECT_EQ(got["slip"].get<double>(), motions[k].slip);
-        EXPECT_EQ(got["opening"].get<double>(), motions[k].opening);
-        EXPECT_EQ(got["failed_share"].get<double>(), motions[k].failed / motions[k].bonded);
-        EXPECT_NE(got["slip"], summary["traces"][k]["at_end"]["slip"]);
+        const JointMotion& got = *traces[k].at_peak;
+        fmt::print("  trace {}: slip at peak expected {}, got {}, at the end {}\n", k, motions[k].slip, *got.slip,
+                   *traces[k].at_end->slip);
+        EXPECT_EQ(got.slip, motions[k].slip);
+        EXPECT_EQ(got.opening, motions[k].opening);
+        EXPECT_EQ(got.failed_share, motions[k].failed / motions[k].bonded);
+        EXPECT_NE(*got.slip, *traces[k].at_end->slip);
     }
 }
 

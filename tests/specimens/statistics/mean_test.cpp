@@ -95,6 +95,18 @@ TEST(MeanBias, KnowsPartsThatCancel) {
     EXPECT_TRUE(bias.known());
 }
 
+TEST(MeanBias, ErrorOfEachPartIsItsOwn) {
+    // Twice the changes: 1, 2, 3 by the step; 4, 1, 4 by the rate; their sums 5, 3, 7.
+    const std::array asked{4.0, 5.0, 9.0}, step{3.5, 4.0, 7.5}, rate{2.0, 4.5, 7.0};
+    const MeanBias bias = bias_of(asked, step, rate);
+    EXPECT_TRUE(agrees("by the step", bias.step, 2.0, 1e-12));
+    EXPECT_TRUE(agrees("its error", bias.step_error, 1.0 / std::sqrt(3.0), 1e-12));
+    EXPECT_TRUE(agrees("by the rate", bias.rate, 3.0, 1e-12));
+    EXPECT_TRUE(agrees("its error", bias.rate_error, 1.0, 1e-12));
+    EXPECT_TRUE(agrees("of both", bias.value, 5.0, 1e-12));
+    EXPECT_TRUE(agrees("its error", bias.standard_error, 2.0 / std::sqrt(3.0), 1e-12));
+}
+
 TEST(Packings, ForAGoalGrowWithTheSquareOfTheScatter) {
     EXPECT_EQ(packings_for(0.16, 0.05), 11.0);
     EXPECT_EQ(packings_for(0.16, 0.02), 64.0);

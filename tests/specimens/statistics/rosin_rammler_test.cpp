@@ -31,7 +31,7 @@ TEST(RosinRammler, OfPiecesByTheLawGivesItsParametersBack) {
             areas.push_back(1e-4);
         }
         const RosinRammler found = fit_rosin_rammler(sizes, areas, least);
-        // Of 4000 quantiles the largest stands for the tail: some 1/4000 of its logarithm.
+        // The largest of 4000 quantiles stands for the tail: some 1/4000 of its logarithm.
         EXPECT_TRUE(agrees("exponent", found.exponent, n, 5e-3));
         EXPECT_TRUE(agrees("size, m", found.size, x0, 5e-3));
         EXPECT_EQ(found.pieces, 4000u);
@@ -39,7 +39,7 @@ TEST(RosinRammler, OfPiecesByTheLawGivesItsParametersBack) {
 }
 
 TEST(RosinRammler, CountsAPieceByItsArea) {
-    // The same distribution of area in pieces of unequal areas: two of half the area stand for one.
+    // The distribution of area in pieces of unequal areas: two of half the area stand for one.
     std::vector<double> sizes, areas, split_sizes, split_areas;
     for (int k = 1; k <= 20; ++k) {
         sizes.push_back(0.01 * k);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle calibrate` as a user calls it.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
 
 #include "tests/support/interrupted_call.hpp"
+#include "tests/support/killed_workers.hpp"
 #include "tests/support/program_call.hpp"
 #include "tests/support/small_circles_rock.hpp"
 
@@ -38,7 +42,23 @@ TEST_F(CalibrateCommand, EndsWithCasesATableAndItsKeys) {
                              "calibration.txt", "calibration.html"})
         EXPECT_TRUE(exists(std::string("out/") + file)) << file;
     EXPECT_NE(read("out/rock.toml").find("[material]\ncontact_modulus = "), std::string::npos) << read("out/rock.toml");
-    const std::string before = read("out/calibration.json");
+    const std::string before = read("out/calibration.json"), page = read("out/calibration.html");
+    const auto json = nlohmann::json::parse(before);
+    for (const auto& target : json["targets"]) {
+        const auto number = [&](const char* key) { return target[key].get<double>(); };
+        const std::string row = fmt::format(
+            "<td>{:.4g}</td><td>{:.4g} ± {:.2g}</td><td>{:.2g}</td><td>{:+.1f}</td><td>{:.1f}</td>", number("value"),
+            target["fresh"]["mean"].get<double>(), target["fresh"]["standard_error"].get<double>(),
+            target["fresh"]["deviation"].get<double>(), 100.0 * number("off"), 100.0 * number("limit"));
+        EXPECT_NE(page.find(row), std::string::npos) << row;
+    }
+    for (const auto& key : json["keys"]) {
+        const std::string row =
+            fmt::format("<td>{}</td><td>{:.5g}</td><td>{:.4g} to {:.4g}</td><td>{:.4g} to {:.4g}",
+                        key["key"].get<std::string>(), key["value"].get<double>(), key["interval"][0].get<double>(),
+                        key["interval"][1].get<double>(), key["from"].get<double>(), key["to"].get<double>());
+        EXPECT_NE(page.find(row), std::string::npos) << row;
+    }
     EXPECT_EQ(call("rock.toml -o out -q").out, "") << "quiet, and nothing is run again";
     EXPECT_EQ(read("out/calibration.json"), before);
 }
@@ -65,7 +85,7 @@ TEST_F(CalibrateCommand, RefusesWithOneLine) {
     expect_refused("rock.toml -o out --workers 0", "--workers: found 0");
     std::filesystem::create_directory(folder_ / "held");
     write("held/file", "mine");
-    expect_refused("rock.toml -o held", "found files that no calibration made");
+    expect_refused("rock.toml -o held", ", expected a new or empty folder, or the folder of a calibration");
 }
 
 TEST_F(CalibrateCommand, AnInterruptIsGoneOnFrom) {
@@ -73,10 +93,53 @@ TEST_F(CalibrateCommand, AnInterruptIsGoneOnFrom) {
                testing::strength_keys);
     const auto begun = [&] { return exists("out/search/campaign.sqlite"); };
     ASSERT_EQ(testing::interrupted_call(folder_, {"calibrate", "rock.toml", "-o", "out"}, SIGINT, begun), 130);
-    EXPECT_NE(read("err.txt").find("interrupted; the same command goes on"), std::string::npos) << read("err.txt");
+    EXPECT_NE(read("err.txt").find("interrupted; the same command resumes"), std::string::npos) << read("err.txt");
     EXPECT_FALSE(exists("out/calibration.json"));
     EXPECT_NE(call("rock.toml -o out").code, 130);
     EXPECT_TRUE(exists("out/calibration.json"));
+}
+
+// A mean without a test that the system ended would be that of another rock.
+TEST_F(CalibrateCommand, WithoutATestThatTheSystemEndedNothingIsCalibrated) {
+    write_rock(target_text("compression", "peak_stress", 3e7) + target_text("tension", "peak_stress", 6e6) +
+               testing::strength_keys);
+    const int undisturbed = call("rock.toml -o whole").code;
+    const pid_t process = testing::started_call(folder_, {"calibrate", "rock.toml", "-o", "out", "--workers", "1"});
+    testing::kill_workers(process, 8);  // four make packings, three have the same test
+    EXPECT_EQ(testing::ended_call(process), 4) << read("err.txt");
+    EXPECT_NE(read("err.txt").find("expected figures of all packings; the same command runs what is missing"),
+              std::string::npos)
+        << read("err.txt");
+    EXPECT_FALSE(exists("out/calibration.json"));
+    EXPECT_EQ(call("rock.toml -o out").code, undisturbed) << read("err.txt");
+    EXPECT_EQ(read("out/rock.toml"), read("whole/rock.toml"));
+}
+
+TEST_F(CalibrateCommand, ATestThatCrashesTwiceIsNamedAndTheOthersAreKept) {
+    write_rock(target_text("compression", "peak_stress", 3e7) + target_text("tension", "peak_stress", 6e6) +
+               testing::strength_keys);
+    const pid_t process = testing::started_call(folder_, {"calibrate", "rock.toml", "-o", "out", "--workers", "1"});
+    testing::kill_workers(process, 6, SIGABRT);  // four make packings, two have the same test
+    EXPECT_EQ(testing::ended_call(process), 4) << read("err.txt");
+    EXPECT_TRUE(std::regex_search(
+        read("err.txt"),
+        std::regex(
+            R"(1 test failed by the system \((compression|tension), .*, seed \d+: crashed: its process was ended )"
+            R"(by signal 6 \(Aborted\) in each of 2 tries)")))
+        << read("err.txt");
+    EXPECT_NE(call("rock.toml -o out").code, 4) << read("err.txt");
+}
+
+TEST_F(CalibrateCommand, ALinearSolveThatTheSystemEndedIsNoRefusal) {
+    const pid_t process = testing::started_call(folder_, {"calibrate", "rock.toml", "-o", "out", "--workers", "1"});
+    testing::kill_workers(process, 1);
+    EXPECT_EQ(testing::ended_call(process), 4) << read("err.txt");
+    EXPECT_TRUE(
+        std::regex_search(read("err.txt"), std::regex(R"(a linear solve failed by the system: \w+, seed \d+: its )"
+                                                      R"(process was ended by signal 9 \(Killed\);)")))
+        << read("err.txt");
+    const Answer again = call("rock.toml -o out");
+    EXPECT_EQ(again.code, again.out.find("2 of 2 targets reached") != std::string::npos ? 0 : 1) << again.err;
 }
 
 TEST_F(CalibrateCommand, ListsTheKeysOfARock) {

@@ -6,12 +6,17 @@
 #include <signal.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
+#include <numbers>
+#include <sstream>
 
-#include "solver/base/processors_lent.hpp"
+#include "solver/machine/processors_lent.hpp"
 #include "tests/support/interrupted_call.hpp"
+#include "tests/support/killed_workers.hpp"
 #include "tests/support/program_call.hpp"
 #include "tests/support/small_plan.hpp"
 
@@ -28,10 +33,42 @@ class CampaignCommand : public testing::ProgramCall {
     CampaignCommand() : ProgramCall("campaign") { write_small_plan(folder_, 2); }
 };
 
+/// The cells of a line of CSV. Commas within quotes part none.
+std::vector<std::string> cells_of(const std::string& line) {
+    std::vector<std::string> cells(1);
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"') quoted = !quoted;
+        if (c == ',' && !quoted)
+            cells.emplace_back();
+        else
+            cells.back() += c;
+    }
+    return cells;
+}
+
+/// The tests of one kind and angle, by the rows of `show --tests`.
+std::vector<double> strengths_of(const std::string& rows, const std::string& kind, const std::string& angle) {
+    std::istringstream lines(rows);
+    std::string line;
+    std::getline(lines, line);
+    const std::vector<std::string> names = cells_of(line);
+    const auto column = [&](const char* name) { return std::ranges::find(names, name) - names.begin(); };
+    std::vector<double> strengths;
+    while (std::getline(lines, line)) {
+        const std::vector<std::string> cells = cells_of(line);
+        const auto cell = [&](const char* name) { return cells.at(static_cast<std::size_t>(column(name))); };
+        if (cell("test") == kind && cell("material.friction_angle") == angle)
+            strengths.push_back(std::stod(cell("peak_stress")));
+    }
+    return strengths;
+}
+
 TEST_F(CampaignCommand, RunsAndShowsMeansAndIntervals) {
     const Answer answer = call("plan.toml -o out");
     EXPECT_EQ(answer.code, 0) << answer.err;
-    EXPECT_NE(answer.out.find("8 of 8 tests done, 0 gone wrong, 0 left; 8 run now"), std::string::npos) << answer.out;
+    EXPECT_NE(answer.out.find("8 of 8 tests done, 0 gone wrong, 0 left; this command ran 8"), std::string::npos)
+        << answer.out;
     EXPECT_EQ(answer.err.find('\r'), std::string::npos) << "no progress line in a pipe";
     const Answer show = call("show out");
     EXPECT_EQ(show.code, 0) << show.err;
@@ -41,14 +78,35 @@ TEST_F(CampaignCommand, RunsAndShowsMeansAndIntervals) {
         EXPECT_NE(show.out.find(part), std::string::npos) << part << " in\n" << show.out;
     const Answer csv = call("show out --csv --figure peak_stress");
     EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 5) << csv.out;
-    EXPECT_EQ(
-        csv.out.rfind("test,material.friction_angle,planned,done,gone_wrong,not_failed,figure,unit,packings,mean,", 0),
-        0U)
+    EXPECT_EQ(csv.out.rfind("test,material.friction_angle,planned,done,gone_wrong,failed_by_system,not_failed,figure,"
+                            "unit,packings,mean,",
+                            0),
+              0U)
         << csv.out;
     const Answer tests = call("show out --tests");
     EXPECT_EQ(std::count(tests.out.begin(), tests.out.end(), '\n'), 9);
     const Answer quiet = call("plan.toml -o out -q");
     EXPECT_EQ(quiet.out + quiet.err, "");
+
+    // The mean of two strengths lies midway between them, and the deviation is their distance over the root of 2. The
+    // interval of the mean reaches half that distance times Student's t of one degree of freedom, whose quantile is a
+    // tangent.
+    const std::string means = call("show out --figure peak_stress").out;
+    for (const char* angle : {"20", "35"}) {
+        const std::vector<double> two = strengths_of(tests.out, "compression", angle);
+        ASSERT_EQ(two.size(), 2U) << angle;
+        const double mean = 0.5 * (two[0] + two[1]), apart = std::abs(two[0] - two[1]);
+        const double deviation = apart / std::sqrt(2.0), reach = 0.5 * apart * std::tan(0.475 * std::numbers::pi);
+        const std::size_t at = means.find(fmt::format("compression, material.friction_angle = {}: 2 of 2", angle));
+        ASSERT_NE(at, std::string::npos) << means;
+        std::istringstream row(means.substr(means.find("peak_stress", at)));
+        std::vector<std::string> words(9);
+        for (std::string& word : words) row >> word;
+        EXPECT_EQ(words, (std::vector<std::string>{
+                             "peak_stress", "N/m", "2", fmt::format("{:.4g}", mean), fmt::format("{:.4g}", deviation),
+                             fmt::format("{:.1f}", 100.0 * deviation / mean), fmt::format("{:.4g}", mean - reach), "to",
+                             fmt::format("{:.4g}", mean + reach)}));
+    }
 }
 
 TEST_F(CampaignCommand, IsDrawnAndReported) {
@@ -80,8 +138,25 @@ TEST_F(CampaignCommand, IsDrawnAndReported) {
     const std::string page = read("out/report.html");
     for (const char* part :
          {"<h1>A small rock</h1>", "12 of 12 tests done", "peak stress", "/summary.json\">summary.json</a>",
-          "data:image/svg+xml;base64,", "tension over friction angle φ"})
+          "data:image/svg+xml;base64,", "tension against friction angle φ"})
         EXPECT_NE(page.find(part), std::string::npos) << part;
+    // Cells of its table are the numbers of the CSV.
+    const Answer csv = call("show out --csv --figure peak_stress");
+    std::istringstream lines(csv.out);
+    std::string line;
+    std::vector<std::string> names, cells;
+    for (auto* row : {&names, &cells}) {
+        std::getline(lines, line);
+        *row = cells_of(line);
+    }
+    const auto number = [&](const char* column) {
+        return std::stod(cells[static_cast<std::size_t>(std::ranges::find(names, column) - names.begin())]);
+    };
+    const std::string row = fmt::format(
+        "peak stress, N/m</td><td>{}</td><td>{:.4g}</td><td>{:.4g}</td><td>{:.1f}</td><td>{:.4g} to {:.4g}</td></tr>",
+        number("packings"), number("mean"), number("standard_deviation"),
+        100.0 * number("standard_deviation") / number("mean"), number("low_95"), number("high_95"));
+    EXPECT_NE(page.find(row), std::string::npos) << row;
     ASSERT_EQ(crackle("report out"), 0) << "a report takes the place of a report";
     EXPECT_EQ(read("out/report.html"), page);
 }
@@ -91,7 +166,7 @@ TEST_F(CampaignCommand, DryRunJudgesAndEstimatesAndWritesNothing) {
     const Answer answer = call("plan.toml --dry-run -o out");
     EXPECT_EQ(answer.code, 0) << answer.err;
     EXPECT_NE(answer.out.find("A small rock: 8 tests of 4 points with 2 packings"), std::string::npos) << answer.out;
-    EXPECT_NE(answer.out.find("of a processor, "), std::string::npos) << answer.out;
+    EXPECT_NE(answer.out.find("of processor time, "), std::string::npos) << answer.out;
     EXPECT_TRUE(snapshot() == before) << "files were made";
 }
 
@@ -185,10 +260,43 @@ TEST_F(CampaignCommand, AnInterruptLosesAtMostTheTestsAtWork) {
         return exists("out/curves") && std::distance(fs::directory_iterator(folder_ / "out/curves"), {}) >= some;
     };
     ASSERT_EQ(interrupted_call(folder_, {"campaign", "plan.toml", "-o", "out"}, SIGINT, some_are_done), 130);
-    EXPECT_NE(read("err.txt").find("interrupted; the same command goes on"), std::string::npos) << read("err.txt");
+    EXPECT_NE(read("err.txt").find("interrupted; the same command resumes"), std::string::npos) << read("err.txt");
     const Answer answer = call("plan.toml -o out");
     EXPECT_NE(answer.out.find(", 0 left; "), std::string::npos) << answer.out;
     EXPECT_EQ(answer.out.find("; 120 run now"), std::string::npos) << "what had been run was run again: " << answer.out;
+}
+
+TEST_F(CampaignCommand, ExitCode1SaysThatAVerdictEndedTests) {
+    write_small_plan(folder_, 1, "[run]\ntime_limit = 1e-4\n");
+    const Answer answer = call("plan.toml -o out");
+    EXPECT_EQ(answer.code, 1) << answer.err;
+    EXPECT_NE(answer.out.find("0 of 4 tests done, 4 gone wrong, 0 left"), std::string::npos) << answer.out;
+    EXPECT_EQ(call("plan.toml -o out").code, 1) << "they are not run again, and still gone wrong";
+    write_small_plan(folder_, 1);
+    EXPECT_EQ(call("plan.toml -o out --retry").code, 0);
+}
+
+TEST_F(CampaignCommand, ExitCode4SaysThatTheSystemEndedTestsAndTheSameCommandRunsThemAgain) {
+    ASSERT_EQ(call("plan.toml -o whole -q").code, 0);
+    const std::string whole = call("show whole --tests").out;
+    const pid_t process = testing::started_call(folder_, {"campaign", "plan.toml", "-o", "out", "--workers", "1"});
+    testing::kill_workers(process, 5);
+    EXPECT_EQ(testing::ended_call(process), 4) << read("err.txt");
+    EXPECT_NE(read("out.txt").find(" of them because of the system: the same command runs "), std::string::npos)
+        << read("out.txt");
+    EXPECT_NE(read("err.txt").find("crashed: its process was ended by signal 9"), std::string::npos) << read("err.txt");
+    for (const char* means : {"show out", "show out --csv"}) EXPECT_EQ(call(means).code, 4) << "no mean without them";
+    EXPECT_EQ(call("show out --wrong").code, 0);
+    EXPECT_EQ(call("plan.toml -o out").code, 0);
+    EXPECT_EQ(call("show out").code, 0);
+    EXPECT_EQ(call("show out --tests").out, whole);
+}
+
+TEST_F(CampaignCommand, OneShareIsGatheredAsMany) {
+    EXPECT_EQ(call("plan.toml -o out --shard 1/1 -q").code, 0);
+    const Answer answer = call("gather out");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("8 tests from 1 share; 8 of 8 done"), std::string::npos) << answer.out;
 }
 
 TEST_F(CampaignCommand, ListsTheKeysOfAPlan) {

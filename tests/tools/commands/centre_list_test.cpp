@@ -48,7 +48,8 @@ TEST(CentreList, ListsOfCirclesHaveCentres) {
         EXPECT_EQ(list.form, form) << text;
     }
     EXPECT_EQ(refusal_of("1 2 7 0.5\n3 4 8 0.25\n"),
-              "centres.txt:2: found z = 8 behind z = 7, expected x y of one plane; take those of a section, without z");
+              "centres.txt:2: found z = 8 after z = 7, expected centres in one plane; give the centres of a "
+              "plane section");
     EXPECT_EQ(
         refusal_of("0,5 1,5\n"),
         "centres.txt:1: found '0,5', a number with a decimal comma, expected a finite number for x; save the file "

@@ -143,7 +143,7 @@ TEST_F(CommandLines, AResultThatCannotBePrintedIsNoSuccess) {
     }
 }
 
-// Who reads may stop reading at the end, or in the midst of a text longer than a pipe holds.
+// A reader may stop at the end, or in the midst of a text longer than a pipe holds.
 TEST_F(CommandLines, AReaderThatHasSeenEnoughIsNoError) {
     for (const char* command : {"crackle test --help", "(for i in $(seq 40); do crackle test --keys; done)"}) {
         const Answer answer = shell(fmt::format("({}) | head -1", command));
@@ -159,6 +159,30 @@ TEST_F(CommandLines, WhatFilesAreCalledCannotReachTheTerminal) {
     EXPECT_EQ(answer.code, 2);
     EXPECT_NE(answer.err.find("\\x1b[31mred\\x07.toml"), std::string::npos) << answer.err;
     EXPECT_EQ(answer.err.find('\x1b'), std::string::npos);
+}
+
+// A title and paths that colour, move and name the terminal, in C0 and in C1.
+TEST_F(CommandLines, ResultsCannotCommandTheTerminal) {
+    const std::string hostile =
+        "a\x1b[31m\x1b]0;b\x07\xc2\x9b"
+        "31m\x9b";
+    ASSERT_EQ(call(pack_ + "-o specimen.dat").code, 0);
+    for (const std::string& words :
+         {pack_ + "-o '" + hostile + ".dat'", "mesh specimen.dat --kind delaunay --thick 1e-5 -o '" + hostile + ".dat'",
+          "view specimen.dat -o '" + hostile + ".html'", "view '" + hostile + "'", "'frobnicate" + hostile + "'"}) {
+        const std::string shown = call_on_terminal(folder_, words, {{"NO_COLOR", "1"}}).shown;
+        for (const char* raw : {"\x1b[31m", "\x1b]", "\x07", "\xc2\x9b", "\x9b"})
+            EXPECT_EQ(shown.find(raw), std::string::npos) << words << '\n' << shown;
+        EXPECT_NE(shown.find("\\x1b[31m\\x1b]0;b\\x07\\u009b31m\\x9b"), std::string::npos) << shown;
+    }
+}
+
+TEST_F(CommandLines, ASmallStackIsRefused) {
+    const Answer answer = shell("ulimit -s 128; crackle doctor");
+    EXPECT_EQ(answer.code, 4);
+    EXPECT_EQ(answer.err,
+              "crackle: found a stack of 128 KiB, expected at least 1024; raise the limit (ulimit -s 1024)\n");
+    EXPECT_EQ(shell("ulimit -s 1024; crackle doctor").code, 0);
 }
 
 TEST_F(CommandLines, MessagesHaveAnEnd) {
@@ -276,15 +300,16 @@ TEST_F(Bench, SaysWhereToGetItWhereItIsNot) {
     EXPECT_EQ(answer.code, 2);
     EXPECT_EQ(answer.out, "");
     EXPECT_EQ(count_of(answer.err, "\n"), 1U) << answer.err;
-    for (const char* part : {"crackle bench: found no crackle-bench beside crackle or on the PATH",
-                             "package crackle-bench", "cmake --build --preset release --target crackle-bench"})
+    for (const char* part :
+         {"crackle bench: found no crackle-bench, expected this program in the folder of crackle or on the PATH",
+          "package crackle-bench", "cmake --build --preset release --target crackle-bench"})
         EXPECT_NE(answer.err.find(part), std::string::npos) << part << '\n' << answer.err;
     const Answer help = alone("bench --help");
     EXPECT_EQ(help.code, 0) << help.err;
     EXPECT_TRUE(help.out.starts_with("usage: crackle bench STUDY [OPTIONS]")) << help.out;
     EXPECT_EQ(alone("help bench").out, help.out);
     const std::string doctor = alone("doctor").out;
-    EXPECT_NE(doctor.find("crackle-bench found none"), std::string::npos) << doctor;
+    EXPECT_NE(doctor.find("crackle-bench not found"), std::string::npos) << doctor;
     EXPECT_EQ(doctor.find("missing       gnuplot"), std::string::npos) << doctor;
 }
 

@@ -101,7 +101,7 @@ TEST_F(CrackleElastic, RefusesWhatItCannotUse) {
     expect_refused("case.toml -q --strain 0 --bonds full.csv", "--strain: found 0, expected a number > 0");
     expect_refused("case.toml -q --modes -1", "--modes: found -1");
     expect_refused("case.toml -q --modes 100000", "ask for fewer");
-    expect_refused("case.toml -q --bonds mine.csv", "mine.csv: found there already");
+    expect_refused("case.toml -q --bonds mine.csv", "mine.csv: found an existing file");
 }
 
 }  // namespace

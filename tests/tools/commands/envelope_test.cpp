@@ -82,7 +82,7 @@ class EnvelopeCommand : public ProgramCall {
         return name;
     }
 
-    /// Three packings that scatter by 5 % of their strength, at the first so many pressures. @return their folders
+    /// Three packings that scatter by 5 % of their strength, at the first `count` pressures. @return their folders
     template <class Law>
     std::string three_packings(Law&& law, std::size_t count = pressures.size()) const {
         std::string folders;
@@ -137,6 +137,10 @@ TEST_F(EnvelopeCommand, SaysWhatItsNumbersAreWorth) {
     const Json whole = fitted(sound + pulled);
     EXPECT_TRUE(whole["notices"].empty()) << whole["notices"];
     EXPECT_TRUE(agrees("mean of the tensions", whole["tension"]["mean"], 52.0, 1e-12));
+    EXPECT_TRUE(agrees("their deviation", whole["tension"]["deviation"], 1.0, 1e-12));
+    const double half = 4.302653 / std::sqrt(3.0);  // t of two degrees of freedom
+    EXPECT_TRUE(agrees("lower end of their interval", whole["tension"]["low"], 52.0 - half, 1e-6));
+    EXPECT_TRUE(agrees("upper end", whole["tension"]["high"], 52.0 + half, 1e-6));
     EXPECT_TRUE(agrees("strength over tension", whole["tension"]["strength_ratio"], 1000.0 / 52.0, 1e-6));
     EXPECT_TRUE(agrees("8.62 + 0.7 m", whole["tension"]["strength_ratio_by_m"], 19.12, 1e-6));
 
@@ -145,17 +149,18 @@ TEST_F(EnvelopeCommand, SaysWhatItsNumbersAreWorth) {
     EXPECT_TRUE(mentions(untensioned["notices"], "no tension"));
     std::string strong;
     for (const int seed : {1, 2, 3}) strong += sample({seed, 0.0, 200.0, "tension"}) + " ";
-    EXPECT_TRUE(mentions(fitted(sound + strong)["notices"], "times what Hoek and Martin find"));
+    EXPECT_TRUE(mentions(fitted(sound + strong)["notices"], "times that of Hoek and Martin"));
 
-    EXPECT_TRUE(mentions(fitted(three_packings(on_curve, 4))["notices"], "4 confinements; Hoek and Brown ask for 5"));
+    EXPECT_TRUE(
+        mentions(fitted(three_packings(on_curve, 4))["notices"], "4 confinements; Hoek and Brown require at least 5"));
     const auto far = [](double s3) { return 0.9 * on_curve(s3); };  // 500 of 900
     EXPECT_TRUE(mentions(fitted(three_packings(far))["notices"], "the largest pressure is 0.56 of the unconfined"));
     const auto steps = [](double s3) { return s3 > 90.0 ? 2500.0 : 1000.0; };
     const Json missed = fitted(three_packings(steps));
-    EXPECT_TRUE(mentions(missed["notices"], "Mohr-Coulomb misses the means")) << missed["notices"];
-    EXPECT_TRUE(mentions(missed["notices"], "Hoek-Brown misses the means"));
+    EXPECT_TRUE(mentions(missed["notices"], "Mohr-Coulomb deviates from the mean strengths")) << missed["notices"];
+    EXPECT_TRUE(mentions(missed["notices"], "Hoek-Brown deviates from the mean strengths"));
     const auto steep = [](double s3) { return s3 + std::sqrt(80.0 * 1000.0 * s3 + 1e6); };
-    EXPECT_TRUE(mentions(fitted(three_packings(steep))["notices"], "intact rocks have 4 to 35"));
+    EXPECT_TRUE(mentions(fitted(three_packings(steep))["notices"], "for intact rocks it is 4 to 35"));
 }
 
 TEST_F(EnvelopeCommand, TakesTestsThatHardenByAnotherStress) {
@@ -166,7 +171,7 @@ TEST_F(EnvelopeCommand, TakesTestsThatHardenByAnotherStress) {
             test.further = {{"largest_stress", on_line(pressure) * (1.0 + 0.05 * (seed - 2))}};
             folders += sample(test) + " ";
         }
-    expect_refused(folders, "did not fail by loading.max_axial_strain (--figure largest_stress or --strain");
+    expect_refused(folders, "did not fail before loading.max_axial_strain (--figure largest_stress or --strain");
     const Json largest = fitted(folders + "--figure largest_stress");
     EXPECT_EQ(largest["measure"]["figure"], "largest_stress");
     EXPECT_TRUE(agrees("N", largest["mohr_coulomb"]["slope"]["value"], 4.0, 1e-9));
@@ -191,7 +196,7 @@ TEST_F(EnvelopeCommand, LeavesOutWhatHasNoStrengthAndNamesIt) {
     const Json json = fitted(folders + unfailed + " " + held + " " + split);
     EXPECT_EQ(json["packings"], 3);
     EXPECT_TRUE(mentions(json["notices"], "left out: " + split + ": is a test of another kind, brazilian"));
-    EXPECT_TRUE(mentions(json["notices"], "left out: " + unfailed + ": did not fail by loading.max_axial_strain"));
+    EXPECT_TRUE(mentions(json["notices"], "left out: " + unfailed + ": did not fail before loading.max_axial_strain"));
     EXPECT_TRUE(mentions(json["notices"], "left out: " + held + ": parted at the grip"));
     EXPECT_TRUE(json["tension"].is_null());
 }
@@ -206,7 +211,7 @@ TEST_F(EnvelopeCommand, SaysWhatItLacks) {
     for (const double pressure : pressures) one_packing += sample({1, pressure, on_line(pressure)}) + " ";
     expect_refused(one_packing, "found 6 confinements of 1 packing, ");
     const std::string unfailed = sample({2, 100.0, std::nullopt});
-    expect_refused(one_packing + unfailed, "left out: " + unfailed + ": did not fail by loading.max_axial_strain");
+    expect_refused(one_packing + unfailed, "left out: " + unfailed + ": did not fail before loading.max_axial_strain");
     expect_refused(one_packing + "c1_0", "c1_0: found a second compression of packing 1 under 0 N/m");
 }
 
@@ -237,8 +242,7 @@ TEST_F(EnvelopeCommand, TakesGapsThatWereDerivedForNoDifference) {
         for (const double pressure : {0.0, 100.0, 200.0})
             folders += meshed(seed, pressure, 0.02 * std::sqrt(0.5 / (200.0 + seed)));
     EXPECT_EQ(fitted(folders)["packings"], 2);
-    expect_refused(folders + meshed(3, 100.0, 1e-3),
-                   "mesh.thick: found 0.001, expected no value, as it has none in c1_0");
+    expect_refused(folders + meshed(3, 100.0, 1e-3), "mesh.thick: found 0.001, expected no value, as in c1_0");
 }
 
 /// A campaign's ledger as `crackle campaign` leaves it, with figures of our own.
@@ -266,7 +270,7 @@ class EnvelopeOfCampaign : public EnvelopeCommand {
             result.identity = identities[k];
             result.state = k + 2 == plan.rows.size() ? row_unstable : row_done;
             if (result.state == row_done) {
-                result.figures = {{"kind", test.loading.kind}, {"material_units", "point"}, {"failed", 1.0}};
+                result.figures = {{"kind", name_of(test.loading.kind)}, {"material_units", "point"}, {"failed", 1.0}};
                 result.figures.emplace_back(
                     "peak_stress", on_line(pressure) * (1.0 + 0.05 * (static_cast<double>(plan.rows[k].seed) - 2.0)));
                 if (pressure > 0.0) result.figures.emplace_back("confining_pressure", pressure);

@@ -207,7 +207,7 @@ TEST_F(CrackleMesh, NumbersThatNoReadOfTheDeckTakesAreANotice) {
     write("noted.dat", read("in_gm.dat") + "7 circles more\n");
     const Answer answer = call("noted.dat --kind voronoi --thick 1e-3");
     EXPECT_EQ(answer.code, 0) << answer.err;
-    EXPECT_NE(answer.err.find("noted.dat: numbers behind the last value of a READ"), std::string::npos) << answer.err;
+    EXPECT_NE(answer.err.find("noted.dat: numbers after the last value of a READ"), std::string::npos) << answer.err;
     EXPECT_NE(answer.err.find("'7' in line 208"), std::string::npos) << answer.err;
 }
 
@@ -216,7 +216,8 @@ TEST_F(CrackleMesh, RefusesBadInputInOneMessage) {
     const std::string cells = " --kind voronoi --thick 1e-3";
     expect_refused("absent.dat" + cells, "absent.dat");
     expect_refused(cells, "expected an in_gm.dat or a list of centres");
-    expect_refused("in_gm.dat --thick 1e-3 -o cells.dat", "cells.dat, which is no folder, expected one for in_gm_tri");
+    expect_refused("in_gm.dat --thick 1e-3 -o cells.dat",
+                   "cells.dat, which is not a folder, expected a folder for in_gm_tri");
     expect_refused("in_gm.dat --kind hexagons --thick 1e-3", "--kind: found hexagons");
     expect_refused("in_gm.dat --kind voronoi --thick 1e-3 --boundary centres", "found centres with --kind voronoi");
     expect_refused("in_gm.dat --kind voronoi --thick -1", "thick: found -1");

@@ -69,7 +69,7 @@ TEST_F(CracklePack, LeavesAnExistingFileAlone) {
 TEST_F(CracklePack, RefusesBadInputInOneMessage) {
     const std::string count = "--count 60";
     expect_refused(sizes_ + target_, "expected either width and height or a count");
-    expect_refused(count + target_, "sizes: found none");
+    expect_refused(count + target_, "sizes: found no option");
     expect_refused(count + sizes_, "target of the packing: found none");
     expect_refused(count + sizes_ + target_ + " --void-ratio 0.2", "found both");
     expect_refused("--count many" + sizes_ + target_, "many");
@@ -86,7 +86,7 @@ TEST_F(CracklePack, RefusesBadInputInOneMessage) {
     expect_refused(count + sizes_ + target_ + " -o /proc/nowhere/rock.dat", "/proc/nowhere");
     expect_refused(count + sizes_ + target_ + " -o " + std::string(300, 'x'), "");
     expect_refused(count + " --sieve absent.csv" + target_, "absent.csv: cannot be read");
-    expect_refused(count + " --sieve absent.csv" + sizes_ + target_, "expected the curve alone");
+    expect_refused(count + " --sieve absent.csv" + sizes_ + target_, "expected --sieve alone");
     expect_refused(count + " --lognormal-median 0.01" + target_, "expected both");
 }
 

@@ -115,12 +115,12 @@ TEST_F(PlotDecks, ForcesAreDrawnOverDisplacementsWhereABodyIsDriven) {
 TEST_F(PlotDecks, RefusesWhatARunHasNot) {
     write_sample_results(folder_ / "pulled", SampleTest{});
     expect_refused("wave pulled -o figure.pdf",
-                   "found the run of a deck beside pulled, expected runs of decks or tests alone");
+                   "found the run of a deck and pulled, expected either runs of decks or tests");
     expect_refused("wave -o figure.pdf --what strain",
-                   "--what: found 'strain', expected of the run of a deck curve, displacement, energy, force, height, "
-                   "velocity or all");
+                   "--what: found 'strain', expected curve, displacement, energy, force, height, velocity or all "
+                   "for the run of a deck");
     expect_refused("wave -o figure.pdf --bodies 12",
-                   "--bodies: found 12, expected one that the run of wave wrote rows of: 11, 13, 15, 17");
+                   "--bodies: found 12, expected a body for which the run of wave wrote rows: 11, 13, 15, 17");
     expect_refused("falling -o figure.pdf --what displacement",
                    "falling: found no rows in f-d_curve.dat, expected those of bodies");
     expect_refused("wave -o figure.pdf --what energy --bodies 11", "--bodies: found with --what energy");

@@ -429,7 +429,7 @@ TEST_F(PlotCommand, APngIsWhiteUpToItsLastPixels) {
 
 TEST_F(PlotCommand, AnAxisOfCountsHasATickBesideThatAtZero) {
     for (const int most : {1, 2, 3, 4, 9, 11, 43, 46, 430}) {
-        // As many broken bonds in all as make a single round step too large for the axis.
+        // Enough broken bonds in all to make a single round step too large for the axis.
         for (const char* folder : {"pulled", "squeezed"}) {
             std::istringstream lines(read(std::string(folder) + "/curve.csv"));
             std::string line, table;
@@ -575,7 +575,7 @@ TEST_F(PlotCommand, ATestWithoutFramesHasItsCurves) {
 
 TEST_F(PlotCommand, RefusesWhatItCannotDrawAndLeavesTheFigureThatIsThere) {
     write("figure.pdf", "an earlier figure\n");
-    expect_refused("pulled -o figure.pdf", "figure.pdf: found there already, expected a new file");
+    expect_refused("pulled -o figure.pdf", "figure.pdf: found an existing file, expected a new file");
     expect_refused("", "found no folder of results");
     expect_refused("pulled", "found no -o");
     expect_refused("pulled -o figure.eps", "found 'eps', expected svg, pdf or png");

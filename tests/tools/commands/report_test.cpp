@@ -159,7 +159,7 @@ TEST_F(Report, OfTablesThatBeginWithAByteOrderMark) {
 TEST_F(Report, RefusesASummaryOfManyLevels) {
     std::ofstream(root / "test" / "summary.json")
         << "{\"kind\": " << std::string(200'000, '[') << std::string(200'000, ']') << "}";
-    expect_refused("test -o page.html", {"test/summary.json: found more than 100 brackets within each other"});
+    expect_refused("test -o page.html", {"test/summary.json: found more than 100 nested brackets"});
 }
 
 TEST_F(Report, NamesTheLineOfATruncatedRow) {
@@ -201,7 +201,7 @@ TEST_F(Report, NamesUnitsThatAreNoWord) {
 TEST_F(Report, NamesAnImpossibleKind) {
     replace_in(root / "test" / "summary.json", "\"compression\"", "3");
     expect_refused("test -o page.html",
-                   {"test/summary.json: kind: found 3, expected a kind of test, as \"compression\""});
+                   {"test/summary.json: kind: found 3, expected a kind of test, such as \"compression\""});
 }
 
 TEST_F(Report, RefusesResultsThatAreHalfReplaced) {
@@ -229,7 +229,7 @@ TEST_F(Report, LeavesAFileThatIsNotAReportAlone) {
     const std::string before = text_of(root / "test" / "curve.csv");
     const Outcome outcome = run("test -o test/curve.csv");
     EXPECT_EQ(outcome.code, 2);
-    EXPECT_NE(outcome.output.find("not a page of crackle"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("not a page written by crackle"), std::string::npos) << outcome.output;
     EXPECT_EQ(text_of(root / "test" / "curve.csv"), before);
 }
 

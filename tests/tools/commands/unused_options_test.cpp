@@ -19,10 +19,10 @@ class UnusedOptions : public ProgramCall {
     UnusedOptions() : ProgramCall("") {}
 
     void expect_without_effect(const std::string& words, const std::string& option, const std::string& input) const {
-        expect_refused(words, fmt::format("{}: found with {}, where it has no effect; leave it out", option, input));
+        expect_refused(words, fmt::format("{}: found with {}, but has no effect there; leave it out", option, input));
     }
     void expect_lonely(const std::string& words, const std::string& option, const std::string& others) const {
-        expect_refused(words, fmt::format("{0}: found without {1}, where it has no effect; leave it out, or add {1}",
+        expect_refused(words, fmt::format("{0}: found without {1}, but has no effect alone; leave it out, or add {1}",
                                           option, others));
     }
 };
@@ -40,7 +40,7 @@ TEST_F(UnusedOptions, OfFiguresAndPagesOfTests) {
                           "a figure without specimens");
     expect_without_effect("plot --guide six -o figures --what curve", "--what", "--guide");
     expect_refused("plot squeezed -o figure.pdf --dpi 600",
-                   "--dpi: found with a figure of lines, where it has no effect; leave it out, or write a .png");
+                   "--dpi: found with a vector format, but has no effect there; leave it out, or write a .png");
 }
 
 TEST_F(UnusedOptions, OfACampaign) {

@@ -156,8 +156,8 @@ TEST_F(ViewCommand, ATurningPolygonIsCountedInWholeTurns) {
     const PageContents shown = page("run");
     const std::size_t last = shown.test()["frames"].size() - 1;
     const double time = shown.test()["frames"][last]["time"];
-    // Positions and velocities are half a step apart; the deck's first kick is a full one, which without forces is
-    // none.
+    // Positions and velocities are half a step apart; the deck's first kick is a full one, which without forces changes
+    // nothing.
     const double expected = 40.0 * time, got = shown.row("angle", last)[0];
     fmt::print("  angle: expected {:.6f} rad ({:.3f} turns), got {:.6f}\n", expected,
                expected / (2.0 * std::numbers::pi), got);
@@ -333,7 +333,7 @@ TEST_F(ViewCommand, NamesTheUnitsThatADeckDoesNotState) {
     expect_refused(deck + " --units feet", "view: --units: found 'feet', expected one of si, cgs, mm-g-s");
     write_small_case(folder_, {});
     ASSERT_EQ(crackle("test case.toml -o out -q").code, 0) << read(err_);
-    expect_refused("out --units cgs", "view: --units: found out, a test, whose units are SI");
+    expect_refused("out --units cgs", "view: --units: found out, a test, which is in SI units");
 }
 
 TEST_F(ViewCommand, SeveralRunsStandSideBySide) {
@@ -348,11 +348,11 @@ TEST_F(ViewCommand, RefusesWhatItCannotShow) {
     write("note.txt", "not a page\n");
     write("broken.dat", "1 0 0\nzero\n");
     const std::string deck = quoted(shipped_deck("clump") / "in_gm.dat");
-    expect_refused("", "found nothing to look at");
+    expect_refused("", "found no input");
     expect_refused("nowhere", "nowhere: found no such file or folder");
     expect_refused("empty", "empty: found neither summary.json nor output.dat nor in_gm.dat");
     expect_refused("broken.dat", "broken.dat:2: dt: found 'zero'");
-    expect_refused(deck + " -o note.txt", "not a page of crackle");
+    expect_refused(deck + " -o note.txt", "not a page written by crackle");
     expect_refused(deck + " -o no/such/page.html", "cannot be written");
 }
 

@@ -27,8 +27,8 @@ class CrackleJoints : public testing::ProgramCall {
 TEST_F(CrackleJoints, ReportsWhatWasAskedBesideWhatWasReached) {
     const Answer answer = call("joints.toml");
     ASSERT_EQ(answer.code, 0) << answer.err;
-    for (const char* text : {"box 1 m x 2 m", "bedding", "cross joints", "P21          4 (asked 4) m/m2", "(asked 30)",
-                             "P10          ", "(asked 5)", "blocks "})
+    for (const char* text : {"box 1 m x 2 m", "bedding", "cross joints", "P21          4 (requested 4) m/m2",
+                             "(requested 30)", "P10          ", "(requested 5)", "blocks "})
         EXPECT_NE(answer.out.find(text), std::string::npos) << text << '\n' << answer.out;
     write("short.toml",
           "[packing]\nwidth = 1.0\nheight = 2.0\n[joints]\nshortest = 0.3\n[[trace]]\npoints = [0.0, 0.0, 0.1, 0.1]\n"
@@ -90,6 +90,8 @@ TEST_F(CrackleJoints, ASurveyIsCleanedByTheGrainOrSnapThatIsGiven) {
             EXPECT_NE(answer.out.find(text), std::string::npos) << text << '\n' << answer.out;
         const auto json = nlohmann::json::parse(call(std::string(words) + " --json").out);
         EXPECT_TRUE(agrees("snap", json["snap"].get<double>(), 0.01, 1e-12));
+        EXPECT_EQ(json["brought_together"], 1) << "the point 1e-5 m off the node of the first two rows";
+        EXPECT_EQ(json["points_left_out"], 0) << "each row turns at its points";
         EXPECT_TRUE(
             testing::within("largest displacement", json["largest_displacement"].get<double>(), 3.1622e-6, 1e-9));
     }

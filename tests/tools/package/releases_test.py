@@ -104,8 +104,8 @@ class DebianChangelog(unittest.TestCase):
 
     def test_refuses_what_it_would_get_wrong(self):
         self.refused("## [1.2.0] - 2024-02-29", "## 1.2.0", ":11: found '## 1.2.0', expected '## [1.2.3] - YYYY-MM-DD'")
-        self.refused("2024-02-29", "2023-02-29", ":11:", "expected a day of the calendar")
-        self.refused("2023-12-04", "2024-12-04", ":22:", "expected a day no later than 2024-02-29")
+        self.refused("2024-02-29", "2023-02-29", ":11:", "expected a valid date")
+        self.refused("2023-12-04", "2024-12-04", ":22:", "expected a date no later than 2024-02-29")
         self.refused("### Fixed", "### Mended", ":17: found '### Mended', expected one of Added, Changed")
         self.refused("### Added\n\n- All of it.", "- All of it.", ":24:", "expected a group such as '### Added' above it")
         self.refused("- All of it.", "All of it.", "found nothing below 1.1.0")

@@ -74,6 +74,124 @@ TEST(PageData, HoldsEveryNumberToHalfAStep) {
     EXPECT_EQ(seen, frames);
 }
 
+/// A recording of two discs and an open chain in which no two arrays are alike.
+Recording unlike_in_everything(std::vector<RecordedFrame>& all) {
+    Recording recording;
+    recording.kind = Recording::Kind::test;
+    for (int k = 0; k < 3; ++k) {
+        RecordedCell cell;
+        cell.id = 11 + 2 * k;
+        cell.material = 1 + k % 2;
+        cell.centre = {0.5 + 2.0 * k, 1.25 - 0.5 * k};
+        if (k < 2) cell.radius = 0.25 + 0.125 * k;
+        if (k == 2) cell.outline = {{4.0, 0.0}, {5.0, 0.5}}, cell.open = true;
+        cell.platen = k == 1;
+        recording.cells.push_back(cell);
+    }
+    recording.bonds = {{0, 1, {1.5, 1.0}}, {1, 2, {3.5, 0.5}}};
+    recording.results.curve = {{"axial_strain", "axial_stress", "bonds_broken"}, {{0.0, 1e-3}, {0.0, 5e6}, {0.0, 2.0}}};
+    recording.results.events = {
+        {"body_i", "body_j", "mode", "last_of_interface", "time", "axial_strain", "x", "y", "orientation", "energy"},
+        {{11, 13},
+         {13, 15},
+         {0, 1},
+         {1, 0},
+         {1e-4, 2e-4},
+         {3e-4, 4e-4},
+         {1.5, 3.5},
+         {1.0, 0.5},
+         {0.25, -0.5},
+         {6.0, 7.0}}};
+    all.resize(2);
+    double next = 1e-3;
+    const auto fill = [&](std::vector<double>& values, std::size_t count) {
+        for (std::size_t k = 0; k < count; ++k) values.push_back(next *= 1.05);
+    };
+    for (RecordedFrame& frame : all) {
+        for (std::vector<double>* of_cells :
+             {&frame.ux, &frame.uy, &frame.angle, &frame.vx, &frame.vy, &frame.rotation_rate, &frame.stress_xx,
+              &frame.stress_yy, &frame.stress_xy})
+            fill(*of_cells, 3);
+        fill(frame.normal_force, 2);
+        fill(frame.shear_force, 2);
+        frame.fragment = {0.0, 1.0, 2.0};
+        frame.state = {0.0, 2.0};
+        frame.contacts.i = {0, 1};
+        frame.contacts.j = {2, 0};
+        for (std::vector<double>* of_contacts :
+             {&frame.contacts.x, &frame.contacts.y, &frame.contacts.normal_force, &frame.contacts.shear_force})
+            fill(*of_contacts, 2);
+    }
+    recording.frames.resize(2);
+    recording.frame = [&all](std::size_t k) { return all[k]; };
+    return recording;
+}
+
+TEST(PageData, HoldsEveryArrayUnderItsName) {
+    std::vector<RecordedFrame> all;
+    const Recording recording = unlike_in_everything(all);
+    const testing::ScratchFolder scratch;
+    const testing::PageContents shown = packed_into(scratch / "page.html", tools::pack_recording(recording));
+    using Numbers = std::vector<double>;
+    const std::vector<std::pair<std::string, Numbers>> plain{{"cells.id", {11, 13, 15}},
+                                                             {"cells.material", {1, 2, 1}},
+                                                             {"cells.radius", {0.25, 0.375, 0.0}},
+                                                             {"cells.x", {0.5, 2.5, 4.5}},
+                                                             {"cells.y", {1.25, 0.75, 0.25}},
+                                                             {"cells.open", {0, 0, 1}},
+                                                             {"cells.platen", {0, 1, 0}},
+                                                             {"cells.first_point", {0, 0, 0, 2}},
+                                                             {"outline.x", {4.0, 5.0}},
+                                                             {"outline.y", {0.0, 0.5}},
+                                                             {"bonds.i", {0, 1}},
+                                                             {"bonds.j", {1, 2}},
+                                                             {"bonds.x", {1.5, 3.5}},
+                                                             {"bonds.y", {1.0, 0.5}},
+                                                             {"curve.axial_strain", {0.0, 1e-3}},
+                                                             {"curve.axial_stress", {0.0, 5e6}},
+                                                             {"curve.bonds_broken", {0.0, 2.0}},
+                                                             {"events.body_i", {11, 13}},
+                                                             {"events.body_j", {13, 15}},
+                                                             {"events.shear", {0, 1}},
+                                                             {"events.last_of_interface", {1, 0}},
+                                                             {"events.time", {1e-4, 2e-4}},
+                                                             {"events.axial_strain", {3e-4, 4e-4}},
+                                                             {"events.x", {1.5, 3.5}},
+                                                             {"events.y", {1.0, 0.5}},
+                                                             {"events.orientation", {0.25, -0.5}},
+                                                             {"events.energy", {6.0, 7.0}}};
+    for (const auto& [name, expected] : plain) EXPECT_EQ(shown.plain(name), expected) << name;
+    // Eighty numbers, each 5 % above the one before: known to 2 % they are distinguished.
+    const auto near = [](const std::string& name, const Numbers& got, const Numbers& expected) {
+        ASSERT_EQ(got.size(), expected.size()) << name;
+        for (std::size_t k = 0; k < got.size(); ++k)
+            EXPECT_NEAR(got[k], expected[k], 0.02 * expected[k] + 1e-9) << name;
+    };
+    const std::vector<std::pair<std::string, Numbers RecordedFrame::*>> fields{
+        {"ux", &RecordedFrame::ux},           {"uy", &RecordedFrame::uy},
+        {"angle", &RecordedFrame::angle},     {"vx", &RecordedFrame::vx},
+        {"vy", &RecordedFrame::vy},           {"rate", &RecordedFrame::rotation_rate},
+        {"sxx", &RecordedFrame::stress_xx},   {"syy", &RecordedFrame::stress_yy},
+        {"sxy", &RecordedFrame::stress_xy},   {"fragment", &RecordedFrame::fragment},
+        {"fn", &RecordedFrame::normal_force}, {"fs", &RecordedFrame::shear_force},
+        {"state", &RecordedFrame::state}};
+    for (const auto& [name, field] : fields)
+        for (std::size_t f = 0; f < 2; ++f) near(name, shown.row(name, f), all[f].*field);
+    const auto contacts = [&](const char* name, auto&& of) {
+        Numbers expected;
+        for (const RecordedFrame& frame : all)
+            for (const auto value : of(frame.contacts)) expected.push_back(static_cast<double>(value));
+        near(name, shown.coded(name, 0).rows[0], expected);
+    };
+    contacts("contacts.i", [](const RecordedContacts& c) { return c.i; });
+    contacts("contacts.j", [](const RecordedContacts& c) { return c.j; });
+    contacts("contacts.x", [](const RecordedContacts& c) { return c.x; });
+    contacts("contacts.y", [](const RecordedContacts& c) { return c.y; });
+    contacts("contacts.fn", [](const RecordedContacts& c) { return c.normal_force; });
+    contacts("contacts.fs", [](const RecordedContacts& c) { return c.shear_force; });
+    EXPECT_EQ(shown.coded("contacts.count", 0).rows[0], (Numbers{2.0, 2.0}));
+}
+
 /// Column `at` of a table of numbers, read here by itself.
 std::vector<double> column_of(const std::filesystem::path& file, std::size_t at) {
     std::ifstream in(file);

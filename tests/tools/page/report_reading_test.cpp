@@ -216,8 +216,8 @@ Recording recorded(const std::string& path, const std::string& title = "", int s
     Recording recording;
     recording.path = path;
     recording.name = recording.path.filename().string();
-    if (!title.empty()) recording.results.summary.json()["title"] = title;
-    if (seed >= 0) recording.results.summary.json()["seed"] = seed;
+    if (!title.empty()) recording.results.summary.about.title = title;
+    if (seed >= 0) recording.results.summary.numerics.seed = seed;
     return recording;
 }
 

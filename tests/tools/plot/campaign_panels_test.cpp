@@ -78,7 +78,7 @@ TEST(CurveBands, AreNamedByTheKindOfTest) {
         bundle.kind = kind;
         return glyphs_of(figure({curve_bands({bundle})}, "", 241.0, Format::svg, {})).size();
     };
-    EXPECT_GT(glyphs("direct_shear"), glyphs("compression") + 8) << "displacement over length";
+    EXPECT_GT(glyphs("direct_shear"), glyphs("compression") + 8) << "displacement / length";
     EXPECT_EQ(glyphs("biaxial"), glyphs("compression"));
 }
 

@@ -100,7 +100,7 @@ class Cases(InScratch):
                 (lambda: crackle.read_case("a = ["), "case:1", None,
                  "not valid TOML: Error while parsing array: encountered end-of-file", None, None),
                 (lambda: crackle.test(CASE, "done"), "done", None, "results", "an empty or new folder",
-                 "--force replaces them, --resume goes on with them"),
+                 "--force replaces them, --resume continues them"),
                 (lambda: crackle.test(CASE, "/proc/none/out"), "/proc/none/out", None,
                  "cannot be written (No such file or directory)", "a writable folder with free space", None),
                 (lambda: crackle.pack(count=50.5), "crackle pack", "--count", "50.5", "a whole number",

@@ -10,6 +10,7 @@ import sqlite3
 import threading
 import time
 import unittest
+from contextlib import closing
 from pathlib import Path
 
 import numpy
@@ -60,6 +61,42 @@ class Particles(InScratch):
         x1, x2, y1, y2 = made.domain
         area = numpy.pi * (circles["radius"] ** 2).sum()
         self.assertAlmostEqual(((x2 - x1) * (y2 - y1) - area) / area, made.facts["void_ratio"], delta=1e-12)
+        # Every pair, and every wall, by hand.
+        x, y, radius = circles["centre"]["x"], circles["centre"]["y"], circles["radius"]
+        apart = radius[:, None] + radius[None, :] - numpy.hypot(x[:, None] - x[None, :], y[:, None] - y[None, :])
+        touches = (apart > 0) & ~numpy.eye(60, dtype=bool)
+        walls = {name: numpy.maximum(radius - way, 0.0)
+                 for name, way in (("left", x - x1), ("right", x2 - x), ("bottom", y - y1), ("top", y2 - y))}
+        of_walls = sum((overlap > 0).sum() for overlap in walls.values())
+        carrying = (touches.any(axis=1) | numpy.any([overlap > 0 for overlap in walls.values()], axis=0)).sum()
+        facts = made.facts
+        self.assertEqual(facts["contacts"], touches.sum() // 2)
+        self.assertEqual(facts["floating"], 60 - carrying)
+        self.assertAlmostEqual(facts["coordination"], touches.sum() / 60, delta=1e-12)
+        self.assertAlmostEqual(facts["coordination_of_carrying"], (touches.sum() + of_walls) / carrying, delta=1e-12)
+        self.assertNotEqual(facts["coordination"], facts["coordination_of_carrying"])
+        of_x = (walls["left"].sum() + walls["right"].sum()) / (y2 - y1)
+        of_y = (walls["bottom"].sum() + walls["top"].sum()) / (x2 - x1)
+        self.assertAlmostEqual(facts["stress_x"] / facts["stress_y"], of_x / of_y, delta=1e-9)
+        self.assertNotEqual(facts["stress_x"], facts["stress_y"])
+        self.assertAlmostEqual(facts["anisotropy"], abs(of_x - of_y) / (of_x + of_y), delta=1e-9)
+        self.assertEqual((facts["radius_min"], facts["radius_max"]), (radius.min(), radius.max()))
+        self.assertEqual((facts["width"], facts["height"]), (x2 - x1, y2 - y1))
+        self.assertEqual(facts["radius_scale"], 1.0, "of a count that is given")
+        pairs = numpy.triu(numpy.where(touches, apart, 0.0))
+        overlaps = {"all": [pairs[pairs > 0], *(one[one > 0] for one in walls.values())],
+                    "platens'": [pairs[pairs > 0], *(walls[name][walls[name] > 0] for name in ("bottom", "top"))]}
+        mean = {name: numpy.concatenate(each).mean() for name, each in overlaps.items()}
+        self.assertAlmostEqual(facts["mean_overlap"] / mean["platens'"], 1.0, delta=1e-9)
+        # Forces over the mean one, with a stiffness of 1.
+        way = numpy.hypot(x[:, None] - x[None, :], y[:, None] - y[None, :]) + numpy.eye(60)
+        push = numpy.where(touches, apart / way, 0.0)
+        force_x = (push * (x[:, None] - x[None, :])).sum(axis=1) + walls["left"] - walls["right"]
+        force_y = (push * (y[:, None] - y[None, :])).sum(axis=1) + walls["bottom"] - walls["top"]
+        unbalanced = numpy.hypot(force_x, force_y).max() / mean["all"]
+        self.assertLess(abs(facts["residual"] - unbalanced), 1e-9)
+        self.assertGreater(facts["residual"], 0.0)
+        self.assertEqual(facts["notices"], [])
         with self.assertRaises(crackle.InputError) as refused:
             crackle.pack(**PACKING, output="b.dat")
         self.assertIn("--force", str(refused.exception))
@@ -78,6 +115,20 @@ class Particles(InScratch):
             self.assertEqual(bodies["vertex_count"].sum(), len(corners))
             self.assertTrue(bodies["closed"].all())
             self.assertEqual(made.facts["cells"], len(made))
+            # Areas, edges and angles of the outlines.
+            area, edges, angles = 0.0, [], []
+            for body in bodies:
+                own = corners[body["first_vertex"]:body["first_vertex"] + body["vertex_count"]]
+                place = own["x"] + 1j * own["y"]
+                side, before = numpy.roll(place, -1) - place, place - numpy.roll(place, 1)
+                area += abs(0.5 * (place.conj() * numpy.roll(place, -1)).imag.sum())
+                edges += list(abs(side))
+                angles += list(180.0 - abs(numpy.degrees(numpy.angle(side / before))))
+            self.assertAlmostEqual(made.facts["area_after_inset"] / area, 1.0, delta=1e-12)
+            self.assertLess(made.facts["area_after_inset"], 0.97 * made.facts["area_before_inset"])
+            self.assertAlmostEqual(made.facts["shortest_edge"] / min(edges), 1.0, delta=1e-9)
+            self.assertAlmostEqual(made.facts["smallest_angle"], min(angles), delta=1e-6)
+            self.assertEqual((made.facts["segments"], made.facts["cells_destroyed"]), (len(edges), 0))
 
     def test_a_mesh_of_centres(self):
         centres = numpy.array([[-0.25, 0.5], [0.25, 0.5], [0.25, 1.5], [-0.25, 1.5]])
@@ -129,7 +180,7 @@ class Particles(InScratch):
             self.assertEqual(Path(output).read_bytes(), before)
         with self.assertRaises(crackle.InputError) as refused:
             crackle.mesh("in.dat", kind="none", thick=1e-4, output="out.dat")
-        self.assertIn("found there already", str(refused.exception))
+        self.assertIn("found an existing file", str(refused.exception))
 
     def test_joints_of_a_mesh_are_told_of(self):
         packed = crackle.pack(**PACKING, output="in.dat")
@@ -151,15 +202,15 @@ class Particles(InScratch):
             crackle.pack(count=20000, radius_min=0.01, radius_max=0.02, mean_overlap=1e-5, progress=raise_it)
 
     def test_ctrl_c_ends_meshing(self):
-        centres = numpy.random.default_rng(1).random((100_000, 2))
+        centres = numpy.random.default_rng(1).random((300_000, 2))
         begun = []
 
         def tell(kind, text, share):
-            if kind == "progress" and text.endswith("meshing 100000 centres"):
+            if kind == "progress" and text.endswith("meshing 300000 centres"):
                 begun.append(time.process_time())
 
         def seconds(**more):
-            """Of meshing."""
+            """Meshing is interrupted."""
             begun.clear()
             try:
                 crackle.mesh(centres, kind="voronoi", thick=0.0, domain=(0, 1, 0, 1), **more)
@@ -212,7 +263,7 @@ class Solutions(InScratch):
             self.assertIn("case: found no [[joint_set]]", str(refused.exception))
         with self.assertRaises(crackle.InputError) as refused:
             crackle.joints("specimens/jointed/two_sets.toml", output="map.svg")
-        self.assertIn("found there already", str(refused.exception))
+        self.assertIn("found an existing file", str(refused.exception))
 
     def test_check_is_the_programs(self):
         Path("case.toml").write_text(toml(CASE), encoding="utf-8")
@@ -247,6 +298,13 @@ class Tables(InScratch):
         with self.assertRaises(crackle.InputError) as refused:
             crackle.campaign("none.toml", "by_python")
         self.assertFalse(hasattr(refused.exception, "__notes__"))
+        with closing(sqlite3.connect("by_python/campaign.sqlite")) as ledger, ledger:
+            ledger.execute("UPDATE figures SET peak_stress = 2 * peak_stress WHERE rowid = 1")
+        campaign = crackle.read("by_python")
+        for read in (lambda: campaign.results, campaign.points, campaign.figure):
+            with self.assertRaisesRegex(crackle.InputError, r"row \d \(tension, .*found other values than were recorded"):
+                read()
+        self.assertEqual(crackle.campaign("plan.toml", "by_python", workers=2).results.peak_stress, results.peak_stress)
 
     def test_an_envelope_is_the_programs(self):
         for seed in (1, 2):

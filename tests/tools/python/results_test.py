@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Results read from their folders: numbers as they were written, figures and pages as the program draws them."""
 import base64
+import contextlib
 import csv
 import json
 import re
+import sqlite3
+import sys
 import unittest
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
@@ -12,7 +15,10 @@ from pathlib import Path
 import numpy
 
 import crackle
-from small import CASE, InScratch, program, small, toml
+from small import CASE, TOP, InScratch, program, small, toml
+
+sys.path.insert(0, str(TOP / "tests" / "recount"))
+from results import Results as Results_of_recount  # noqa: E402  written from the documents, not from the program
 
 
 class Results(InScratch):
@@ -63,6 +69,45 @@ class Results(InScratch):
         with self.assertRaises(crackle.InputError):
             recording.frame("middle")
 
+    def test_arrays_of_a_frame_are_those_of_its_files(self):
+        squeezed = crackle.test(small(loading={"kind": "compression", "axial_strain_rate": 0.05, "max_axial_strain": 0.05,
+                                               "stop_at_share_of_peak": 0.05}))
+        recording = squeezed.recording
+        end, ids = recording.frame(len(recording.frames) - 1), recording.cells.id
+        row = int(re.search(r"particles_(\d+)", recording.frames[-1]["file"]).group(1))
+        written = Results_of_recount(squeezed.folder)
+        particles, contacts = written.particles(row), written.contacts(row)
+        numpy.testing.assert_array_equal(ids, particles["id"])
+        for name in ("angle", "rotation_rate", "stress_xx", "stress_yy", "stress_xy", "fragment"):
+            numpy.testing.assert_array_equal(end[name], particles[name], name)
+        for k, name in enumerate(("vx", "vy")):
+            numpy.testing.assert_array_equal(end[name], particles["velocity"][:, k], name)
+        outlines = {body.id: body for body in written.specimen.bodies}
+        inside = ~recording.cells.platen
+        self.assertEqual(set(ids[~inside]), {squeezed.summary["platen_bottom_id"], squeezed.summary["platen_top_id"]})
+        for k in numpy.flatnonzero(inside):
+            x, y, radius = outlines[int(ids[k])].circles[0]
+            numpy.testing.assert_allclose([recording.cells[name][k] for name in ("x", "y", "radius")], [x, y, radius], rtol=1e-6)
+            self.assertEqual((recording.cells.material[k], len(recording.cells.outline[k])), (1, 0))
+        for name in ("time", "axial_strain", "axial_stress"):
+            self.assertEqual(recording.frames[-1][name], float(particles[name][0]), name)
+        self.assertEqual(recording.frames[-1]["roles"], ["end"])
+        # The bonds come first, then what else touches.
+        bonds = squeezed.summary["bonds_initial"]
+        self.assertEqual(len(end.bond_state), bonds)
+        self.assertGreater(len(contacts["state"]), bonds + 2, "something touches anew")
+        numpy.testing.assert_array_equal(end.bond_state, contacts["state"][:bonds])
+        numpy.testing.assert_array_equal(ids[recording.bonds.i], contacts["body_i"][:bonds])
+        numpy.testing.assert_array_equal(ids[recording.bonds.j], contacts["body_j"][:bonds])
+        numpy.testing.assert_array_equal(ids[numpy.asarray(end.contact_i, int)], contacts["body_i"][bonds:])
+        numpy.testing.assert_array_equal(ids[numpy.asarray(end.contact_j, int)], contacts["body_j"][bonds:])
+        for name in ("normal_force", "shear_force"):
+            numpy.testing.assert_array_equal(end["bond_" + name], contacts[name][:bonds], name)
+            numpy.testing.assert_array_equal(end["contact_" + name], contacts[name][bonds:], name)
+        for k, name in enumerate(("contact_x", "contact_y")):
+            places = contacts["points"][-len(contacts["state"]):]  # behind the particles'
+            numpy.testing.assert_allclose(end[name], places[bonds:, k], rtol=1e-6)
+
     def test_a_result_shows_itself(self):
         svg = self.result._repr_svg_()
         ElementTree.fromstring(svg)
@@ -111,6 +156,8 @@ class Results(InScratch):
         run = crackle.read("deck")
         self.assertIsInstance(run, crackle.Recording)
         self.assertGreater(len(run.frames), 1)
+        step = run.frames[1]["time"] / run.frames[1]["step"]
+        self.assertAlmostEqual(run.frames[-1]["time"] / (run.frames[-1]["step"] * step), 1.0, delta=1e-12)
         Path("empty").mkdir()
         for wrong in ("nothing", "empty"):
             with self.assertRaises(crackle.InputError):
@@ -123,6 +170,72 @@ class Results(InScratch):
         with self.assertRaises(crackle.InputError) as refused:
             crackle.read("out")
         self.assertIn("curve.csv", str(refused.exception))
+
+
+class Ledgers(InScratch):
+    """A small campaign or calibration, in a folder that an address would take apart."""
+
+    def setUp(self):
+        super().setUp()
+        self.folder = Path("a ?#%41").absolute()
+        self.folder.mkdir()
+        with contextlib.closing(sqlite3.connect(self.folder / "campaign.sqlite")) as ledger:
+            ledger.executescript("""
+                PRAGMA application_id = 0x43524b4c;
+                CREATE TABLE point(number); CREATE TABLE plan(row); CREATE TABLE meta(key, value);
+                CREATE TABLE test(identity TEXT, state TEXT, name TEXT, stress REAL);
+                INSERT INTO test VALUES ('1a', 'done', 'one', 1.5), ('2b', 'done', 'two', 2.5);
+                CREATE VIEW results AS SELECT name, stress FROM test;""")
+        self.campaign = crackle.read(self.folder)
+
+    def test_a_query_reads(self):
+        self.assertEqual(self.campaign.results, {"name": ["one", "two"], "stress": [1.5, 2.5]})
+        self.assertEqual(self.campaign.query("WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 3)"
+                                             " SELECT sum(i * stress) AS s FROM n JOIN test").s, [24.0])
+        self.assertEqual(self.campaign.query("PRAGMA table_info(test)").name, ["identity", "state", "name", "stress"])
+
+    def test_a_query_does_nothing_but_read(self):
+        before = (self.folder / "campaign.sqlite").read_bytes()
+        for sql in (f"ATTACH '{self.folder}/other.sqlite' AS other", f"VACUUM INTO '{self.folder}/copy.sqlite'",
+                    "PRAGMA user_version = 3", "PRAGMA journal_mode = WAL", "PRAGMA wal_checkpoint", "DELETE FROM test",
+                    "CREATE TEMP TABLE other(x)", "BEGIN", "SELECT load_extension('other')", "SELECT 1; DELETE FROM test",
+                    "no SQL", ""):
+            with self.subTest(sql=sql), self.assertRaises(crackle.InputError) as refused:
+                self.campaign.query(sql)
+            self.assertIn("expected", str(refused.exception))
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["campaign.sqlite"])
+        self.assertEqual((self.folder / "campaign.sqlite").read_bytes(), before)
+
+    def test_damaged_files_are_refused(self):
+        ledger = self.folder / "campaign.sqlite"
+        whole = ledger.read_bytes()
+        for bytes in (b"no ledger" * 100, whole[:4096] + b"\xff" * (len(whole) - 4096), b""):
+            ledger.write_bytes(bytes)
+            with self.subTest(bytes=bytes[:9]), self.assertRaises(crackle.InputError) as refused:
+                self.campaign.results
+            self.assertIn("campaign.sqlite", str(refused.exception))
+        ledger.unlink()
+        with self.assertRaises(crackle.InputError):
+            self.campaign.results
+        for bytes in (b"", b"{", b"[1]", b"\xff{}", b"[" * 200000, b'{"a":' + b"1" * 5000 + b"}", b'{"a":NaN}'):
+            (self.folder / "calibration.json").write_bytes(bytes)
+            with self.subTest(bytes=bytes[:9]), self.assertRaises(crackle.InputError) as refused:
+                crackle.read(self.folder)
+            self.assertIn("calibration.json", str(refused.exception))
+        (self.folder / "calibration.json").write_text("{}", encoding="utf-8")
+        for bytes in (b"\xff", None):
+            page = self.folder / "calibration.html"
+            page.unlink() if bytes is None else page.write_bytes(bytes)
+            with self.subTest(page=bytes), self.assertRaises(crackle.InputError) as refused:
+                crackle.read(self.folder).page()
+            self.assertIn("calibration.html", str(refused.exception))
+
+    def test_no_command_of_a_terminal_is_shown(self):
+        hostile = "a\x1b]0;b\x07\x9bc\x7f"
+        for shown in (str(crackle.InputError(hostile)), repr(crackle.Table({hostile: []})),
+                      repr(crackle.Campaign(hostile))):
+            self.assertIn("a\\x1b]0;b\\x07\\u009bc\\u007f", shown)
+            self.assertTrue(shown.isprintable())
 
 
 if __name__ == "__main__":

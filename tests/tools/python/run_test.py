@@ -37,7 +37,7 @@ class SameBytes(InScratch):
         self.assert_same_results("by_program", "by_dict")
 
     def test_of_several_threads(self):
-        # As many bodies as two threads are given work for.
+        # Enough bodies for two threads.
         case = small(packing={"count": 4000, "radius_min": 0.00163, "radius_max": 0.00326, "mean_overlap": 1e-5},
                      loading={"axial_strain_rate": 0.2, "max_axial_strain": 2e-5})
         self.run_by_program(case=case)
@@ -70,7 +70,7 @@ class SameBytes(InScratch):
                 raise KeyboardInterrupt
         with self.assertRaises(KeyboardInterrupt) as raised:
             crackle.test(CASE, "by_python", call=stop_half_way)
-        self.assertIn("kept in by_python: crackle.read reads it, crackle.resume goes on", str(raised.exception))
+        self.assertIn("kept in by_python; crackle.read reads them, and crackle.resume", str(raised.exception))
         self.assertTrue(crackle.read("by_python").summary["interrupted"])
         result = crackle.resume("by_python")
         self.assertFalse(result.summary["interrupted"])
@@ -103,7 +103,7 @@ class SameBytes(InScratch):
         self.assertTrue(crackle.read(folder).summary["interrupted"])
         self.assertFalse(crackle.resume(folder).summary["interrupted"])
         self.assert_same_results("by_program", folder)
-        # Of one that has not begun nothing stays.
+        # A test that has not begun leaves nothing.
         with self.assertRaises(crackle.InputError) as refused:
             crackle.test(small(loading={"axial_strain_rate": 1e-12}))
         self.assertFalse(hasattr(refused.exception, "__notes__"))
@@ -193,7 +193,7 @@ class Callbacks(InScratch):
             state.platen_speed = 0.0
         with self.assertRaises(crackle.InputError) as refused:
             crackle.test(CASE, call=halt)
-        self.assertIn("no row comes while the platen stands", str(refused.exception))
+        self.assertIn("no row is reached while the platen is at rest", str(refused.exception))
 
         def nothing(state):
             state.platen_speed = float("nan")
@@ -218,7 +218,7 @@ class Callbacks(InScratch):
                     lambda s: s.stop()):
             with self.assertRaises(RuntimeError) as refused:
                 use(kept[0])
-            self.assertIn("the moment is over", str(refused.exception))
+            self.assertIn("State used after its callback", str(refused.exception))
 
     def test_views_kept_beyond_their_callback_show_their_moment(self):
         views, copies = [], []
@@ -309,10 +309,10 @@ crackle.test(small(packing={{"count": 300}}))
         Path("plan.toml").write_text(PLAN, encoding="utf-8")
         shown = self.on_a_terminal("import crackle; crackle.campaign('plan.toml', 'out', workers=1)")
         self.assertIn(b"  0 %  ", shown)
-        self.assertIn(b"0 of 4 done, 0 gone wrong", shown)
+        self.assertIn(b"0 of 4 done, 0 without a result", shown)
         write_rock({"youngs_modulus": 1.4e10, "poissons_ratio": 0.25})
         shown = self.on_a_terminal("import crackle; crackle.calibrate('rock.toml', 'calibrated', workers=1)")
-        self.assertIn(b"round 1: its middle on 4 packings", shown)
+        self.assertIn(b"round 1: measuring its centre on 4 packings", shown)
         self.assertIn(b"tests/s", shown)
 
     def test_tables_of_tests_report_to_a_callable(self):
@@ -328,7 +328,7 @@ crackle.test(small(packing={{"count": 300}}))
             raise ArithmeticError("of the report")
         with self.assertRaises(ArithmeticError) as raised:
             crackle.campaign("plan.toml", "again", workers=1, progress=fail)
-        self.assertIn("what was run is kept in again", raised.exception.__notes__[0])
+        self.assertIn("finished work is kept in again", raised.exception.__notes__[0])
 
     def test_a_pipe_shows_nothing(self):
         done = subprocess.run([sys.executable, "-c", self.SCRIPT], capture_output=True, check=False)
@@ -411,9 +411,11 @@ except KeyboardInterrupt:
         self.assertEqual((code, out.splitlines()[-1]), (0, "heard 10"), err)
 
     TELL = """
+import time
 def tell(kind, text, share):
     if kind == "progress" and share > 0:
         print("running", flush=True)
+        time.sleep(0.3)  # the signal arrives before the work ends
 """
 
     def test_ctrl_c_ends_a_campaign_that_the_same_call_goes_on_with(self):
@@ -426,7 +428,7 @@ except KeyboardInterrupt as interrupt:
     print("heard", interrupt, flush=True)
 """)
         self.assertEqual(code, 0, err)
-        self.assertEqual(out.splitlines()[-1], "heard what was run is kept in out: the same call goes on")
+        self.assertEqual(out.splitlines()[-1], "heard finished work is kept in out; the same call resumes")
         self.assertEqual(err, "")
         before = sum(state is not None for state in crackle.read("out").results.state)
         self.assertGreater(before, 0)
@@ -445,7 +447,7 @@ except KeyboardInterrupt as interrupt:
     print("heard", interrupt, flush=True)
 """)
         self.assertEqual(code, 0, err)
-        self.assertIn("heard what was run is kept in out", out.splitlines()[-1])
+        self.assertIn("heard finished work is kept in out", out.splitlines()[-1])
         self.assertFalse(Path("out/calibration.json").exists())
         self.assertEqual(len(crackle.calibrate("rock.toml", "out").outcome["keys"]), 2)
 

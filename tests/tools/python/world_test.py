@@ -47,7 +47,7 @@ class Worlds(InScratch):
         while world.axial_strain < target:
             world.step(100)
         world.platen_speed = 0.0
-        world.step(100_000)  # rests, but for a particle that nothing holds
+        world.step(100_000)  # rests, except a particle that nothing holds
         row = world.row()
         self.assertEqual((row["bonds_slid"], row["bonds_broken"]), (0, 0))
         self.assertAlmostEqual(row["axial_stress"] / (linear["youngs_modulus"] * row["axial_strain"]), 1.0, delta=1e-3)
@@ -144,7 +144,54 @@ class Arrays(InScratch):
         i, j = contacts["body_i"][circles], contacts["body_j"][circles]
         apart = numpy.hypot(bodies["x"][j] - bodies["x"][i], bodies["y"][j] - bodies["y"][i])
         numpy.testing.assert_allclose(radii[i] + radii[j] - apart, contacts["overlap"][circles], atol=1e-14)
+        # Where both surfaces are as far off: half the overlap behind that of i, along the normal from i to j.
+        way = radii[i] - 0.5 * contacts["overlap"][circles]
+        for axis in ("x", "y"):
+            numpy.testing.assert_allclose(contacts["position"][axis][circles], bodies[axis][i] + way * normals[axis][circles],
+                                          atol=1e-12)
+            numpy.testing.assert_allclose(normals[axis][circles] * apart, bodies[axis][j] - bodies[axis][i], atol=1e-14)
+        numpy.testing.assert_array_equal(names["id"][contacts["body_j"]][between], contacts["id_j"][between])
         self.assertEqual(world.index(int(names["id"][3])), 3)
+
+    def test_a_state_has_the_numbers_of_its_case(self):
+        summary = crackle.test(CASE).summary
+        world = crackle.World(CASE)
+        top, before = world.index(world.platens[-1]), world.bodies.copy()
+        world.step(2000)
+        self.assertEqual((world.section, world.length), (summary["initial_width"], summary["initial_height"]))
+        self.assertEqual(world.platens, [summary["platen_bottom_id"], summary["platen_top_id"]])
+        self.assertEqual((world.bonds_initial, world.bonds_broken), (summary["bonds_initial"], world.row()["bonds_broken"]))
+        rate = CASE["loading"]["axial_strain_rate"]
+        self.assertAlmostEqual(world.platen_speed / (rate * world.length), 1.0, delta=1e-12)
+        self.assertAlmostEqual(world.axial_strain / (rate * world.time), 1.0, delta=1e-9)
+        self.assertAlmostEqual((world.bodies["y"][top] - before["y"][top]) / (world.axial_strain * world.length), 1.0, delta=1e-6)
+        self.assertAlmostEqual(world.time / (2000 * world.time_step), 1.0, delta=0.05)  # the step follows the bound
+        self.assertAlmostEqual(world.forces["fy"][top] / (-world.row()["stress_top"] * world.section), 1.0, delta=1e-12)
+        discs = ~numpy.isin(world.names["id"], world.platens)
+        radius = world.bodies["shape"][discs, 0]
+        numpy.testing.assert_allclose(world.masses["mass"][discs], 2500.0 * numpy.pi * radius ** 2, rtol=1e-12)
+
+    def test_contacts_have_what_the_points_have(self):
+        world = crackle.World(small(loading={"kind": "compression", "axial_strain_rate": 0.02}))
+        world.step(6000)
+        contacts = world.contacts()
+        points = {(int(pair["body_i"]), int(pair["body_j"])): k for k, pair in enumerate(world.pairs)}
+        at = numpy.array([points[int(one["body_i"]), int(one["body_j"])] for one in contacts])
+        flags = world.bonds["flags"][at]
+        for name, flag in (("touching", 1), ("bonded", 2), ("sliding", 4)):
+            numpy.testing.assert_array_equal(contacts[name], (flags & flag) != 0, name)
+        numpy.testing.assert_array_equal(contacts["bond_overlap"], world.bond_overlaps[at])
+        bonded = contacts[contacts["bonded"]]
+        self.assertTrue((bonded["bond_overlap"] != bonded["overlap"]).any(), "they have moved")
+        # Springs and back-tension alone bear what a body has: the sum over its points, shear along the normal turned left.
+        normal, shear = contacts["normal_force"], contacts["shear_force"]
+        nx, ny = contacts["normal"]["x"], contacts["normal"]["y"]
+        self.assertGreater(numpy.abs(shear).sum(), 0.05 * numpy.abs(normal).sum())
+        numpy.testing.assert_allclose(shear, world.shear_forces[at], atol=1e-3 * numpy.abs(shear).max())
+        stiffness = float(world.laws["normal_stiffness"][0])
+        circles = bonded[~numpy.isin(bonded["id_i"], world.platens) & ~numpy.isin(bonded["id_j"], world.platens)]
+        numpy.testing.assert_allclose(circles["normal_force"], stiffness * (circles["overlap"] - circles["bond_overlap"]),
+                                      atol=1e-2 * numpy.abs(circles["normal_force"]).max())
 
     def test_the_first_arrays_of_several_threads(self):
         # numpy is loaded with the first array, which gives up the interpreter's lock.
@@ -264,7 +311,7 @@ class Changes(InScratch):
         world = crackle.World(CASE)
         for wrong, words in ((("stiffness", 1.0), "expected one of normal_stiffness"),
                              (("normal_stiffness", 0.0), "> 0"), (("normal_stiffness", float("nan")), "found nan"),
-                             (("friction_angle", 90.0), "< 90"), (("cohesion", 1e3), "back-tension"),
+                             (("friction_angle", 90.0), "< 90"), (("cohesion", 1e3), 'expected bond.law = "coulomb"'),
                              (("normal_stiffness", 1e7, (1, 9)), "materials 1 and 9"),
                              (("normal_stiffness", 1e7, (0, 1)), "materials 0 and 1")):
             with self.assertRaises(crackle.InputError, msg=wrong) as refused:
@@ -297,7 +344,7 @@ class Changes(InScratch):
         world = crackle.World(CASE)
         self.assertEqual(repr(world), "<crackle.World: 62 bodies, 0 of 97 bonds broken, 0 steps>")
         self.assertEqual(len(world.notices), 1)
-        self.assertIn("inertia and dashpots bear part of the stress", world.notices[0])
+        self.assertIn("inertia and dashpots carry part of the stress", world.notices[0])
         world.platen_speed = 0.5 * world.platen_speed
         self.assertIn("the caller's from strain 0 on", world.notices[-1])
 

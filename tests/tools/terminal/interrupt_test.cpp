@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a first and a second signal do to work that hears none.
+// What a first and a second signal do to work that polls for none.
 #include "tools/terminal/interrupt.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,8 @@ namespace {
 /// A process that gets a signal and works on for so long, as one in a call of a library.
 class DeafWork {
   public:
-    DeafWork(int signal, std::chrono::milliseconds longer) {
+    /// @param last_words of end_unheard() @param asks  whether it asks for interrupts once, at first
+    DeafWork(int signal, std::chrono::milliseconds longer, const char* last_words = nullptr, bool asks = false) {
         int errors[2];
         EXPECT_EQ(pipe(errors), 0);
         child_ = fork();
@@ -26,7 +27,9 @@ class DeafWork {
             close(errors[0]);
             close(errors[1]);
             watch_interrupts();
+            end_unheard(last_words);
             raise(signal);
+            if (asks && !interrupted()) _exit(2);
             const auto end = std::chrono::steady_clock::now() + longer;
             while (std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(5));
             _exit(interrupted() ? 130 : 1);
@@ -58,12 +61,33 @@ TEST(Interrupt, ThatIsNotHeardTellsOfTheSecondWhichEndsTheProcess) {
     for (const int signal : {SIGINT, SIGTERM}) {
         const DeafWork work(signal, std::chrono::seconds(60));
         EXPECT_EQ(work.line(),
-                  "crackle: ends as soon as the present solve or file is done; a second Ctrl-C ends it at once");
+                  "crackle: will end when the current solve or file is done; press Ctrl-C again to end at once");
         work.send(signal);
         const int status = work.status();
         ASSERT_TRUE(WIFSIGNALED(status));
         EXPECT_EQ(WTERMSIG(status), signal);
     }
+}
+
+TEST(Interrupt, EndsWorkThatNobodyCanAskAndThatLeavesNothing) {
+    const auto begun = std::chrono::steady_clock::now();
+    const DeafWork work(SIGTERM, std::chrono::seconds(60), "interrupted, nothing is written");
+    EXPECT_EQ(work.line(),
+              "crackle: will end in three seconds, or when the current solve is done; press Ctrl-C again to end at "
+              "once");
+    EXPECT_EQ(work.line(), "crackle: interrupted, nothing is written");
+    const int status = work.status();
+    ASSERT_TRUE(WIFEXITED(status)) << "by itself";
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(30));
+}
+
+TEST(Interrupt, LetsWorkThatHasHeardItWriteToItsEnd) {
+    const DeafWork work(SIGTERM, std::chrono::seconds(7), "interrupted, nothing is written", true);
+    EXPECT_EQ(work.line(),
+              "crackle: will end when the current solve or file is done; press Ctrl-C again to end at once");
+    EXPECT_EQ(work.line(), "");
+    EXPECT_EQ(WEXITSTATUS(work.status()), 130);
 }
 
 TEST(Interrupt, ThatIsHeardSoonSaysNothing) {

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_rows = 2000;  // of the table of tests
+constexpr std::size_t most_rows = 2000;  // largest number of rows in the table of tests
 
 std::string points_table(const CampaignRecord& record) {
     std::string text =
@@ -41,19 +41,19 @@ std::string points_table(const CampaignRecord& record) {
                                     html(verdict_on(mean, bias->second)));
         }
         if (point.gone_wrong > 0)
-            text +=
-                fmt::format("<tr><td></td><td class=\"note wrong\" colspan=\"6\">{} of {} have gone wrong</td></tr>\n",
-                            point.gone_wrong, point.planned);
+            text += fmt::format(
+                "<tr><td></td><td class=\"note wrong\" colspan=\"6\">{} of {} ended without a result</td></tr>\n",
+                point.gone_wrong, point.planned);
         if (point.unfailed > 0)
             text += fmt::format(
-                "<tr><td></td><td class=\"note\" colspan=\"6\">{} did not fail by "
-                "loading.max_axial_strain: they have no strength</td></tr>\n",
+                "<tr><td></td><td class=\"note\" colspan=\"6\">{} did not fail before loading.max_axial_strain, so "
+                "they have no strength</td></tr>\n",
                 point.unfailed);
     }
     return text + "</tbody></table></div>\n";
 }
 
-/// What was kept of a test, as a link.
+/// Link to the files kept for a test.
 std::string link_to(const CampaignRecord& record, const std::string& identity, const fs::path& from) {
     std::vector<fs::path> files;
     if (const auto test = record.kept.folder(identity)) files = {*test / "report.html", *test / "summary.json"};
@@ -101,7 +101,7 @@ std::string tests_table(const CampaignRecord& record, const fs::path& from) {
     text += "</tbody></table></div>\n";
     if (results.rows.size() > most_rows)
         text += fmt::format(
-            "<p class=\"sub\">The first {} of {}; <code>crackle campaign show DIR --tests</code> has all.</p>\n",
+            "<p class=\"sub\">The first {} of {}; <code>crackle campaign show DIR --tests</code> prints all.</p>\n",
             most_rows, results.rows.size());
     return text;
 }
@@ -111,10 +111,10 @@ std::string tests_table(const CampaignRecord& record, const fs::path& from) {
 std::string campaign_page(const CampaignRecord& record, const std::string& title, const fs::path& from) {
     std::string text = page_head(
         title.empty() ? record.title : title,
-        fmt::format("{} of {} done{}, {:.3g} s of a processor", record.counts.done,
-                    counted(record.counts.tests, "test"),
-                    record.counts.gone_wrong > 0 ? fmt::format(", {} gone wrong", record.counts.gone_wrong) : "",
-                    record.counts.processor_seconds));
+        fmt::format(
+            "{} of {} done{}, {:.3g} s of processor time", record.counts.done, counted(record.counts.tests, "test"),
+            record.counts.gone_wrong > 0 ? ", " + spoken_wrong(record.counts.gone_wrong, record.counts.failures) : "",
+            record.counts.processor_seconds));
     text += "<h2>Means over packings</h2>\n" + points_table(record);
     text += "<h2>Figures</h2>\n";
     for (const CampaignFigure& figure : campaign_figures(record)) text += figure_html(figure);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A campaign on one self-contained page: its table, its figures, and every test with a link to what was kept of it.
+// The self-contained page of a campaign: its table, its diagrams, and all tests with links to the files kept for them.
 // Tested by tests/tools/campaign/campaign_test.cpp.
 #pragma once
 
@@ -10,7 +10,8 @@
 
 namespace crackle::tools {
 
-/// The page's bytes: the same for the same ledger. @param from folder that the page will stand in, for its links
+/// The page as HTML; the same ledger gives identical bytes. @param from folder in which the page will be placed, for
+/// relative links
 std::string campaign_page(const CampaignRecord& record, const std::string& title, const std::filesystem::path& from);
 
 }  // namespace crackle::tools

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace plot;
 
-constexpr std::size_t most_bundles = 6;  // in one diagram
+constexpr std::size_t most_bundles = 6;  // largest number of curve bundles in one diagram
 
 std::size_t place_of(const LedgerTable& table, const std::string& column) {
     const auto at = std::find(table.columns.begin(), table.columns.end(), column);
@@ -36,32 +36,23 @@ std::string text_of(const std::vector<LedgerCell>& row, std::size_t column) {
     return text != nullptr ? *text : "";
 }
 
-std::vector<double> values_of(const CampaignRecord& record, const PointSummary& point, const std::string& figure) {
-    const std::size_t column = place_of(record.results, figure);
-    std::vector<double> values;
-    for (const std::size_t number : point.rows) {
-        const std::vector<LedgerCell>& row = record.results.rows[number];
-        if (const auto* value = column < row.size() ? std::get_if<double>(&row[column]) : nullptr)
-            values.push_back(*value);
-    }
-    return values;
-}
-
-Sample sample_of(const CampaignRecord& record, const PointSummary& point, const std::string& figure,
-                 const std::string& label) {
+Sample sample_of(const PointSummary& point, const std::string& figure, const std::string& label) {
     const MeanFigure& mean = point.figures.at(figure);
-    return {label, values_of(record, point, figure), mean.mean, mean.low, mean.high};
+    return {label, point.values.at(figure), mean.mean, mean.low, mean.high};
 }
 
 std::optional<CurveBundle> bundle_of(const CampaignRecord& record, const PointSummary& point) {
     CurveBundle bundle;
     bundle.label = point.axes.empty() ? point.test : spoken_point(point);
     bundle.stress_unit = point.area_units ? "Pa" : "N/m";
-    const std::size_t identity = place_of(record.results, "identity"), kind = place_of(record.results, "kind");
+    const std::size_t identity = place_of(record.results, "identity"), kind = place_of(record.results, "kind"),
+                      state = place_of(record.results, "state");
     for (const std::size_t number : point.rows) {
-        const std::optional<fs::path> file = record.kept.curve(text_of(record.results.rows[number], identity));
-        if (!file) continue;
-        CurvePoints curve = strain_and_stress(number_table(*file, read_file(*file)));
+        if (text_of(record.results.rows[number], state) != row_done) continue;
+        const std::optional<KeptTests::Curve> kept =
+            record.kept.read_curve(text_of(record.results.rows[number], identity));
+        if (!kept) continue;
+        CurvePoints curve = strain_and_stress(number_table(kept->file, kept->text));
         if (curve.empty()) continue;
         bundle.curves.push_back(std::move(curve));
         bundle.kind = text_of(record.results.rows[number], kind);
@@ -70,9 +61,9 @@ std::optional<CurveBundle> bundle_of(const CampaignRecord& record, const PointSu
     return bundle;
 }
 
-/// A figure over an axis, a line for each combination of the other axes.
-std::optional<Panel> panel_over(const CampaignRecord& record, const std::vector<const PointSummary*>& points,
-                                const std::string& axis, const std::string& figure) {
+/// Plots a result against one axis of the plan, with one line for each combination of values on the other axes.
+std::optional<Panel> panel_over(const std::vector<const PointSummary*>& points, const std::string& axis,
+                                const std::string& figure) {
     std::map<std::string, Series> all;
     for (const PointSummary* point : points) {
         const auto at = std::ranges::find(point->axes, axis, &std::pair<std::string, LedgerCell>::first);
@@ -82,9 +73,9 @@ std::optional<Panel> panel_over(const CampaignRecord& record, const std::vector<
         Series& series = all[others];
         series.label = others;
         series.x.push_back(*x);
-        series.samples.push_back(sample_of(record, *point, figure, ""));
+        series.samples.push_back(sample_of(*point, figure, ""));
     }
-    // Of a design no two points are alike but for one axis: they are shown without lines, as one cloud.
+    // The points of a design differ in more than one axis, so they are drawn as a single cloud without lines.
     const bool cloud = all.size() > most_bundles ||
                        std::all_of(all.begin(), all.end(), [](const auto& one) { return one.second.x.size() < 2; });
     std::vector<Series> listed;
@@ -118,7 +109,7 @@ bool is_campaign(const fs::path& folder) { return is_folder(folder) && is_file(l
 CampaignRecord read_campaign(const fs::path& folder, const std::vector<std::string>& figures,
                              const std::vector<std::string>& tests) {
     const CampaignLedger ledger = CampaignLedger::read(ledger_file(folder));
-    CampaignRecord record(folder);
+    CampaignRecord record(folder, ledger);
     record.title = ledger.meta("title");
     record.results = ledger.results();
     record.counts = ledger.counts();
@@ -136,9 +127,17 @@ CampaignRecord read_campaign(const fs::path& folder, const std::vector<std::stri
         });
     }
     if (record.counts.done == 0)
-        throw InputError(fmt::format("{}: found no test that is done, expected some; `crackle campaign` runs them",
+        throw InputError(fmt::format("{}: found no completed test, expected at least one; `crackle campaign` runs them",
                                      folder.string()));
     return record;
+}
+
+std::string notice_on_failures(const CampaignRecord& record) {
+    if (record.counts.failures == 0) return "";
+    return fmt::format(
+        "{} ended with a system error and {} excluded from all means; run `crackle campaign` again to repeat {}",
+        counted(record.counts.failures, "test"), record.counts.failures > 1 ? "are" : "is",
+        record.counts.failures > 1 ? "them" : "it");
 }
 
 void add_measured_curve(CampaignRecord& record, const fs::path& file) {
@@ -146,8 +145,9 @@ void add_measured_curve(CampaignRecord& record, const fs::path& file) {
     std::set<std::string> kinds;
     for (const PointSummary& point : record.points) kinds.insert(point.test);
     if (kinds.size() > 1)
-        throw InputError(fmt::format("{}: found tests {}, expected one for the measured curve; choose it with --test",
-                                     file.string(), fmt::join(kinds, ", ")));
+        throw InputError(fmt::format(
+            "{}: found tests {}, expected a single one to compare with the measured curve; choose it with --test",
+            file.string(), fmt::join(kinds, ", ")));
     record.measured[*kinds.begin()].push_back(curve);
 }
 
@@ -190,10 +190,10 @@ std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
             CampaignFigure figure;
             figure.part = "axes";
             figure.test = kind;
-            figure.caption = fmt::format("{} over {}: means with 95 % intervals, and every packing", kind,
+            figure.caption = fmt::format("{} against {}: means with 95 % intervals, and every packing", kind,
                                          axis_label(axis, points.front()->area_units).name);
             for (const std::string& name : record.figures)
-                if (std::optional<Panel> panel = panel_over(record, points, axis, name))
+                if (std::optional<Panel> panel = panel_over(points, axis, name))
                     figure.panels.push_back(*std::move(panel));
             if (!figure.panels.empty()) all.push_back(std::move(figure));
         }
@@ -206,7 +206,7 @@ std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
             std::vector<Sample> samples;
             for (std::size_t k = 0; k < points.size() && k < most_samples; ++k)
                 samples.push_back(
-                    sample_of(record, *points[k], name, points[k]->axes.empty() ? kind : spoken_point(*points[k])));
+                    sample_of(*points[k], name, points[k]->axes.empty() ? kind : spoken_point(*points[k])));
             if (std::any_of(samples.begin(), samples.end(), [](const Sample& s) { return !s.values.empty(); }))
                 spread.panels.push_back(
                     distributions(spoken_figure(name), unit_of_figure(name, points.front()->area_units), samples));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The figures of a campaign's folder: curves of its packings as bands, and what they say of each figure.
+// Diagrams of the results in a campaign's folder: stress-strain curves of its packings as bands, and the values of each
+// numeric result. Identifiers call such a result, a key of summary.json, a «figure».
 // Tested by tests/tools/campaign/campaign_test.cpp.
 #pragma once
 
@@ -16,42 +17,49 @@
 
 namespace crackle::tools {
 
-/// What is read of a campaign.
+/// Data read from a campaign's folder.
 struct CampaignRecord {
-    explicit CampaignRecord(const std::filesystem::path& campaign) : folder(campaign), kept(campaign) {}
+    CampaignRecord(const std::filesystem::path& campaign, const CampaignLedger& ledger)
+        : folder(campaign), kept(campaign, ledger.kept_hashes()) {}
 
     std::filesystem::path folder;
     KeptTests kept;
     std::string title;
     LedgerTable results;
     LedgerCounts counts;
-    std::vector<std::string> figures;                                  ///< those that are drawn
-    std::vector<PointSummary> points;                                  ///< with these
-    std::map<std::string, std::vector<plot::LabelledCurve>> measured;  ///< drawn over the curves of a test, by its name
+    std::vector<std::string> figures;  ///< names of the results to draw
+    std::vector<PointSummary> points;  ///< points of the plan, with the statistics of `figures`
+    /// Measured curves to draw over the curves of a test, by the test's name.
+    std::map<std::string, std::vector<plot::LabelledCurve>> measured;
 };
 
-/// Whether a folder is a campaign's.
+/// Whether a folder contains a campaign.
 bool is_campaign(const std::filesystem::path& folder);
 
-/// @param figures of summary.json; empty: the usual ones that there are
-/// @param tests of the plan; empty: all
+/// Reads a campaign's folder. @param figures keys of summary.json; if empty, the default keys that are present
+/// @param tests names of tests in the plan; if empty, all tests @throws InputError if a row has changed since it was
+/// written
 CampaignRecord read_campaign(const std::filesystem::path& folder, const std::vector<std::string>& figures = {},
                              const std::vector<std::string>& tests = {});
 
-/// Lays a measured curve over those of the record's tests, which must be of one kind. @throws InputError
+/// A sentence about tests that ended with a system error and are excluded from the means; empty if there are none.
+std::string notice_on_failures(const CampaignRecord& record);
+
+/// Adds a measured curve to draw over the curves of the record's only test. @throws InputError if it has several
 void add_measured_curve(CampaignRecord& record, const std::filesystem::path& file);
 
-/// "peak stress" of peak_stress, as titles have it.
+/// Name of a result in titles, for example "peak stress" for peak_stress.
 std::string spoken_figure(const std::string& figure);
 
-/// Of one kind of test: bands of curves where they were kept, distributions of each figure, and each figure over every
-/// axis that has several values.
+/// Diagrams of one test of the plan: bands of curves if these were kept, the distribution of each result, and each
+/// result against every axis that has several values.
 struct CampaignFigure {
-    std::string part;  ///< "curve", "axes" or "scatter"
-    std::string test;  ///< of the plan
+    std::string part;  ///< value of --what that selects these diagrams: "curve", "axes" or "scatter"
+    std::string test;  ///< name of the test in the plan
     std::string caption;
     std::vector<plot::Panel> panels;
 };
+/// @throws InputError if a curve file differs from what its test wrote
 std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record);
 
 }  // namespace crackle::tools

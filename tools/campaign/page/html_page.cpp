@@ -33,19 +33,21 @@ details{margin-top:1rem}summary{cursor:pointer}
 
 std::string page_head(const std::string& heading, const std::string& subtitle) {
     return fmt::format(
-        "<!DOCTYPE html>\n{}\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}</title>"
+        "<!DOCTYPE html>\n{}\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; img-src "
+        "data:\"><title>{}</title>"
         "<meta name=\"viewport\" content=\"width=device-width\"><style>{}</style></head><body>\n<h1>{}</h1>\n"
         "<p class=\"sub\">{}</p>\n",
         report_mark, html(heading), page_style, html(heading), html(subtitle));
 }
 
-// Pango's markup takes the letters that HTML does.
+// Pango markup has the same special characters as HTML.
 std::string html(const std::string& text) { return plot::escaped(text); }
 
 std::string in_cell(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–"; }
 
 std::string figure_html(const CampaignFigure& figure) {
-    // An image each: names within one drawing are those of the next, too.
+    // Each diagram is a separate image, because element ids inside one drawing also occur in the next.
     const std::string svg = plot::figure(figure.panels, "", figure_width * plot::points_of_mm, plot::Format::svg, {});
     return fmt::format(
         "<figure><img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What static pages share: their style, letters, numbers, and figures within the page.
+// Elements shared by static pages: style, escaped text, numbers and embedded diagrams.
 // Tested by tests/tools/campaign/campaign_test.cpp.
 #pragma once
 
@@ -9,15 +9,15 @@
 
 namespace crackle::tools {
 
-/// Up to the first heading and the line beneath it; the page ends with "</body></html>".
+/// The start of a page, up to its main heading and subtitle. The caller must end the page with "</body></html>".
 std::string page_head(const std::string& heading, const std::string& subtitle);
 
-/// Text with the letters escaped that HTML takes for its own.
+/// The text with HTML's special characters escaped.
 std::string html(const std::string& text);
-/// A number in a cell; a dash for what is none.
+/// A number as text for a table cell; a dash for NaN.
 std::string in_cell(double value);
 
-/// Drawn as SVG within the page.
+/// A diagram with its caption, embedded in the page as an SVG image.
 std::string figure_html(const CampaignFigure& figure);
 
 }  // namespace crackle::tools

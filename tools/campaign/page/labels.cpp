@@ -14,7 +14,7 @@
 namespace crackle::tools {
 namespace {
 
-/// Keys that the field has a symbol for.
+/// Keys that have a customary name with a symbol.
 constexpr std::array<std::pair<const char*, const char*>, 11> symbols{{
     {"confinement.pressure", "confining pressure σ₃"},
     {"loading.normal_stress", "normal stress σₙ"},
@@ -29,7 +29,8 @@ constexpr std::array<std::pair<const char*, const char*>, 11> symbols{{
     {"shape.notch", "notch a"},
 }};
 
-/// "bond strength cv" of bond.strength_cv, "mineral 1 friction angle" of mineral[1].friction_angle.
+/// Name of a key, for example "bond strength cv" for bond.strength_cv, or "mineral 1 friction angle" for
+/// mineral[1].friction_angle.
 std::string spoken_key(const std::string& key) {
     for (const auto& [known, spoken] : symbols)
         if (key == known) return spoken;
@@ -40,7 +41,7 @@ std::string spoken_key(const std::string& key) {
     return text;
 }
 
-/// "N/m or Pa" as the one that holds.
+/// The unit that applies to the plan, selected from a text such as "N/m or Pa".
 std::string one_unit(const std::string& unit, bool area_units) {
     if (unit == "deg") return "°";
     const std::string between = " or ";

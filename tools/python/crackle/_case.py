@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cases from dicts, TOML texts and files; where shipped files are."""
+"""Reads cases from dicts, TOML texts and files, and finds shipped files."""
 from __future__ import annotations
 
 import json
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def _shipped_folder():
-    """The folder that holds specimens/: of an installed package PREFIX/share/crackle, else the sources' top."""
+    """Folder that contains specimens/: PREFIX/share/crackle of an installed package, or the top of the sources."""
     here = os.path.dirname(os.path.abspath(__file__))
     parents = [here]
     for _ in range(6):
@@ -28,7 +28,7 @@ def _shipped_folder():
 
 
 def given_or_shipped(path: _Path) -> str:
-    """The path; one that begins with "specimens/" and is not there leads to the shipped file of that name."""
+    """The path as given, or the shipped file if the path begins with "specimens/" and does not exist."""
     path = os.fspath(path)
     if os.path.exists(path) or not path.startswith("specimens/"):
         return path
@@ -38,7 +38,7 @@ def given_or_shipped(path: _Path) -> str:
 
 
 def _plain(value, name):
-    """The value as JSON has it. Numbers of numpy become Python's."""
+    """The value converted for JSON. Numbers of numpy become those of Python."""
     if isinstance(value, dict):
         out = {}
         for key, inner in value.items():
@@ -68,22 +68,22 @@ def _plain(value, name):
 
 
 def _is_text(case):
-    """Whether it is TOML: paths may have "=" in them, too."""
+    """Whether a text is TOML rather than a path. A path may contain "=", too."""
     return "\n" in case or ("=" in case and not case.endswith(".toml") and not os.path.exists(case))
 
 
 def read_case(case: _Case) -> _engine.Case:
-    """The case, read and checked.
+    """Reads and checks a case.
 
-    case: a dict of tables (None leaves a key out), a TOML text (with a line's end or "="), or the path of a file. Keys,
-    units and defaults are those of `crackle test --keys`. An `include` of a dict or text is relative to the present
-    folder; shipped cases are found as "specimens/...". Raises InputError with where, key, found and expected.
+    case: a dict of tables (None omits a key), a TOML text (with a line end or "="), or the path of a file. Keys,
+    units and defaults are those of `crackle test --keys`. An `include` in a dict or text is relative to the current
+    folder. Shipped cases are found as "specimens/...". Raises InputError for an invalid case.
     """
     return _read(case, _engine.read_case_text, _engine.read_case_file)
 
 
 def read_joints(case: _Case) -> _engine.Case:
-    """The joints of a case, or of what holds nothing else."""
+    """Reads the joints of a case, or of a file or text that contains nothing else."""
     return _read(case, _engine.read_joints_text, _engine.read_joints_file)
 
 

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Keyword arguments as the words of the command line, so that the program's own parser judges them."""
+"""Converts keyword arguments to words of the command line, so that the program's own parser checks them."""
 import os
 
 from ._errors import InputError
 
 
 def words_of(options):
-    """The words of options: {"radius_min": 0.01, "force": True} is --radius-min 0.01 --force. None, False: left out."""
+    """Words of options: {"radius_min": 0.01, "force": True} gives --radius-min 0.01 --force; None and False are omitted."""
     words = []
     for name, value in options.items():
         option = "--" + name.rstrip("_").replace("_", "-")

@@ -1,12 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Failures, with the messages of the command line."""
+"""Exceptions with the messages of the command line."""
 from __future__ import annotations
 
 import re
 
 
+def printable(text: str) -> str:
+    """The text with control characters spelled out, since a terminal would execute them."""
+    def spelled(found):
+        code = ord(found.group())
+        return f"\\x{code:02x}" if code < 0x20 else f"\\u{code:04x}"
+    return re.sub(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", spelled, text)
+
+
 def tell(error: BaseException, text: str) -> None:
-    """Adds a text to an exception: as its message where it is a bare Ctrl-C, for not every notebook shows notes."""
+    """Adds a note to an exception. A bare Ctrl-C gets it as its message, since not every notebook shows notes."""
     if isinstance(error, KeyboardInterrupt) and not error.args:
         error.args = (text,)
     else:
@@ -17,27 +25,30 @@ _END = r"(?:, expected (?P<expected>[^;]*))?(?:; (?P<remedy>.*))?"
 _FORMS = (
     # where: key: found X
     re.compile(r"(?:(?P<where>[^:\n]+(?::\d+)?): )?(?:(?P<key>[^:\n]+): )?found (?P<found>.*?)" + _END, re.DOTALL),
-    # where: key needs what is not there, or has no room
+    # where: key needs another key, or cannot be given here
     re.compile(r"(?:(?P<where>[^:\n]+(?::\d+)?): )?(?P<key>[\w.\[\]]+) (?P<found>(?:needs|cannot be given here)\b[^;]*)"
                + _END, re.DOTALL),
-    # of the command line's parser
+    # message of the command line's parser
     re.compile(r"(?P<where>[^:\n]+): the argument \('(?P<found>.*)'\) for option '(?P<key>[^'\n]+)' is invalid"
                r"(?:, expected (?P<expected>.*))?(?: \((?P<remedy>see [^()]*)\))", re.DOTALL),
-    # where: what is wrong with it
+    # where: what is wrong
     re.compile(r"(?P<where>[^:\n]+(?::\d+)?): (?P<key>)(?P<found>.*?)" + _END, re.DOTALL),
 )
-# A beginning alone is a place, not a key: by its look, or by what was found there.
+# If only one name precedes «found», it is a place rather than a key if it matches _PLACE, or if `found` matches _OF_A_PLACE.
 _PLACE = re.compile(r".*(:\d+|/.*|\.(toml|dat|csv|json|txt|svg|pdf|png|html|sqlite))|case|centres|particles", re.DOTALL)
 _OF_A_PLACE = re.compile(r"(no such (file|folder)|results|there already|an input of the same command|a folder|a file)"
                          r"\b.*", re.DOTALL)
 
 
 class InputError(ValueError):
-    """Input that cannot be used. The text is the command line's: «file:line: key: found X, expected Y; what to do».
+    """Invalid input. The message is that of the command line: «file:line: key: found X, expected Y; what to do».
 
-    Its parts are attributes, None where the text has no such part: where ("case.toml:14"; of a case given as a dict
-    "case"), key ("material.cohesion", "--count"), found, expected, remedy.
+    The parts of the message are attributes, or None if the message has no such part: where ("case.toml:14"; "case" for a
+    dict), key ("material.cohesion", "--count"), found, expected, remedy.
     """
+
+    def __init__(self, text: str) -> None:
+        super().__init__(printable(text))
 
     def _part(self, name: str) -> str | None:
         for form in _FORMS:
@@ -47,7 +58,7 @@ class InputError(ValueError):
         else:
             return None
         parts = {part: text or None for part, text in match.groupdict().items()}
-        alone = parts["where"] if parts["key"] is None else None  # one beginning: a place, a key, or an option
+        alone = parts["where"] if parts["key"] is None else None  # the only name before «found»: a place, a key, or an option
         if alone is not None and form is _FORMS[0]:
             if not (_PLACE.fullmatch(alone) or _OF_A_PLACE.fullmatch(parts["found"] or "")):
                 parts["key"], parts["where"] = alone, None
@@ -55,7 +66,7 @@ class InputError(ValueError):
 
     @property
     def where(self) -> str | None:
-        """File and line, or what stands for the file."""
+        """File and line, or the name of the input."""
         return self._part("where")
 
     @property
@@ -80,13 +91,17 @@ class InputError(ValueError):
 
 
 class OutputError(InputError):
-    """A place that cannot be written."""
+    """A file or folder that cannot be written."""
+
+
+class SystemFailure(RuntimeError):
+    """A failure of the operating system, such as a full disk, lack of memory or too many open files. The same call may succeed later."""
 
 
 class UnstableRun(RuntimeError):
-    """A simulation that went wrong: not a number, runaway energy, a body that left the world.
+    """A simulation that became unstable: a value is not a number, the energy grows without bound, or a body left the domain.
 
-    Attributes: step (steps done), body (id). What was written until then is kept.
+    Attributes: step (number of steps done), body (id). Results written before that are kept.
     """
 
     step: int | None = None

@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far long work is, and notices: a line on a terminal, a bar in a notebook, nothing elsewhere."""
+"""Shows progress and notices: a line on a terminal, a bar in a notebook, nothing elsewhere."""
 import html
 import os
 import sys
+
+from ._errors import printable
 
 _ROOM = " " * 4
 
 
 def _in_notebook():
-    """Whether IPython's display is that of a notebook; never loads it."""
+    """Whether IPython runs in a notebook; does not import IPython."""
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython is not None else None
     return shell is not None and type(shell).__name__ == "ZMQInteractiveShell"
@@ -16,11 +18,11 @@ def _in_notebook():
 
 def _tell_notice(text):
     if text.startswith("notice: "):
-        print(text, file=sys.stderr)
+        print(printable(text), file=sys.stderr)
 
 
 class _Line:
-    """A line on stderr that is written over, gone in the end."""
+    """A line on stderr that is overwritten, and removed at the end."""
 
     def __call__(self, kind, text, share):
         if kind == "stage":
@@ -29,7 +31,7 @@ class _Line:
             return
         if kind in ("work", "progress"):
             columns = os.get_terminal_size(sys.stderr.fileno()).columns if sys.stderr.isatty() else 0
-            sys.stderr.write("\r\x1b[K" + text[:(columns or 80) - 1])  # of a terminal without a size 0
+            sys.stderr.write("\r\x1b[K" + printable(text)[:(columns or 80) - 1])  # 0 for a terminal without a size
             sys.stderr.flush()
 
     def close(self):
@@ -38,7 +40,7 @@ class _Line:
 
 
 class _Bar:
-    """A bar in a notebook's output, gone in the end."""
+    """A bar in a notebook's output that is removed at the end."""
 
     def __init__(self):
         from IPython.display import HTML, display
@@ -59,10 +61,10 @@ class _Bar:
 
 
 class reporting:
-    """`with reporting(progress) as report:` gives what the engine calls: None, a callable of the user, or a bar.
+    """`with reporting(progress) as report:` gives the callable for the engine: the user's, a line, a bar, or None.
 
-    progress: None shows how far it is where someone looks (a terminal, a notebook), False nothing, True on stderr; a
-    callable is called with (kind, text, share): kind "stage", "detail", "work" or "progress", share from 0 to 1 or nan.
+    progress: None shows progress on a terminal or in a notebook, False shows nothing, True shows it on stderr. A callable
+    is called with (kind, text, share): kind "stage", "detail", "work" or "progress", share from 0 to 1 or nan.
     """
 
     def __init__(self, progress):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Commands as functions: the options of `crackle COMMAND --help` are keywords, with their units and defaults."""
+"""Commands as functions; the options of `crackle COMMAND --help` are keywords with the same units and defaults."""
 from __future__ import annotations
 
 import json
@@ -30,14 +30,14 @@ def pack(*, count: int | None = None, height_to_width: float | None = None, widt
          threads: int | None = None, density: float | None = None, normal_stiffness: float | None = None,
          shear_stiffness: float | None = None, friction_angle: float | None = None, output: _Path | None = None,
          force: bool = False, progress: _Progress = None) -> _engine.Particles:
-    """Packs random circles between four smooth walls to mechanical equilibrium, as `crackle pack`.
+    """Packs random circles between four smooth walls to mechanical equilibrium, like `crackle pack`.
 
-    Give count, or width and height (m); sizes: radius_min and radius_max (m), lognormal_median (m) and
-    lognormal_deviation, or sieve (CSV file); the target mean_overlap (m) or void_ratio. Of the file's material: density
-    (kg/m2), normal_stiffness, shear_stiffness (N/m), friction_angle (degrees). The same seed gives the same bytes,
-    whatever the threads.
+    Give count, or width and height (m). Give sizes by radius_min and radius_max (m), lognormal_median (m) and
+    lognormal_deviation, or sieve (CSV file). Give the target mean_overlap (m) or void_ratio. Material of the file: density
+    (kg/m2), normal_stiffness, shear_stiffness (N/m), friction_angle (degrees). The same seed gives the same bytes for
+    any number of threads.
 
-    Returns Particles; with output the file is written, too (InputError where it is there, unless force is true).
+    Returns Particles. With output the file is written, too (InputError if it exists, unless force is true).
     """
     options = dict(count=count, height_to_width=height_to_width, width=width, height=height, radius_min=radius_min,
                    radius_max=radius_max, lognormal_median=lognormal_median, lognormal_deviation=lognormal_deviation,
@@ -58,14 +58,14 @@ def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, ki
          density: float | None = None, normal_stiffness: float | None = None,
          shear_stiffness: float | None = None, friction_angle: float | None = None, output: _Path | None = None,
          force: bool = False, progress: _Progress = None) -> _engine.Particles:
-    """Makes polygons of the centres of circles, as `crackle mesh`.
+    """Makes polygons from the centres of circles, like `crackle mesh`.
 
     particles: Particles, the path of a particle file, or a sequence of centres x, y (m; with domain = (x1, x2, y1, y2)
-    or bounding_box). kind: "delaunay" or "voronoi"; thick: gap between facing edges, m (default: thick of the particles);
-    inset, m; boundary: "domain" or "centres"; merge: give the place of cells that the inset destroys to neighbours;
+    or bounding_box). kind: "delaunay" or "voronoi". thick: gap between facing edges, m (default: thick of the
+    particles). inset, m. boundary: "domain" or "centres". merge: merge cells that the inset destroys into neighbours.
     joints: a file of joints (`crackle joints`), whose traces become edges.
 
-    Returns Particles; with output the file is written, too.
+    Returns Particles. With output the file is written, too.
     """
     inputs: list[str] = []
     if joints is not None:
@@ -102,12 +102,12 @@ def joints(case: _Case, *, seed: int | None = None, box_width: float | None = No
            columns: int | None = None, width: float | None = None, font: str | None = None,
            font_size: float | None = None, dpi: int | None = None, title: str | None = None,
            force: bool = False) -> dict[str, Any]:
-    """Traces of joints in the box of a specimen, asked for and reached, as `crackle joints --json`.
+    """Generates or reads traces of joints in the box of a specimen, like `crackle joints --json`.
 
-    case: a case that has joints, or a dict, a TOML text or a file of nothing else; seed: in place of joints.seed;
-    box_width, box_height: of the box, m, where the case has none; grain: mean spacing of grains, m, whose mesh the
-    traces are for. traces: a file to write, a trace a line (x1 y1 x2 y2 ..., m); output: a figure to write, .svg, .pdf
-    or .png, width in mm. Returns a dict, its own units within.
+    case: a case that has joints, or a dict, a TOML text or a file with joints only. seed: replaces joints.seed.
+    box_width, box_height: size of the box, m, if the case states none. grain: mean spacing of the grains, m; prepares
+    the traces as for a mesh of such grains. traces: a file to write, one trace per line (x1 y1 x2 y2 ..., m). output: a figure to
+    write, .svg, .pdf or .png, width in mm. Returns a dict of requested and reached amounts, which states units.
     """
     options = dict(seed=seed, box_width=box_width, box_height=box_height, grain=grain, traces=traces, output=output,
                    columns=columns, width=width, font=font, font_size=font_size, dpi=dpi, title=title, force=force,
@@ -119,25 +119,27 @@ def joints(case: _Case, *, seed: int | None = None, box_width: float | None = No
 
 
 def _refuse_replacing(output, force, *inputs):
-    """Before the work: output is there and not to be replaced, or is one of the inputs."""
+    """Refuses an output that exists and must not be replaced, or that is one of the inputs. Called before any work is done."""
     if output is not None:
         _engine.refuse_replacing(os.fspath(output), bool(force), [os.fspath(one) for one in inputs if one is not None])
 
 
 class Elastic(dict):
-    """What `crackle elastic --json` prints, its own units within, and `bonds`: an array, shape (bonds,): body_i, body_j
-    (ids), position (x, y in m), strength (N), overlap, closing (m), normal_force, shear_force (N, at the strain asked
-    for; shear on body_i along the normal from i to j turned by +90 degrees), break_strain, slip_strain (inf: never);
-    notices: a list of what to know, such as what it leaves out of the case."""
+    """The object that `crackle elastic --json` prints, which states units, with two attributes.
+
+    bonds: an array of shape (bonds,) with the fields body_i, body_j (ids), position (x, y in m), strength (N), overlap,
+    closing (m), normal_force, shear_force (N), break_strain and slip_strain (inf: never). Forces are those at the
+    requested strain. The shear force acts on body_i, along the normal from i to j turned by +90 degrees.
+    notices: a list of texts, for example on parts of the case that the solution ignores."""
 
     bonds: Any = None
     notices: Sequence[str] = ()
 
 
 def elastic(case: _Case, *, strain: float = 1e-4, modes: int = 0, progress: _Progress = None) -> Elastic:
-    """Small-strain moduli, first break and slip, stable time step, by a sparse solve, as `crackle elastic`.
+    """Computes small-strain moduli, first break and slip and stable time step by a sparse solve, like `crackle elastic`.
 
-    strain: axial, at which bonds gives forces; modes: lowest vibration modes to find. Returns Elastic.
+    strain: axial strain for the forces in `bonds`; modes: number of lowest vibration modes to find. Returns Elastic.
     """
     with reporting(progress) as report:
         text, bonds, notices = _engine.elastic(read_case(case), strain, modes, report)
@@ -147,7 +149,7 @@ def elastic(case: _Case, *, strain: float = 1e-4, modes: int = 0, progress: _Pro
 
 
 def check(case: _Case, *, threads: int | None = None, progress: _Progress = None) -> dict[str, Any]:
-    """What a test would give and cost, as `crackle test --check --json`: a dict, its own units within."""
+    """Estimates results and cost of a test, like `crackle test --check --json`. Returns a dict, which states units."""
     with reporting(progress) as report:
         return json.loads(_engine.check(read_case(case), _threads(threads), report))
 
@@ -165,7 +167,7 @@ def _every(every):
 
 
 def _number(name, value, beyond, expected):
-    """A whole number >= 1 that the engine's type holds, of numpy as well."""
+    """Returns a whole number >= 1, which may be numpy's, after checking that it fits the engine's type."""
     try:
         number = 0 if isinstance(value, bool) else operator.index(value)
     except TypeError:
@@ -187,20 +189,20 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
          profile: bool = False, threads: int | None = None, long: bool = False, allow_unstable: bool = False,
          every: int | str = "row", call: Callable[[_engine.State], Any] | None = None,
          progress: _Progress = None) -> Result:
-    """Runs one virtual test, as `crackle test CASE -o OUT`, to the same bytes.
+    """Runs one virtual test, like `crackle test CASE -o OUT`, with identical results.
 
-    case: a dict, a TOML text or the path of a file. output: folder for the results; None: a folder that goes with the
-    Result, but stays where the test is not run to its end (the exception names it). force: replace results
-    that are there; verify: run the companions, too, for the errors of strength and strain; profile: time the phases of
-    a step; threads: no result depends on them; long: run it although it takes more than a day; allow_unstable: accept a
-    time step above the stable bound.
+    case: a dict, a TOML text or the path of a file. output: folder for the results. If None, a temporary folder is
+    removed together with the Result, but kept if the test does not run to its end; the exception then names it. force:
+    replace existing results. verify: also run companion tests, to state errors of strength and strain. profile: time the
+    phases of a step. threads: number of threads; results do not depend on it. long: run the test although it takes more
+    than a day. allow_unstable: accept a time step above the stable bound.
 
-    call: is called with the State of the test at every judged row (curve.csv has output.curve_rows of them), or every
-    so many steps: every = "row" or a number; not at the row by which the test ends of itself. It may read arrays, set
-    state.platen_speed, and end the test by state.stop(). What it raises ends the test as Ctrl-C does: what was written
-    is kept, and `resume` goes on.
+    call: a function called with the State of the test. every = "row": at each row by which peak and failure are judged, of
+    which curve.csv has output.curve_rows; every = N: at each multiple of N steps. It is not called at the row at which the
+    test ends by itself. It may read arrays, set state.platen_speed, and end the test with state.stop(). If it raises an
+    exception, the test ends as by Ctrl-C: results so far are kept, and resume() continues it.
 
-    Returns Result. Raises InputError, UnstableRun (results up to there are kept), KeyboardInterrupt.
+    Returns Result. Raises InputError, UnstableRun (results so far are kept), KeyboardInterrupt.
     """
     steps = _every(every)
     asked = read_case(case)
@@ -218,8 +220,8 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
         if temporary is not None and begun:
             temporary.keep()
         if begun and (temporary is not None or isinstance(error, KeyboardInterrupt)):
-            tell(error, f"what was written is kept in {os.fspath(output)}: crackle.read reads it, crackle.resume goes "
-                        "on with a test that was interrupted")
+            tell(error, f"results so far are kept in {os.fspath(output)}; crackle.read reads them, and crackle.resume "
+                        "resumes an interrupted test")
         raise
     return Result(folder, temporary=temporary)
 
@@ -227,8 +229,7 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
 def resume(folder: _Path, *, verify: bool = False, threads: int | None = None, long: bool = False,
            every: int | str = "row", call: Callable[[_engine.State], Any] | None = None,
            progress: _Progress = None) -> Result:
-    """Goes on with a test that was interrupted, as `crackle test --resume OUT`; keywords as of test(). Returns
-    Result."""
+    """Resumes an interrupted test, like `crackle test --resume OUT`. Keywords are those of test(). Returns Result."""
     options = _options(folder, False, verify, False, long, threads)
     with reporting(progress) as report:
         folder, _, _ = _engine.resume_test(options, report, call, _every(every))
@@ -237,14 +238,15 @@ def resume(folder: _Path, *, verify: bool = False, threads: int | None = None, l
 
 def campaign(plan: _Path, output: _Path, *, workers: int | None = None, verify: bool = False, retry: bool = False,
              shard: str | tuple[int, int] | None = None, long: bool = False, progress: _Progress = None) -> Campaign:
-    """Runs a table of tests on several processors, as `crackle campaign PLAN -o DIR`. Stopped at any moment, the same
-    call goes on.
+    """Runs a table of tests on several processors, like `crackle campaign PLAN -o DIR`. If stopped, the same call resumes it.
 
     plan: path of a TOML file (`crackle campaign --keys` lists its keys). workers: processes that run tests; by default
-    one a processor lent. verify: run each test at half the step and half the rate, too; retry: run those again that have
-    gone wrong; shard: (I, N), run share I of N; long: run tests although they take more than a day.
+    one per available processor. verify: also run each test at half the time step and at half the rate. retry: repeat
+    tests that ended without a result because of their case; tests that ended with a system error are always repeated.
+    shard: (I, N) runs share I of N. long: run tests although they take more than a day.
 
-    Returns Campaign. Raises InputError, KeyboardInterrupt (what has been run is kept).
+    Returns Campaign. Raises InputError, SystemFailure if tests ended with a system error (the same call repeats them),
+    KeyboardInterrupt (finished tests are kept).
     """
     if shard is not None and not isinstance(shard, str):
         shard = f"{shard[0]}/{shard[1]}"
@@ -253,23 +255,24 @@ def campaign(plan: _Path, output: _Path, *, workers: int | None = None, verify: 
     return Campaign(output)
 
 
-def calibrate(rock: _Path, output: _Path, *, workers: int | None = None, long: bool = False,
+def calibrate(rock: _Path, output: _Path, *, workers: int | None = None, retry: bool = False, long: bool = False,
               progress: _Progress = None) -> Calibration:
-    """Finds the free keys of a rock from its laboratory values, as `crackle calibrate ROCK -o DIR`. Stopped at any
-    moment, the same call goes on.
+    """Finds values for the free keys of a rock from laboratory results, like `crackle calibrate ROCK -o DIR`. If stopped, the same call resumes it.
 
     rock: path of a TOML file (`crackle calibrate --keys` lists its keys). workers: processes that run tests; by default
-    one a processor lent. long: run tests although they take more than a day.
+    one per available processor. retry: repeat tests that ended without a result because of their case. long: run
+    tests although they take more than a day.
 
-    Returns Calibration, whether or not all targets were reached. Raises InputError, KeyboardInterrupt (what has been
-    run is kept).
+    Returns Calibration, whether or not all targets were reached. Raises InputError, SystemFailure if tests ended with
+    a system error (the same call repeats them), KeyboardInterrupt (finished tests are kept).
     """
-    _run_long("calibrate", rock, dict(output=os.fspath(output), workers=workers, long=long), progress)
+    _run_long("calibrate", rock, dict(output=os.fspath(output), workers=workers, retry=retry, long=long),
+              progress)
     return Calibration(output)
 
 
 def _run_long(command, file, options, progress):
-    """A command that goes on where it was stopped."""
+    """Runs a command that resumes where it was stopped."""
     try:
         with reporting(progress) as report:
             code, _ = _run(command, [given_or_shipped(file)], options, report)
@@ -277,8 +280,8 @@ def _run_long(command, file, options, progress):
             raise KeyboardInterrupt
     except InputError:
         raise
-    except BaseException as error:  # Ctrl-C, or what progress raised
-        tell(error, f"what was run is kept in {options['output']}: the same call goes on")
+    except BaseException as error:  # Ctrl-C, or an exception raised by progress
+        tell(error, f"finished work is kept in {options['output']}; the same call resumes")
         raise
 
 
@@ -294,11 +297,11 @@ def envelope(*folders: _Results, figure: str | None = None, strain: float | None
              columns: int | None = None, width: float | None = None, font: str | None = None,
              font_size: float | None = None, dpi: int | None = None, title: str | None = None,
              force: bool = False) -> dict[str, Any]:
-    """Mohr-Coulomb and Hoek-Brown from tests and campaigns at several confinements, as `crackle envelope --json`.
+    """Fits Mohr-Coulomb and Hoek-Brown to tests and campaigns at several confinements, like `crackle envelope --json`.
 
-    folders: paths, Results or Campaigns. figure: stress of summary.json that is taken for the strength ("peak_stress"),
-    "largest_stress" of tests that harden; strain: the stress at this axial strain in its place. output: a figure to write, .svg, .pdf or .png. Returns a dict, its own units
-    within.
+    folders: paths, Results or Campaigns. figure: stress in summary.json used as the strength: "peak_stress", or
+    "largest_stress" for tests that harden. strain: use the stress at this axial strain as the strength instead. output: a figure to
+    write, .svg, .pdf or .png. Returns a dict, which states units.
     """
     options = dict(figure=figure, strain=strain, output=output, columns=columns, width=width, font=font,
                    font_size=font_size, dpi=dpi, title=title, force=force, json=True)
@@ -313,12 +316,13 @@ def plot(*results: _Results, output: _Path, what: str | Sequence[str] | None = N
          figure: str | Sequence[str] | None = None, test: str | Sequence[str] | None = None,
          measured: _Path | None = None, units: str | None = None, bodies: int | Sequence[int] | None = None,
          force: bool = False) -> None:
-    """Draws a figure for a paper, as `crackle plot OUT... -o FIGURE`: .svg, .pdf or .png.
+    """Draws a figure for a paper (.svg, .pdf or .png), like `crackle plot OUT... -o FIGURE`.
 
-    results: Results, Campaigns or their folders, or folders of decks' runs. what: words of "curve", "ae", "emission",
-    "strain", "specimen", of a campaign of "curve", "axes", "scatter", of a deck of "energy", "displacement", "height",
-    "velocity", "force", "curve"; at: strains, or "start", "peak", "end"; width in mm; magnify: displacements are drawn
-    this many times as large; of decks units: "si", "cgs" or "mm-g-s", what its units are called, bodies: their numbers.
+    results: Results, Campaigns or their folders, or folders of decks' runs. what: words among "curve", "ae",
+    "emission", "strain" and "specimen". A campaign has "curve", "axes" and "scatter"; a deck has "energy", "displacement",
+    "height", "velocity", "force" and "curve". at: strains, or "start", "peak", "end". width in mm. magnify:
+    magnification of displacements. For the run of a deck, units ("si", "cgs" or "mm-g-s") names its units, and bodies lists the
+    numbers of the bodies to draw.
     """
     def many(value):
         return [value] if isinstance(value, (str, float, int)) else value
@@ -331,11 +335,11 @@ def plot(*results: _Results, output: _Path, what: str | Sequence[str] | None = N
 def view(*particles: _engine.Particles | Result | _Path, output: _Path, title: str | None = None,
          frames: int | None = None, seed: int | None = None, units: str | None = None,
          progress: _Progress = None) -> None:
-    """Writes a page to look at particles, moving or not, as `crackle view IN... -o view.html`.
+    """Writes a page that shows particles at rest or in motion, like `crackle view IN... -o view.html`.
 
-    particles: Particles, Results, or paths of particle files and of folders of tests and decks' runs. frames: show at
-    most this many of each, evenly chosen; seed: of the circles that a particle file of mode 0 leaves to chance; units:
-    "si", "cgs" or "mm-g-s", what those of particle files and decks are called.
+    particles: Particles, Results, or paths of particle files and of folders of tests and decks' runs. frames: largest
+    number of frames of each, evenly spaced. seed: seed of the circles that a particle file of mode 0 draws. units: "si",
+    "cgs" or "mm-g-s", the names of the units of particle files and decks.
     """
     options = dict(output=os.fspath(output), title=title, frames=frames, seed=seed, units=units)
     scratch = Temporary()
@@ -352,11 +356,11 @@ def view(*particles: _engine.Particles | Result | _Path, output: _Path, title: s
 
 def report(*results: _Results, output: _Path, title: str | None = None, frames: int | None = None,
            test: str | Sequence[str] | None = None, measured: _Path | None = None, progress: _Progress = None) -> None:
-    """Writes a self-contained page of results, as `crackle report OUT... -o report.html`.
+    """Writes a self-contained page of results, like `crackle report OUT... -o report.html`.
 
-    results: Results or their folders, or one Campaign. frames: show at most so many of a test, evenly chosen; of a
-    campaign, test: those of its tests that are shown; measured: CSV file with axial_strain and axial_stress, drawn over
-    the curves of its test.
+    results: Results or their folders, or one Campaign. frames: largest number of frames per test, evenly spaced. For
+    a campaign, test names the tests to show, and measured is a CSV file with axial_strain and axial_stress, drawn over the
+    curves of its test.
     """
     options = dict(output=os.fspath(output), title=title, frames=frames, test=test, measured=measured)
     with reporting(progress) as report_to:

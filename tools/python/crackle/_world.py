@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A specimen in its apparatus, or loose particles, that Python steps and loads itself."""
+"""A specimen in its apparatus, or loose particles, stepped and loaded from Python."""
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
@@ -17,10 +17,10 @@ class World(_engine.World):
     """A world that is stepped by `step(count)`.
 
     World(case): the specimen of a case, bonded in its apparatus, at the start of loading. The driving part moves at the
-    case's rate; of a case with rate_tolerance at the first, which nothing changes but `platen_speed`.
+    case's rate. With rate_tolerance it moves at the initial rate, until `platen_speed` is set.
     World(particles, walls=True): particles at rest, as `pack`, `mesh` and `read` give them, without bonds.
 
-    threads: of the steps; no result depends on them. Properties and methods: State. Raises InputError.
+    threads: number of threads; results do not depend on it. Properties and methods: see State. Raises InputError.
     """
 
     def __init__(self, case: _Case | _engine.Particles, *, threads: int | None = None, walls: bool = True,
@@ -33,5 +33,5 @@ class World(_engine.World):
             super().__init__(asked, _threads(threads), report)
 
     def add_bond(self, i: int, j: int, gap: float = 0.0) -> int:
-        """Bonds the contact points between bodies of ids i and j, as add_bonds. Returns how many."""
+        """Bonds the contact points between the bodies with ids i and j, like add_bonds(). Returns the number of new bonds."""
         return self.add_bonds([(i, j)], gap)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page's script is compressed like its data, to a third of its size. Only this part is plain: it unpacks the rest and runs
-// it.
+// Decompresses the page's script and runs it. The script is compressed like the data, to a third of its size.
 
 import {unpacked} from './data/blocks';
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Builds the page: title, curves, viewer, breaks, fragments, summaries, drawings; redraws the figures when theme, view or size
-// change and for printing.
+// Builds the page: title, curves, viewer, breaks, fragments, summaries, drawings. Redraws the figures for printing, and when
+// theme, view or size change.
 
 import type {ECharts} from 'echarts/core';
 
@@ -28,7 +28,7 @@ import {counted, strainFactor, useFileUnits, useStressUnits} from './quantities/
 
 const viewNames: Record<View, string> = {kind: 'Kind of test', specimen: 'Specimen', test: 'Each test'};
 
-const leastBeside = 700; // px, of the viewer's width that has room for a curve beside a specimen
+const leastBeside = 700; // px, least width of the viewer for a curve beside the specimen
 
 interface State {
     view: View;
@@ -39,7 +39,7 @@ class Page {
     private charts: CurvePanel[] = [];
     private deckFigures: DeckCurveFigure[] = [];
     private readonly deckHolder = element('div', {class: 'panels'});
-    private beside: CurvePanel | undefined; // beside a test that is shown alone
+    private beside: CurvePanel | undefined; // curve beside a test that is shown alone
     private readonly besideHolder = element('div', {class: 'beside-curve'});
     private readonly front = element('div', {class: 'front'});
     private readonly state: State = {view: 'kind', magnification: 1};
@@ -64,7 +64,7 @@ class Page {
         this.layOut();
     }
 
-    /// Draws the parts that need no frames, the viewer first; then the parts that need them.
+    /// Draws the parts that need no frames, the viewer first, and then the parts that need frames.
     async draw(): Promise<void> {
         this.applyTheme();
         if (this.viewer) {
@@ -104,18 +104,18 @@ class Page {
     private unitsText(): string {
         const {tests, units} = this.report;
         if (tests.every(({source}) => source === 'test')) return this.testUnitsText();
-        if (units) return `forces are in ${units.force}, stresses in ${units.stress}, of a slice of unit thickness.`;
+        if (units) return `forces are in ${units.force}, stresses in ${units.stress}, for a slice of unit thickness.`;
         const own = 'lengths, forces and stresses are shown as the numbers of';
-        const name = tests.every(({source}) => source !== 'test') ? 'the deck, which does not state its units (crackle view --units names them)' : 'each file, in units of its own';
+        const name = tests.every(({source}) => source !== 'test') ? 'the deck, which does not state its units (name them with crackle view --units)' : 'each file, in the units of that file';
         return `${own} ${name}; times are in s.`;
     }
 
     private testUnitsText(): string {
-        const area = 'where stiffnesses are given of an area, stresses and moduli are those of a slice, Pa.';
+        const area = 'if stiffnesses are given per area, stresses and moduli are those of a slice, in Pa.';
         const length = 'stresses and moduli are forces per unit length, N/m';
         const tests = this.report.tests.filter(({source}) => source === 'test');
         if (!tests.some(inArea)) return `${length}.`;
-        return tests.every(inArea) ? 'stresses and moduli are those of a slice, Pa.' : `${length}; ${area}`;
+        return tests.every(inArea) ? 'stresses and moduli are those of a slice, in Pa.' : `${length}; ${area}`;
     }
 
     private curveSection(curved: LabelledTest<CurvedTest>[]): HTMLElement {
@@ -128,10 +128,10 @@ class Page {
             })] : []), element('span', {class: 'hint'}, 'A click shows the specimens at that strain. Shift and wheel zoom the strain axis, dragging moves it, a double click resets it.')),
             this.panelHolder,
             element('p', {class: 'caption'},
-                'Stress is the mean of the two platens’ forces over the initial width, strain the platen displacement over the initial height (of tests that are not between platens as their kind defines them: Hondros’ stress of a disc, the fibre stress of a beam), both positive in ',
-                'the test’s own sense. Below the curves: bonds broken in each interval of strain, by mode (', mark('tension'), ' tension, ', mark('shear'), ' shear), ',
+                'Stress is the mean of the two platens’ forces over the initial width, strain the platen displacement over the initial height (for tests without platens, they are defined by the kind of test: Hondros’ stress for a disc, fibre stress for a beam). Both are positive in ',
+                'the loading direction. Below the curves: bonds broken in each interval of strain, by mode (', mark('tension'), ' tension, ', mark('shear'), ' shear), ',
                 'and the total so far as a line.',
-                ...(curved.some(({test}) => hasSlips(test)) ? [' In strips of their own, slips (', mark('slid'), `): ${slipMeaning}.`] : [])));
+                ...(curved.some(({test}) => hasSlips(test)) ? [' Separate strips show slips (', mark('slid'), `): ${slipMeaning}.`] : [])));
     }
 
     private deckSection(): HTMLElement[] {
@@ -142,7 +142,7 @@ class Page {
         return [element('section', {id: 'deck-curves'}, element('h2', {}, 'Energy and watched bodies'),
             element('div', {class: 'controls'}, element('span', {class: 'hint'}, 'A click shows the specimen at that time. Shift and wheel zoom the time axis, dragging moves it, a double click resets it.')),
             this.deckHolder,
-            element('p', {class: 'caption'}, 'From energy.dat, f-d_curve.dat and velocity_y.dat: parts of the energy that are 0 throughout are left out; displacements count from the first row of a body.', ...cut.map((text) => ` ${text}`)))];
+            element('p', {class: 'caption'}, 'From energy.dat, f-d_curve.dat and velocity_y.dat: parts of the energy that are always 0 are left out; displacements are relative to the first row of a body.', ...cut.map((text) => ` ${text}`)))];
     }
 
     private viewerSection(): HTMLElement {
@@ -188,7 +188,7 @@ class Page {
             this.breakHolder,
             element('p', {class: 'caption'}, 'Map: position of each broken bond, the area of its circle proportional to its energy (', mark('tension'), ' tension, ', mark('shear'),
                 ' shear; by time: dark is early, bright is late).',
-                ...(slips ? [' Lines along the contacts (', mark('slid'), `; by time likewise): slips, ${slipMeaning}.`] : []), ' Rose: directions of the cracks, perpendicular to the contact normals; breaks in each ',
+                ...(slips ? [' Lines along the contacts (', mark('slid'), `, or coloured by time): slips, ${slipMeaning}.`] : []), ' Rose: directions of the cracks, perpendicular to the contact normals; breaks in each ',
                 `${directionWidth}°, counted in both directions. The loading axis is at 90°.`));
     }
 
@@ -284,7 +284,7 @@ class Page {
         this.moveCursors();
     }
 
-    /// The curve of a test that is shown alone, in what would be empty paper beside its specimen.
+    /// Draws the curve of a test that is shown alone, in the free space beside its specimen.
     private drawBeside(): void {
         const {viewer} = this, alone = viewer?.chosen.length === 1 ? viewer.chosen[0]!.labelled : undefined;
         const [curved] = alone ? withCurve([alone]) : [];
@@ -304,7 +304,7 @@ class Page {
         this.moveCursors();
     }
 
-    /// After a click on a curve: the specimens that it moved, where they are out of view.
+    /// Scrolls to the viewer if it is out of view, after a click on a curve has moved the specimens.
     private showViewer(): void {
         const stage = this.viewer?.stageElement, box = stage?.getBoundingClientRect();
         if (!stage || !box) return;
@@ -343,13 +343,13 @@ class Page {
         this.goTo(({test}) => panel.members.some((member) => member.test === test), 'strain', strain);
     }
 
-    /// @param ofPanel  whether a curve that was clicked at is of this test
+    /// @param ofPanel  whether the panel that was clicked shows this test
     private goTo(ofPanel: (view: SpecimenView) => boolean, axis: 'strain' | 'time', value: number): void {
         const {viewer} = this;
         if (!viewer) return;
         let view = viewer.chosen.find(ofPanel);
         if (!view) {
-            // None of the panel's tests is shown: show its first one.
+            // If no test of the panel is shown, its first one is.
             view = viewer.tests.find(ofPanel);
             if (!view) return;
             viewer.choose({test: viewer.tests.indexOf(view)});
@@ -394,7 +394,7 @@ class Page {
 
 const slipMeaning = 'bonds that reached their Coulomb limit for the first time; they are not among the breaks unless they broke later';
 
-/// Whether the map has something to show.
+/// Whether the test has breaks or slips to show on the map.
 function onMap(test: TestData): boolean {
     return test.events.count > 0 || hasSlips(test);
 }

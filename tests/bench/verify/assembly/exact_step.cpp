@@ -150,13 +150,15 @@ std::vector<ClaimRow> exact_step_is_that_of_a_dense_matrix() {
 
 std::vector<ClaimRow> exact_step_of_specimens_between_platens() {
     Rows rows;
-    for (const char* mesh : {"", "delaunay", "voronoi"}) {
-        TestCase description = packed_case(1, "compression", 0.01, 0.01);
-        if (*mesh != 0) {
+    for (const auto kind : {SpecimenKind::circles, SpecimenKind::delaunay, SpecimenKind::voronoi}) {
+        TestCase description = packed_case(1, LoadingKind::compression, 0.01, 0.01);
+        if (kind != SpecimenKind::circles) {
             mesh_voronoi(description);
-            description.mesh.kind = mesh;
+            description.mesh.kind = from_name<MeshKind>(name_of(kind));
         }
-        const std::string name = *mesh == 0 ? "circles" : *mesh == 'd' ? "Delaunay triangles" : "Voronoi cells";
+        const std::string name = kind == SpecimenKind::circles    ? "circles"
+                                 : kind == SpecimenKind::delaunay ? "Delaunay triangles"
+                                                                  : "Voronoi cells";
         check_step_limit(rows, name, at_rest(prepare_test(description).world));
     }
     return rows.take();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plane P and S waves along a bond row of the triangular lattice, in free motion: the middle of a lattice that is wide
-// enough not to hear of its edges before a quarter of the period.
+// Plane P and S waves along a bond row of the triangular lattice, in free motion. The lattice is wide enough that its
+// edges do not reach the middle before a quarter of the period.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>

@@ -78,7 +78,7 @@ std::vector<ClaimRow> slow_run_measures_the_stiffness_of_the_sparse_solve() {
 std::vector<ClaimRow> intact_test_has_the_moduli_of_the_sparse_solve() {
     Rows rows;
     for (const bool meshed : {false, true}) {
-        for (const char* kind : {"tension", "compression"}) {
+        for (const LoadingKind kind : {LoadingKind::tension, LoadingKind::compression}) {
             TestCase description = packed_case(1, kind, 0.002, 1e-4);  // small: the solve is linear
             if (meshed) mesh_voronoi(description);
             description.numerics.intact = true;
@@ -88,7 +88,7 @@ std::vector<ClaimRow> intact_test_has_the_moduli_of_the_sparse_solve() {
             const CurveRow &half = test.state.rows[test.state.rows.size() / 2], &last = test.state.rows.back();
             const double strain = last.axial_strain - half.axial_strain;
             const double lateral = (last.lateral_strain - half.lateral_strain) / strain;
-            const std::string name = fmt::format("{} in {}", meshed ? "Voronoi cells" : "circles", kind);
+            const std::string name = fmt::format("{} in {}", meshed ? "Voronoi cells" : "circles", name_of(kind));
             rows.relative(name + ": E, N/m", (last.axial_stress - half.axial_stress) / strain,
                           test.state.youngs_modulus, 5e-3, "reference");
             rows.relative(name + ": ν", test.setup.compression ? lateral : -lateral, test.state.poissons_ratio, 1e-2,
@@ -252,7 +252,7 @@ std::vector<ClaimRow> modulus_lies_below_the_affine_bound() {
     double mean = 0.0, mean_isotropic = 0.0;
     constexpr int packings = 20;
     for (int seed = 1; seed <= packings; ++seed) {
-        const VirtualTest test = prepare_test(packed_case(seed, "tension", 0.01, 0.01));
+        const VirtualTest test = prepare_test(packed_case(seed, LoadingKind::tension, 0.01, 0.01));
         const double ratio = test.state.youngs_modulus / affine_modulus(test);
         mean += ratio / packings;
         mean_isotropic += test.state.youngs_modulus / isotropic_modulus(test) / packings;

@@ -92,8 +92,8 @@ World build(const Box& box) {
     return build_world(std::move(scene));
 }
 
-/// So hard that a fall presses no corner past the far side of another: with no thickness to speak of a corner that
-/// meets a corner gets in by the depth of the impact, a millimetre for the ordinary rock.
+/// So hard that a fall presses no corner past the far side of another. With hardly any thickness, a corner that meets a
+/// corner gets in by the depth of the impact, a millimetre for the ordinary rock.
 Material hard_rock() {
     Material hard = damped_rock();
     hard.normal_stiffness *= 100.0, hard.shear_stiffness *= 100.0;

@@ -101,8 +101,8 @@ double force_after_turn(Kind kind, int steps, std::int64_t& broken) {
 
 std::vector<ClaimRow> rigid_turn_of_360_degrees_gives_no_force() {
     // A step of angle α leads each centroid along its chord. Seen from the contact, the chord's slip is that of the
-    // exact turn up to (sin α - α)·D, D the distance of the centroids along the normal: α³D/6 a step, so πα²D/3 in a
-    // full turn.
+    // exact turn up to (sin α - α)·D, D the distance of the centroids along the normal. This is α³D/6 a step, so πα²D/3
+    // in a full turn.
     Rows rows;
     for (const Kind kind : {Kind::discs, Kind::polygons}) {
         std::int64_t broken = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The same physics whatever the order and numbers of the bodies, the handedness and the direction of the axes, and the
-// units: impacts with friction, dashpots, bonds that break, gravity and walls, compared body by body.
+// Physics does not depend on the order and numbers of the bodies, the handedness and direction of the axes, or the
+// units. Impacts with friction, dashpots, bonds that break, gravity and walls are compared body by body.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Polygons: mass properties, free spin, and collisions corner to corner, corner to edge and edge to edge. Contact
-// forces act at one point of both bodies and derive from ½k_n δ² with δ C¹ outside a convex outline, so momentum and
-// angular momentum are kept to rounding and, without friction and dashpots, energy to second order in the step, corners
-// passing corners included. Notched polygons and open chains as well.
+// forces act at one point of both bodies and derive from ½k_n δ² with δ C¹ outside a convex outline. Momentum and
+// angular momentum are therefore kept to rounding. Without friction and dashpots, energy is kept to second order in the
+// step, corners passing corners included. Notched polygons and open chains as well.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -174,7 +174,8 @@ std::vector<ClaimRow> polygons_colliding_under_the_guides_law_keep_momentum_and_
                       "reference");
         const Outcome coarse = collide(c, 0.02 / 4.0, 0.0, SegmentLaw::demseg),
                       fine = collide(c, 0.02 / 32.0, 0.0, SegmentLaw::demseg);
-        // As under the rounded law, (π/1600)²/4 of what is stored; a jump of the overlap at a free end costs more.
+        // The error is that under the rounded law, (π/1600)²/4 of what is stored; a jump of the overlap at a free end
+        // costs more.
         rows.absolute(fmt::format("{}: closing error over the kinetic, t_c/1600", c.name), fine.closing_error, 0.0,
                       1e-5, "(ω dt)²");
         rows.converging({coarse.closing_error, fine.closing_error, 8.0, 2.0});

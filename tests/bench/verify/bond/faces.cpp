@@ -36,7 +36,7 @@ Scene empty_scene(double thick) {
     return scene;
 }
 
-/// Of a rectangle inset by half the thickness.
+/// Adds a rectangle inset by half the thickness.
 void add_cell(Scene& scene, int id, Vec2 low, Vec2 high) {
     const double h = 0.5 * scene.thick;
     scene.add_chain_body(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // First bond break of the triangular lattice under uniaxial tension, along and across a bond row, by the engine's own
-// contact law: all discs are carried along a homogeneous strain, in which every inner disc is in equilibrium by
-// symmetry, and the lateral strain follows so that the lateral stress stays zero.
+// contact law. All discs are carried along a homogeneous strain, in which every inner disc is in equilibrium by
+// symmetry. The lateral strain follows so that the lateral stress stays zero.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>

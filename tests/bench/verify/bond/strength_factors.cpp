@@ -51,7 +51,7 @@ std::vector<ClaimRow> random_factors_of_strength_have_their_distribution() {
         for (const double x : drawn) variance += (x - mean) * (x - mean) / (n - 1.0);
         for (const double x : drawn) fourth += std::pow(x - mean, 4) / n;
         rows.absolute(name + ": mean", mean, 1.0, 3.5 * cv / std::sqrt(n), "3.5 standard errors");
-        // Of a standard deviation s, by the fourth moment.
+        // Error of a standard deviation s, by the fourth moment.
         const double error = std::sqrt((fourth - variance * variance) / n) / (2.0 * std::sqrt(variance));
         rows.absolute(name + ": coefficient of variation", std::sqrt(variance) / mean, cv, 3.5 * error,
                       "3.5 standard errors");

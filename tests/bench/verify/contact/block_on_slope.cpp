@@ -71,8 +71,8 @@ std::vector<ClaimRow> block_stays_on_a_slope_below_friction() {
         const BodyIndex block = body_of_id(world, 1);
         const double start = world.bodies.state[block].x;
         tilt(world, slope, 0.5, 1.5);
-        // The springs of both bottom corners carry the slope's pull, mg sin θ / 2k_s; the block also leans over by the
-        // difference of their normal springs and slips a little where the upper corner is relieved.
+        // The springs of both bottom corners carry the slope's pull, mg sin θ / 2k_s. The block also leans over by the
+        // difference of their normal springs, and slips a little where the upper corner is relieved.
         const double sag = world.bodies.inertia[block].mass * gravity * std::sin(slope) / (2.0 * 0.5e8);
         rows.at_most(fmt::format("{}: way over that of its springs", name_of(ground)),
                      (world.bodies.state[block].x - start) / sag, 4.0, "springs and lean");

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double per_degree = std::numbers::pi / 180.0;
 
-/// What a row of circles on either side of a joint does not do that one in the rock does: of a spacing's moduli the
-/// share, times the spacing in circles.
+/// Share of a spacing's moduli that a row of circles on either side of a joint lacks, against one in the rock, times
+/// the spacing in circles.
 constexpr double one_circle_off = 0.8;
 constexpr double small_diameter = 0.5 * circles_diameter;  // m
 
@@ -49,14 +49,14 @@ std::vector<ClaimRow> persistent_set_adds_its_compliance() {
     Rows rows;
     constexpr int joints = 8;
     constexpr double spacing = rock_height / joints, normal = 2e11, shear = 8e10;  // m, Pa/m
-    for (const char* kind : {"voronoi", "delaunay"}) {
+    for (const SpecimenKind kind : {SpecimenKind::voronoi, SpecimenKind::delaunay}) {
         for (const std::int64_t seed : {1, 2}) {
             TestCase test = jointed_rock(kind, seed);
             add_set(test, 0.0, spacing, {0.0, 0.5 * spacing}, stiffnesses(normal, shear));
             const Specimen specimen = make_specimen(test, {});
             const Compliance jointed = compliance(specimen, test, Traces::as_they_are),
                              welded = compliance(specimen, test, Traces::as_rock);
-            const std::string name = fmt::format("{}, packing {}: ", kind, seed);
+            const std::string name = fmt::format("{}, packing {}: ", name_of(kind), seed);
             for (const double t : {0.0, 30.0, 45.0, 60.0, 90.0}) {
                 const double c = std::cos(t * per_degree), s = std::sin(t * per_degree),
                              along = (90.0 - t) * per_degree;
@@ -73,7 +73,7 @@ std::vector<ClaimRow> persistent_set_adds_its_compliance() {
     return rows.take();
 }
 
-/// The same case with joints as stiff, Pa/m.
+/// The case with joints of this stiffness, Pa/m.
 TestCase with_stiffness(TestCase test, double stiffness) {
     for (TestCase::JointSet& set : test.joint_set) set.own = stiffnesses(stiffness, stiffness);
     return test;
@@ -84,7 +84,7 @@ std::vector<ClaimRow> joint_among_circles_adds_its_compliance() {
     constexpr double normal = 2e11, shear = 8e10, stiff = 1e24;  // Pa/m
     for (const int joints : {8, 4, 1}) {
         const double spacing = rock_height / joints;
-        TestCase test = jointed_rock("circles", 1);
+        TestCase test = jointed_rock(SpecimenKind::circles, 1);
         test.packing.radius_min = 0.5 * *test.packing.radius_min;
         test.packing.radius_max = 0.5 * *test.packing.radius_max;
         add_set(test, 0.0, spacing, {0.0, 0.5 * spacing}, stiffnesses(normal, shear));
@@ -115,11 +115,11 @@ std::vector<ClaimRow> joint_among_circles_adds_its_compliance() {
 
 std::vector<ClaimRow> persistent_sets_add_up() {
     Rows rows;
-    for (const char* kind : {"voronoi", "delaunay"}) {
+    for (const SpecimenKind kind : {SpecimenKind::voronoi, SpecimenKind::delaunay}) {
         TestCase test = jointed_rock(kind, 3);
         test.mesh.thick = 5e-5;  // crossings leave slender cells
         // Beside crossings Voronoi cells need more room than triangles.
-        const std::size_t sets = test.mesh.kind == "voronoi" ? 2 : 3;
+        const std::size_t sets = kind == SpecimenKind::voronoi ? 2 : 3;
         const double spacings[] = {0.15, 0.12, 0.16}, angles[] = {0.0, 60.0, 110.0};
         const double normal[] = {2e11, 4e11, 6e11}, shear[] = {8e10, 2e11, 1e11};
         for (std::size_t k = 0; k < sets; ++k)
@@ -138,7 +138,7 @@ std::vector<ClaimRow> persistent_sets_add_up() {
             for (std::size_t a = 0; a < 3; ++a)
                 for (std::size_t b = 0; b < 3; ++b) expected[a][b] += own[a][b];
         }
-        const std::string name = fmt::format("{}: ", kind);
+        const std::string name = fmt::format("{}: ", name_of(kind));
         rows.relative(name + "E along x, Pa", 1.0 / jointed[0][0], 1.0 / expected[0][0], 0.02, "reference");
         rows.relative(name + "E along y, Pa", 1.0 / jointed[1][1], 1.0 / expected[1][1], 0.02, "reference");
         rows.relative(name + "G, Pa", 1.0 / jointed[2][2], 1.0 / expected[2][2], 0.02, "reference");

@@ -11,12 +11,12 @@ namespace crackle::verification {
 
 inline constexpr double rock_width = 0.6, rock_height = 1.2;    // m
 inline constexpr double rock_modulus = 50e9, rock_ratio = 2.5;  // Pa, contact modulus; k_n over k_s
-/// Of the mean radius of two circles, up to whose gap they are bonded: nearly all neighbours are.
+/// Gap up to which two circles are bonded, over their mean radius: nearly all neighbours are.
 inline constexpr double bonded_range = 0.3;
 inline constexpr double circles_diameter = 0.04;  // m, mean
 
-/// Some 500 circles of 15 to 25 mm radius, meshed or not. @param kind "voronoi", "delaunay" or "circles"
-TestCase jointed_rock(const char* kind, std::int64_t seed);
+/// Some 500 circles of 15 to 25 mm radius, meshed or not.
+TestCase jointed_rock(SpecimenKind kind, std::int64_t seed);
 
 /// Adds a persistent set at a fixed spacing. @param angle degrees from +x @param through m, a point on one trace
 void add_set(TestCase& test, double angle, double spacing, Vec2 through, const TestCase::JointKeys& own);

@@ -26,8 +26,8 @@ namespace {
 constexpr double pressure = 5e6, friction = 25.0;               // Pa, degrees
 constexpr double platen_rate = 0.05, strain_under_load = 3e-4;  // 1/s; at which the pressure is on
 constexpr double strain_at_most = 2e-3;                         // where nothing slips
-// Shares of the gap between cells that the faces have slid when stress is measured: corners have left the ends of the
-// faces that they bonded to, and not yet met the rounded ends of the next ones, on which they ride up.
+// Shares of the gap between cells that the faces have slid when stress is measured. Corners have then left the ends of
+// the faces that they bonded to. They have not yet met the rounded ends of the next ones, on which they ride up.
 constexpr double wide_gap = 3e-3;  // m
 constexpr double slid_from = 0.3, slid_to = 0.7;
 // Flat faces of circles have no corners: slip goes on for more than a circle.
@@ -151,9 +151,9 @@ struct Slipped {
     double pressed;  // force on the sides of the upper block over that of the pressure on its share of them
 };
 
-Slipped slip(const char* kind, std::int64_t seed, double beta) {
+Slipped slip(SpecimenKind kind, std::int64_t seed, double beta) {
     TestCase test = jointed_rock(kind, seed);
-    const bool circles = std::string_view(kind) == "circles";
+    const bool circles = kind == SpecimenKind::circles;
     if (circles)
         test.material.damping_ratio = circles_damping;
     else
@@ -211,7 +211,7 @@ Slipped slip(const char* kind, std::int64_t seed, double beta) {
 std::vector<ClaimRow> plane_among_circles_slips_on_and_on() {
     Rows rows;
     for (const double beta : {35.0, 45.0, 55.0}) {
-        const Slipped got = slip("circles", 1, beta * degrees_of_arc);
+        const Slipped got = slip(SpecimenKind::circles, 1, beta * degrees_of_arc);
         const double expected = got.pressed * strength_of_plane(beta * degrees_of_arc);
         const std::string name = fmt::format("{:.0f} degrees: ", beta);
         rows.relative(name + "axial stress, Pa", got.stress, expected, 1e-3, "inertia");
@@ -225,16 +225,16 @@ std::vector<ClaimRow> plane_among_circles_slips_on_and_on() {
 
 std::vector<ClaimRow> plane_of_weakness_slips_at_its_strength() {
     Rows rows;
-    const auto compare = [&](const char* kind, std::int64_t seed, double beta) {
+    const auto compare = [&](SpecimenKind kind, std::int64_t seed, double beta) {
         const Slipped got = slip(kind, seed, beta * degrees_of_arc);
-        const std::string name = fmt::format("{}, packing {}, {:.0f} degrees: ", kind, seed, beta);
+        const std::string name = fmt::format("{}, packing {}, {:.0f} degrees: ", name_of(kind), seed, beta);
         rows.relative(name + "axial stress, Pa", got.stress, strength_of_plane(beta * degrees_of_arc), 0.02,
                       "reference");
         rows.absolute(name + "closing error of energy over work", got.energy_error, 0.0, 1e-3, "reference");
         rows.exactly(name + "bonds broken", got.broken, 0.0);
     };
-    for (const double beta : {30.0, 40.0, 50.0, 60.0}) compare("voronoi", 1, beta);
-    for (const double beta : {35.0, 55.0}) compare("delaunay", 2, beta);
+    for (const double beta : {30.0, 40.0, 50.0, 60.0}) compare(SpecimenKind::voronoi, 1, beta);
+    for (const double beta : {35.0, 55.0}) compare(SpecimenKind::delaunay, 2, beta);
     return rows.take();
 }
 

@@ -43,7 +43,7 @@ double stress_across(const VirtualTest& test, const std::vector<BodyMotion>& dis
     return -force / (reach * half);
 }
 
-/// The same of Hondros' disc under a pressure of 1 over both arcs.
+/// The stress of Hondros' disc under a pressure of 1 over both arcs.
 double hondros() {
     double sum = 0.0;
     for (int k = 0; k < parts; ++k) {

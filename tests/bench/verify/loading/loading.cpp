@@ -62,7 +62,7 @@ std::vector<ClaimRow> energy_of_loading_closes_to_second_order_before_breaks() {
     return rows.take();
 }
 
-VirtualTest loaded_to_failure(std::int64_t seed, const char* kind, double rate, double safety_factor,
+VirtualTest loaded_to_failure(std::int64_t seed, LoadingKind kind, double rate, double safety_factor,
                               double max_strain = 0.02) {
     TestCase description = packed_case(seed, kind, rate, max_strain);
     description.numerics.safety_factor = safety_factor;
@@ -82,7 +82,7 @@ double balance_of(const VirtualTest& test) {
 std::vector<ClaimRow> energy_of_a_run_to_failure_closes() {
     Rows rows;
     constexpr int packings = 12;
-    for (const char* kind : {"tension", "compression"}) {
+    for (const LoadingKind kind : {LoadingKind::tension, LoadingKind::compression}) {
         std::vector<double> scatter;  // root mean square over the packings
         for (const double share : {0.8, 0.2}) {
             double worst = 0.0, squares = 0.0;
@@ -95,7 +95,7 @@ std::vector<ClaimRow> energy_of_a_run_to_failure_closes() {
                 failed += test.state.failure.failed ? 1 : 0;
             }
             scatter.push_back(std::sqrt(squares));
-            const std::string name = fmt::format("{}, {} of the bound", kind, share);
+            const std::string name = fmt::format("{}, {} of the bound", name_of(kind), share);
             rows.absolute(fmt::format("{}: balance over the work, root mean square of {} packings", name, packings),
                           scatter.back(), 0.0, 1e-3, "reference");
             if (share < 0.3) {
@@ -105,9 +105,9 @@ std::vector<ClaimRow> energy_of_a_run_to_failure_closes() {
             }
             rows.at_least(name + ": packings that failed", failed, 0.5 * packings, "most");
         }
-        // A break or a slip is found within a step after it happened: first order, a quarter, scattered by where they
+        // A break or a slip is found within a step after it happened: first order, a quarter. It scatters by where they
         // fall, a fifth for each root mean square of twelve.
-        rows.at_most(fmt::format("{}: root mean square at 0.2 of the bound over that at 0.8", kind),
+        rows.at_most(fmt::format("{}: root mean square at 0.2 of the bound over that at 0.8", name_of(kind)),
                      scatter.back() / scatter.front(), 1.0 / (1.8 * 1.8), "1.8 a halving");
     }
     return rows.take();
@@ -138,7 +138,7 @@ struct RateStudy {
     Imbalance worst;
     double strength_share = 0.0;  // mean strength of one bond over the force at peak
 };
-RateStudy study_rate(const char* kind, double rate, int packings) {
+RateStudy study_rate(LoadingKind kind, double rate, int packings) {
     RateStudy study;
     for (int seed = 1; seed <= packings; ++seed) {
         // Beyond 0.6 % a squeezed specimen may be a pile of pieces that hardens again.
@@ -174,10 +174,10 @@ MeanChange change_of(const std::vector<double>& from, const std::vector<double>&
 std::vector<ClaimRow> slow_loading_is_quasi_static() {
     Rows rows;
     constexpr int packings = 8;
-    for (const char* kind : {"tension", "compression"}) {
+    for (const LoadingKind kind : {LoadingKind::tension, LoadingKind::compression}) {
         const RateStudy fast = study_rate(kind, 0.008, packings), half = study_rate(kind, 0.004, packings),
                         slow = study_rate(kind, 0.002, packings);
-        const std::string name = kind;
+        const std::string name = name_of(kind);
         rows.absolute(name + ", 0.002 /s: platens' largest difference before the first break, over the peak",
                       slow.worst.before_breaks, 0.0, 0.01, "reference");
         rows.converging({fast.worst.before_breaks, slow.worst.before_breaks, 4.0, 1.0});

@@ -3,7 +3,7 @@
 
 namespace crackle::verification {
 
-TestCase packed_case(std::int64_t seed, const char* kind, double rate, double max_strain) {
+TestCase packed_case(std::int64_t seed, LoadingKind kind, double rate, double max_strain) {
     TestCase test;
     test.title = "verification";
     test.source = "verification.toml";  // only named in errors
@@ -24,19 +24,15 @@ TestCase packed_case(std::int64_t seed, const char* kind, double rate, double ma
     test.loading.max_axial_strain = max_strain;
     test.loading.strength_drop = 0.1;
     test.loading.stop_at_share_of_peak = 0.5;
-    test.loading.platens = "bonded";
     test.numerics.safety_factor = 0.8;
-    test.numerics.contact_law = "rounded";
-    test.numerics.integrator = "leapfrog";
     test.output.curve_rows = 2000;
     test.output.frames = 1;
-    test.output.frame_precision = "single";
     test.output.checkpoint_interval = 1e9;
     return test;
 }
 
 void mesh_voronoi(TestCase& test) {
-    test.mesh.kind = "voronoi";
+    test.mesh.kind = MeshKind::voronoi;
     test.mesh.thick = 1e-3;
     test.mesh.merge_destroyed = true;
     test.table_present["mesh"] = true;

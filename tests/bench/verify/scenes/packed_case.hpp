@@ -11,8 +11,8 @@ namespace crackle::verification {
 
 /// 120 circles in a box twice as high as wide, uniform radii 15 to 25 mm, mean overlap 77.4 µm; k_n 1e7 N/m,
 /// k_s = k_n/4, φ 27 degrees, damping ratio 0.2.
-/// @param kind "tension" or "compression"  @param rate 1/s
-TestCase packed_case(std::int64_t seed, const char* kind, double rate, double max_strain);
+/// @param rate 1/s
+TestCase packed_case(std::int64_t seed, LoadingKind kind, double rate, double max_strain);
 /// Meshed into Voronoi cells 1 mm apart, bonded with 1.08 mm.
 void mesh_voronoi(TestCase& test);
 

@@ -130,8 +130,8 @@ void check_step_limit(Rows& rows, const std::string& name, const World& rest) {
     const double above = (1.0 + distance) * exact.root;
     const double predicted = growth_per_step(rest, ClosedPoints::touching, above);
     const Growth growth = measured_growth(rest, exact.mode, above, predicted);
-    // The mode at the limit and 1 % beyond it differ by about 1 % where damping is uneven; so much of other modes comes
-    // in, which shows in the projection by 1 % of that.
+    // The mode at the limit and 1 % beyond it differ by about 1 % where damping is uneven. Other modes come in by as
+    // much, which shows in the projection by 1 % of that.
     rows.relative(name + ": growth a step at 1.01, less 1", growth.per_step - 1.0, predicted - 1.0, 1e-4,
                   "other modes");
     rows.exactly(name + ": bonds broken meanwhile", static_cast<double>(growth.broken), 0.0);

@@ -13,8 +13,8 @@ namespace crackle::verification {
 /// A bonded specimen at its stress-free positions, where nothing moves and nothing is driven.
 World at_rest(World world);
 
-/// Rows: the engine's bounds lie below the exact step; at 0.99 of it random velocities stay bounded; at 1.01 the mode
-/// that it names grows at the predicted rate; no bond breaks meanwhile.
+/// Rows: the engine's bounds lie below the exact step. At 0.99 of it random velocities stay bounded; at 1.01 the mode
+/// that it names grows at the predicted rate. No bond breaks meanwhile.
 void check_step_limit(Rows& rows, const std::string& name, const World& rest);
 
 }  // namespace crackle::verification

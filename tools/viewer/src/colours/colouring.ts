@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a particle's value to its colour: an index into a palette of 256, the same in the picture, the SVG file and the legend.
+// Maps a particle's value to its colour: an index into a palette of 256, the same in the picture, the SVG file and the legend.
 
 import type {Cells} from '../data/cells';
 import type {Frame} from '../data/frames';
@@ -12,7 +12,7 @@ export interface Colouring {
     quantity: Quantity;
     range: Range;
     palette: Rgb[];
-    names: readonly string[]; // of the first categories; the others have numbers
+    names: readonly string[]; // names of the first categories; further ones are numbered
 }
 
 export function colouring(quantity: Quantity, range: Range, map: SequentialName, theme: Theme, names: readonly string[] = []): Colouring {

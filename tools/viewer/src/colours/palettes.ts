@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours for values: perceptually uniform maps, readable with any colour vision and in grey (viridis, cividis), a diverging
-// map for values of two signs, and a set of distinct colours for materials and fragments.
+// Colours for values: perceptually uniform maps, readable with any colour vision and in grey (viridis, cividis), and a
+// diverging map for positive and negative values. Materials and fragments have a set of distinct colours.
 
 import {interpolateCividis, interpolateInferno, interpolateRdBu, interpolateViridis} from 'd3-scale-chromatic';
 
@@ -27,18 +27,18 @@ export function sequentialPalette(name: SequentialName): Rgb[] {
     return Array.from({length: paletteSize}, (_, at) => rgb(sequential[name](at / (paletteSize - 1))));
 }
 
-/// Blue below zero, red above.
+/// Blue for values below zero, red for values above.
 export function divergingPalette(): Rgb[] {
     return Array.from({length: paletteSize}, (_, at) => rgb(interpolateRdBu(1 - at / (paletteSize - 1))));
 }
 
-/// The first colour, that of the specimen's largest fragment or its first material, is muted: the theme's grain colour.
+/// The first colour, for the largest fragment or the first material, is the theme's muted grain colour.
 export function categoricalPalette(grain: string): Rgb[] {
     return Array.from({length: paletteSize}, (_, at) => rgb(at === 0 ? grain : distinct[(at - 1) % distinct.length]!));
 }
 
-/// Palette index of a category: categories beyond the palette repeat it from its second colour; negative ones (platens) get the
-/// first.
+/// Palette index of a category. Categories beyond the palette repeat it from its second colour; negative ones (platens) get the
+/// first colour.
 export function categoryColour(category: number): number {
     const last = paletteSize - 1;
     return category <= last ? Math.max(0, category) : 1 + (category - 1) % last;

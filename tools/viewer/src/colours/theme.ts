@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours of the figures in light and dark. Curves keep to ink, teal and purple; only the two breakage modes are blue
+// Colours of the figures in light and dark. Curves keep to ink, teal and purple. Only the two breakage modes are blue
 // and vermilion (Okabe and Ito's pair, distinguishable with any colour vision), so each colour has one meaning.
 
 export interface Theme {
@@ -16,7 +16,7 @@ export interface Theme {
     compressive: string; // contact forces
     tensile: string;
     bond: string;
-    slid: string; // bonds that have slid, slips
+    slid: string; // bonds that have slid, and slips
     picked: string; // outline of the picked particle
     series: readonly string[]; // curves
     overlaid: readonly [string, string]; // two tests in one picture
@@ -62,7 +62,7 @@ const dark: Theme = {
     overlaid: ['#35c9a4', '#e57cb8'],
 };
 
-/// The reader's choice, else the system's; always light on paper.
+/// The theme that the reader has chosen, or else the browser's; always light for printing.
 export function currentTheme(): Theme {
     const chosen = document.documentElement.dataset['theme'];
     if (document.documentElement.dataset['printing'] === 'true') return light;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The clock that curves and pictures share. It has a current moment on its axis, which is strain, a fraction of the strain at
-// peak, time or the frame's number; each test shows its last frame at or before that moment.
+// The clock that curves and pictures share. It has a current moment on its axis, which is strain, a fraction of the
+// strain at peak, time or the frame's number. Each test shows its last frame at or before that moment.
 
 import {peakOf, type TestData} from '../data/report';
 import {quantity, significant, strain} from '../quantities/units';
@@ -11,14 +11,14 @@ export const axisNames: Record<Axis, string> = {strain: 'Strain', share: 'Fracti
 
 const framesPerSecond = 15; // at speed 1
 
-/// Axes that all tests have.
+/// Axes for which all tests have values.
 export function axesFor(tests: readonly TestData[]): Axis[] {
     const curved = tests.every((test) => test.curve && test.frames.every((frame) => frame.axial_strain !== undefined));
     const peaked = curved && tests.every((test) => (peakOf(test).strain ?? 0) > 0);
     return [...(curved ? ['strain' as const] : []), ...(peaked ? ['share' as const] : []), 'time', 'frame'];
 }
 
-/// Values of a test's frames on an axis, rising.
+/// Positions of a test's frames on an axis, in ascending order.
 export function momentsOf(test: TestData, axis: Axis): number[] {
     let latest = -Infinity;
     return test.frames.map((frame, index) => {
@@ -28,7 +28,7 @@ export function momentsOf(test: TestData, axis: Axis): number[] {
     });
 }
 
-/// The position on an axis of the frame of one test that is nearest to a value on another: to a strain or a time.
+/// Position on `axis` of the test's frame that is nearest to a strain or time.
 export function momentNear(test: TestData, axis: Axis, other: 'strain' | 'time', value: number): number {
     const values = momentsOf(test, other), before = lastAtOrBefore(values, value), after = Math.min(values.length - 1, before + 1);
     const nearest = Math.abs(values[after]! - value) < Math.abs(values[before]! - value) ? after : before;
@@ -38,13 +38,13 @@ export function momentNear(test: TestData, axis: Axis, other: 'strain' | 'time',
 export class Clock {
     axis: Axis = 'frame';
     speed = 1;
-    held = false; // a frame is being unpacked: playing waits
+    held = false; // whether playing waits, because a frame is being unpacked
     onTick: () => void = () => {};
-    private moments: number[] = [0]; // all tests' frames on the axis
+    private moments: number[] = [0]; // positions of all tests' frames on the axis
     private perTest = new Map<TestData, number[]>();
     private at = 0; // index into moments
-    private value = 0; // on the axis, between moments while playing
-    private last = 0; // ms, while playing
+    private value = 0; // position on the axis; while playing, it may lie between moments
+    private last = 0; // ms, time of the last tick while playing
     private running = 0;
 
     setTests(tests: readonly TestData[], axis: Axis): void {
@@ -135,7 +135,7 @@ export class Clock {
     }
 }
 
-/// The moment of the clock, for several tests; the moment of each test is printed over its pane.
+/// The clock's moment as text, if several tests are shown. The moment of each test is printed over its pane.
 export function clockText({axis, moment}: Clock): string {
     switch (axis) {
         case 'strain': return `ε = ${strain(moment)}`;

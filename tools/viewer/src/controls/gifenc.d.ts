@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Types of the used part of gifenc, which has none of its own.
+// Type declarations for the functions of gifenc that are used, since the package has none.
 declare module 'gifenc' {
     type Palette = number[][];
     interface Encoder {

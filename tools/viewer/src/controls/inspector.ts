@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The picked particle: its values in the frame shown, its contacts, and one of its values over all frames.
+// Shows the picked particle: its values in the current frame, its contacts, and the history of one of its values.
 
 import * as echarts from 'echarts/core';
 import type {ECharts} from 'echarts/core';
@@ -26,7 +26,7 @@ interface Touch {
     with: string;
     fn: number;
     fs: number;
-    array: string; // that holds both
+    array: string; // name of the array that contains fn
     kind: string;
 }
 
@@ -41,7 +41,7 @@ export class Inspector {
 
     constructor(private readonly viewer: Viewer) {}
 
-    /// Updates after a change of the picked particle, the clock or the theme.
+    /// Call this after a change of the picked particle, the clock or the theme.
     update(): void {
         const {picked} = this.viewer;
         this.element.hidden = !picked;
@@ -147,7 +147,7 @@ function valueTable({view, cell}: Picked, frame: Frame): HTMLElement {
 }
 
 function areaText(value: number): string {
-    // The prefix of an area is that of its square's side.
+    // The SI prefix is chosen for the side of a square of this area.
     const side = scaleFor([Math.sqrt(value)], 'm');
     if (side.power !== '') return significant(value) + suffixOf({...side, power: '', unit: side.unit === '' ? '' : `${side.unit}²`});
     return significant(value / side.factor ** 2) + suffixOf({...side, unit: side.unit === '' ? '' : `${side.unit}²`});

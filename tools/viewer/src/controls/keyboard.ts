@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keyboard control of the viewer. In a report the keys work while the viewer has the focus, on a page of `crackle view` always.
+// Keyboard control of the viewer. In a report, keys work while the viewer has the focus; on a page of `crackle view`, always.
 
 import {layerKeys} from './keys';
 import type {Viewer} from './viewer';
@@ -12,14 +12,14 @@ export function listen(viewer: Viewer, controls: ViewerControls, within: HTMLEle
         if (event.ctrlKey || event.metaKey || event.altKey || controls.help.open) return;
         if (!everywhere && !within.contains(target)) return;
         if (target.matches('select, input[type="text"]')) return;
-        // A slider has its own keys; the space bar presses a button.
+        // A focused slider handles arrow keys itself, and a focused button the space bar.
         if (target.matches('input[type="range"]') && /^(Arrow|Home|End|Page)/.test(event.key)) return;
         if (target.matches('button, summary, input[type="checkbox"]') && event.key === ' ') return;
         if (act(event, viewer, controls)) event.preventDefault();
     });
 }
 
-/// Ctrl C, unless it is to copy selected text.
+/// Whether a key event is Ctrl C without selected text to copy.
 function copies(event: KeyboardEvent): boolean {
     const target = event.target as HTMLElement;
     return (event.ctrlKey || event.metaKey) && !event.altKey && !event.shiftKey && event.key === 'c' && getSelection()?.isCollapsed !== false && !target.matches('input[type="text"]');

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pan and zoom by mouse, wheel and touch (d3-zoom), the same for all panes.
+// Pan and zoom by mouse, wheel and touch (d3-zoom), synchronised over all panes.
 
 import {select} from 'd3-selection';
 import {zoom, ZoomTransform, zoomIdentity, type ZoomBehavior} from 'd3-zoom';
 
-type Zoomed = HTMLElement & {__zoom?: ZoomTransform}; // where d3-zoom keeps an element's state
+type Zoomed = HTMLElement & {__zoom?: ZoomTransform}; // property in which d3-zoom keeps an element's state
 
 export class Navigation {
     private transform: ZoomTransform = zoomIdentity;
     private panes: Zoomed[] = [];
     private readonly behaviour: ZoomBehavior<Zoomed, unknown>;
 
-    /// @param wheelZooms  whether a wheel event is the picture's, not the page's
+    /// @param wheelZooms  whether a wheel event zooms the picture rather than scrolls the page
     constructor(onChange: (transform: ZoomTransform) => void, wheelZooms: (event: WheelEvent) => boolean) {
         this.behaviour = zoom<Zoomed, unknown>()
             .scaleExtent([0.2, 400])

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The view as a file: PNG, SVG, an animated GIF (gifenc), or a video if the browser can record one; or on the clipboard.
+// Saves the view as PNG, SVG, animated GIF (gifenc), or video if the browser can record one, or copies it to the clipboard.
 
 import {applyPalette, GIFEncoder, quantize} from 'gifenc';
 
 import {element, saveFile, svgText} from '../elements/dom';
 import type {Viewer} from './viewer';
 
-const gifWidth = 800; // px at most
-export const gifFrames = 200; // at most
-const frameTime = 70; // ms
+const gifWidth = 800; // px, largest width
+export const gifFrames = 200; // largest number of frames
+const frameTime = 70; // ms per frame
 
 type Report = (text: string) => void;
 
@@ -18,7 +18,7 @@ async function pngOf(viewer: Viewer): Promise<Blob> {
     await viewer.settled();
     const picture = viewer.picture.compose(viewer.picture.stage.stillRatio());
     const blob = await new Promise<Blob | null>((resolve) => picture.toBlob(resolve, 'image/png'));
-    if (!blob) throw new Error('the browser made no PNG of the picture');
+    if (!blob) throw new Error('the browser could not convert the picture to PNG');
     return blob;
 }
 
@@ -26,12 +26,12 @@ export async function savePng(viewer: Viewer): Promise<void> {
     saveFile(`${nameOf(viewer)}.png`, 'image/png', await pngOf(viewer));
 }
 
-/// Whether this browser lets a page put pictures on the clipboard: some do so only for pages that came over https.
+/// Whether the browser lets this page copy pictures to the clipboard. Some allow this only for pages loaded over https.
 export const canCopy = (): boolean => typeof ClipboardItem !== 'undefined' && navigator.clipboard !== undefined;
 
-/// @return for the reader
+/// @return message for the reader
 export async function copyPng(viewer: Viewer): Promise<string> {
-    // The promise, not the picture: browsers ask for the item in the same turn as the click.
+    // The item is given a promise, since browsers require write() to be called directly in the click handler.
     await navigator.clipboard.write([new ClipboardItem({'image/png': pngOf(viewer)})]);
     return 'Copied to the clipboard';
 }
@@ -40,14 +40,14 @@ export function saveSvg(viewer: Viewer): void {
     saveFile(`${nameOf(viewer)}.svg`, 'image/svg+xml', svgText(viewer.picture.asSvg()));
 }
 
-/// Calls `record` for each moment, with the moment on the screen, then resets the clock.
+/// Shows at most `most` moments and calls `record` for each, then resets the clock.
 async function film(viewer: Viewer, most: number, report: Report, record: () => Promise<void>): Promise<void> {
     const {clock} = viewer, start = clock.index;
     clock.pause();
     const count = Math.min(clock.count, most);
     try {
         for (let at = 0; at < count; ++at) {
-            // Evenly spaced, including the first and the last.
+            // Moments are evenly spaced and include the first and the last one.
             const index = count > 1 ? Math.round(at * (clock.count - 1) / (count - 1)) : 0;
             clock.go(index);
             await viewer.settled();

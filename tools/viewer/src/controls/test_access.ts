@@ -6,7 +6,7 @@ import type {Viewer} from './viewer';
 export function expose(viewer: Viewer): void {
     const {stage} = viewer.picture;
     Object.defineProperty(window, 'crackle', {value: Object.freeze({
-        /// Each test on the screen: name, number of its frame, time.
+        /// For each test on the screen: its name, and the index and time of its frame.
         shown: () => [...viewer.picture.shown.values()].map(({view, frame}) => ({test: view.test.name, frame: frame.index, time: frame.time})),
         moment: () => viewer.clock.moment,
         playing: () => viewer.clock.playing,
@@ -14,9 +14,9 @@ export function expose(viewer: Viewer): void {
         picked: () => viewer.picked && {test: viewer.picked.view.test.name, id: viewer.picked.view.test.cells.id[viewer.picked.cell]},
         zoom: () => ({...stage.panZoom}),
         settled: () => viewer.scaled(),
-        /// Position of a particle of a test on the page, CSS pixels.
+        /// Position on the page of a particle of a test, in CSS pixels.
         place: (name: string, id: number) => viewer.placeOf(name, id),
-        /// Draws as during motion, and waits until the picture is finished.
+        /// Draws as while the picture moves, and waits until drawing is finished.
         draw: () => {
             stage.drawMoving();
             stage.finish();

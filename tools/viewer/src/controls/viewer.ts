@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The viewer: tests in motion. Holds the settings, and updates picture, clock and controls after each change.
+// The viewer, which shows tests in motion. It holds the settings, and updates picture, clock and controls after each change.
 
 import {colouring, type Colouring} from '../colours/colouring';
 import {categoricalPalette, sequentialPalette} from '../colours/palettes';
@@ -18,13 +18,13 @@ import {categories, forceScaleOf, forceScaleOfAll, joined, joinedForces, rangeOf
 import {axesFor, Clock, type Axis} from './clock';
 import {Navigation} from './navigation';
 
-/// The frame at the peak of a test that failed, where others follow.
+/// Index of the frame at the peak of a test that failed; undefined if no frames follow it.
 function peakFrame(test: TestData): number | undefined {
     const at = test.frames.findIndex(({roles}) => roles?.includes('peak'));
     return test.failed && at > 0 && at < test.frames.length - 1 ? at : undefined;
 }
 
-/// Side by side at the start only up to these numbers, which draw quickly on any machine.
+/// Largest numbers of cells and tests shown side by side at the start; they are drawn quickly on any machine.
 const cellsSideBySide = 20000;
 const testsSideBySide = 6;
 
@@ -40,15 +40,15 @@ export class Viewer {
     readonly navigation: Navigation;
     readonly stageElement = element('div', {class: 'stage', tabindex: '0', role: 'application', 'aria-label': 'Specimens in motion; press ? for the keys'});
     picked: Picked | undefined;
-    onShown: () => void = () => {}; // after each change of moment or look
+    onShown: () => void = () => {}; // called after each change of moment or appearance
     private readonly pickings = new Map<SpecimenView, Picking>();
     private readonly ranges = new Map<string, Range>();
     private readonly forces = new Map<TestData, ForceScale>();
     private paneElements: HTMLElement[] = [];
-    private latest = 0; // request for a moment
+    private latest = 0; // number of the latest request for a moment
     private settling: Promise<void> = Promise.resolve();
 
-    /// @param tests  those with frames
+    /// @param tests  tests that have frames
     constructor(readonly tests: readonly SpecimenView[], private readonly large: boolean) {
         const cells = tests.reduce((sum, {test}) => sum + test.cells.count, 0);
         if (tests.length > 1 && tests.length <= testsSideBySide && cells <= cellsSideBySide) this.settings.layout = 'side';
@@ -80,7 +80,7 @@ export class Viewer {
         return new Set(this.chosen.flatMap((view) => view.layers));
     }
 
-    /// Whether a shown test has a peak that more frames follow.
+    /// Whether one of the shown tests has frames after its peak.
     get peaked(): boolean {
         return this.chosen.some(({test}) => peakFrame(test) !== undefined);
     }
@@ -89,7 +89,7 @@ export class Viewer {
         return this.quantities.find(({key}) => key === this.settings.quantity) ?? plain;
     }
 
-    /// To be called after a change of layout or test.
+    /// Call this to change the layout or the tests.
     choose(change: Partial<Pick<Settings, 'layout' | 'test' | 'other'>>): void {
         Object.assign(this.settings, change);
         if (this.picked && !this.chosen.includes(this.picked.view)) this.picked = undefined;
@@ -98,7 +98,7 @@ export class Viewer {
         this.layOut();
     }
 
-    /// The clock's first axis is what the tests' curves have.
+    /// Starts the viewer with the clock on the first available axis, which is strain if all tests have curves.
     start(): void {
         this.clock.axis = this.axes[0]!;
         this.choose({});
@@ -108,12 +108,12 @@ export class Viewer {
         this.clock.setTests(this.chosen.map(({test}) => test), axis);
     }
 
-    /// To be called after a change of colours or layers.
+    /// Call this after a change of colours or layers.
     refresh(): void {
         this.clock.onTick();
     }
 
-    /// Resolves when the moment requested last is on the screen.
+    /// Resolves when the most recently requested moment is on the screen.
     async settled(): Promise<void> {
         await this.settling;
     }
@@ -129,7 +129,7 @@ export class Viewer {
         this.refresh();
     }
 
-    /// Position of a particle's centre on the page, CSS pixels from the upper left corner of the window.
+    /// Position of a particle's centre on the page, in CSS pixels from the upper left corner of the window.
     placeOf(name: string, id: number): {x: number; y: number} | undefined {
         const at = this.picture.stage.panes.findIndex((pane) => pane.views.some((view) => view.test.name === name));
         const pane = this.picture.stage.panes[at], view = pane?.views.find((one) => one.test.name === name), shown = view && this.picture.shown.get(view);
@@ -176,7 +176,7 @@ export class Viewer {
         if (this.picked) this.pick(undefined);
     }
 
-    /// Draws at once where all frames are unpacked, else as soon as they are.
+    /// Draws the moment at once if all its frames are unpacked, otherwise as soon as they are.
     private showMoment(): void {
         const request = ++this.latest;
         const views = this.chosen;
@@ -186,7 +186,7 @@ export class Viewer {
             this.show(ready as {view: SpecimenView; frame: Frame}[]);
             return;
         }
-        // The first picture is drawn without waiting for a frame: in the first frame nothing has moved.
+        // The first picture need not wait for its frame, because nothing has moved in the first frame.
         if (this.picture.shown.size === 0) this.show(views.map((view) => ({view, frame: view.frames.first()})));
         this.clock.held = true;
         this.settling = Promise.all(wanted.map(async ({view, index}) => ({view, frame: await view.frames.load(index)}))).then((loaded) => {
@@ -216,7 +216,7 @@ export class Viewer {
         this.onShown();
     }
 
-    /// One time scale for all tests shown: the legend has only one bar.
+    /// All tests shown have the same time scale, since the legend has only one bar.
     private crackColours(views: readonly SpecimenView[]): CrackColours {
         return {
             by: this.settings.crackColour, listed: views.some((view) => view.listsBreaks),
@@ -227,13 +227,13 @@ export class Viewer {
 
     private colours(frames: {view: SpecimenView; frame: Frame}[]): Colouring {
         const {quantity, settings} = this;
-        // Numbers stand for different minerals in tests of different rocks.
+        // In tests of different rocks, the same number may denote different minerals.
         const minerals = frames.map(({view}) => mineralsOf(view.test.summary));
         const names = quantity.key === 'material' && minerals.every((one) => one.join('\n') === minerals[0]!.join('\n')) ? minerals[0] : [];
         return colouring(quantity, quantity.scaling === 'categorical' ? categories(frames.map(({view, frame}) => ({frame, cells: view.test.cells})), quantity) : this.range(frames, quantity), settings.map, currentTheme(), names);
     }
 
-    /// Over all frames or those up to the peak, once that is known; until then, or if so set, over the shown frames.
+    /// Range over all frames or over those up to the peak. Until it is known, or if the setting is 'frame', over the shown frames.
     private range(frames: {view: SpecimenView; frame: Frame}[], quantity: Quantity): Range {
         const last = ({test}: SpecimenView) => (this.settings.range === 'peak' && peakFrame(test)) || test.frames.length - 1;
         const key = (view: SpecimenView) => `${view.test.index} ${quantity.key} ${last(view)}`;
@@ -248,7 +248,7 @@ export class Viewer {
         return rangeOfFrames(frames.map(({view, frame}) => ({frame, cells: view.test.cells})), quantity);
     }
 
-    /// One scale for all tests of the page, so that widths can be compared whichever of them are shown, or of the shown ones.
+    /// Scale for all tests on the page, so that widths remain comparable when other tests are shown, or for the shown tests only.
     private forceScale(frames: {view: SpecimenView; frame: Frame}[]): ForceScale {
         const views = this.settings.forcesOf === 'page' ? this.tests : frames.map(({view}) => view);
         const known = views.map((view) => this.forces.get(view.test));
@@ -261,7 +261,7 @@ export class Viewer {
 
     private working: Promise<void> | undefined;
 
-    /// One pass over the frames at a time; then the picture is updated.
+    /// Runs tasks one after another, each a pass over frames, and then updates the picture.
     private inBackground(tasks: (() => Promise<void>)[]): void {
         if (this.working) return;
         this.working = (async () => {
@@ -271,7 +271,7 @@ export class Viewer {
         })();
     }
 
-    /// Resolves when scales over all frames are known.
+    /// Resolves when scales that cover all frames are known.
     async scaled(): Promise<void> {
         while (this.working) await this.working.then(() => new Promise((resume) => setTimeout(resume)));
         await this.settled();

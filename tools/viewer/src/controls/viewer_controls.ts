@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The viewer's buttons: playback under the picture, a side panel for settings.
+// The viewer's controls: playback below the picture, and a side panel for settings.
 
 import {sequentialNames, type SequentialName} from '../colours/palettes';
 import {momentText} from '../drawing/annotations';
@@ -88,7 +88,7 @@ export class ViewerControls {
                 if (layer === 'forces') this.build();
                 refresh();
             }, {'data-layer': layer})))),
-            ...(several && settings.layers.forces && viewer.layers.has('forces') ? [group('', select('Force widths', [{value: 'page', text: 'Same for all tests'}, {value: 'shown', text: 'Of the tests shown'}], settings.forcesOf, (of) => {
+            ...(several && settings.layers.forces && viewer.layers.has('forces') ? [group('', select('Force widths', [{value: 'page', text: 'Same for all tests'}, {value: 'shown', text: 'For the tests shown'}], settings.forcesOf, (of) => {
                 settings.forcesOf = of as Settings['forcesOf'];
                 refresh();
             }, {class: 'forces-of'}))] : []),
@@ -102,7 +102,7 @@ export class ViewerControls {
             }, {class: 'magnification', title: `Rotations are magnified up to ${largestMagnifiedAngle} rad`})] : [])));
     }
 
-    /// Puts the picture on the clipboard. @return whether this browser lets it
+    /// Copies the picture to the clipboard. @return whether this browser allows it
     copy(): boolean {
         this.copyButton?.click();
         return this.copyButton !== undefined;
@@ -127,7 +127,7 @@ export class ViewerControls {
         const first = [...picture.shown.values()][0];
         const text = picture.shown.size > 1 ? clockText(clock) : first ? `Frame ${first.frame.index + 1}/${first.view.frames.count}\u2003${momentText(first.frame, first.view.test)}` : '';
         this.readout.textContent = text;
-        // Announced only while paused: a screen reader cannot follow an animation.
+        // The moment is announced only while paused, since a screen reader cannot follow an animation.
         if (!clock.playing) this.announcement.textContent = text;
     }
 
@@ -135,19 +135,19 @@ export class ViewerControls {
         const {viewer} = this;
         const report = (text: string) => { this.busy.textContent = text; };
         const buttons: HTMLButtonElement[] = [];
-        type Save = () => Promise<string | void> | void; // what it reports, if anything
+        type Save = () => Promise<string | void> | void; // returns a message for the reader, if any
         const saver = (name: string, title: string, save: Save, key: string) => {
             const one = button(name, title, () => void run(save), {'data-save': key});
             buttons.push(one);
             return one;
         };
-        // One at a time: each of them steps the clock through all frames.
+        // Only one file is saved at a time, because saving steps the clock through all frames.
         const run = async (save: Save) => {
             for (const one of buttons) one.disabled = true;
             try {
                 report(await save() || '');
             } catch (error) {
-                report(`Not done: ${error instanceof Error ? error.message : String(error)}`);
+                report(`Not saved: ${error instanceof Error ? error.message : String(error)}`);
             } finally {
                 for (const one of buttons) one.disabled = false;
             }

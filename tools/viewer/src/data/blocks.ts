@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Blocks: elements of the page that hold base64 of a zlib stream. Block 0 of each test precedes the script,
-// all others follow it, so that the first picture does not wait for them; they are awaited when needed.
+// Blocks: elements of the page that contain a zlib stream in base64. Block 0 of each test precedes the script. All other
+// blocks follow it, so that the first picture need not wait for them; they are awaited when needed.
 
 type WithBase64 = typeof Uint8Array & {fromBase64?: (text: string) => Uint8Array<ArrayBuffer>};
 
@@ -13,7 +13,7 @@ function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
     return bytes;
 }
 
-/// The element, once the parser has passed its end: until then its text may be incomplete.
+/// Resolves to the element once the parser has passed its end. Before that, its text may be incomplete.
 async function complete(id: string): Promise<HTMLElement> {
     for (;;) {
         const parsed = document.readyState !== 'loading';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The drawn elements of the bodies: circles, polygons and open chains (platens, wall segments), as in the first frame.
-// A clump has a cell for each of its circles, all with its id.
+// Cells are the drawn elements of bodies in the first frame: circles, polygons and open chains (platens, wall segments).
+// A clump has a cell for each of its circles, all with the clump's id.
 
 import type {NumberArray} from './plain_arrays';
 
@@ -11,14 +11,14 @@ export interface Point {
 
 export interface Cells {
     count: number;
-    id: NumberArray; // of the input
+    id: NumberArray; // ids of the bodies in the input
     radius: NumberArray; // m; 0 for polygons and open chains
-    open: NumberArray; // 1: an open chain
-    platen: NumberArray; // 1: a platen
-    material: NumberArray; // from 1
-    x: NumberArray; // m, centre: mean of the outline's corners; reference point of the motion
+    open: NumberArray; // 1 for an open chain
+    platen: NumberArray; // 1 for a platen
+    material: NumberArray; // numbers of the materials, starting at 1
+    x: NumberArray; // m, centre (mean of the outline's corners), the reference point of the motion
     y: NumberArray;
-    firstPoint: NumberArray; // count + 1 entries into the outlines; none for circles
+    firstPoint: NumberArray; // count + 1 indices of first points in the outlines; circles have no points
     outlineX: NumberArray; // m
     outlineY: NumberArray;
 }
@@ -33,7 +33,7 @@ export function centre(cells: Cells, cell: number): Point {
     return {x: cells.x[cell]!, y: cells.y[cell]!};
 }
 
-/// Largest distance of a point of a cell from its centre, m.
+/// Largest distance from a cell's centre to a point of the cell, m.
 export function reach(cells: Cells, cell: number): number {
     let farthest = cells.radius[cell]!;
     for (let at = cells.firstPoint[cell]!; at < cells.firstPoint[cell + 1]!; ++at) {
@@ -42,7 +42,7 @@ export function reach(cells: Cells, cell: number): number {
     return farthest;
 }
 
-/// m²; none for open chains.
+/// Area of a cell, m²; 0 for open chains.
 export function area(cells: Cells, cell: number): number {
     if (cells.open[cell] === 1) return 0;
     if (cells.radius[cell]! > 0) return Math.PI * cells.radius[cell]! ** 2;
@@ -53,7 +53,7 @@ export function area(cells: Cells, cell: number): number {
     }, 0));
 }
 
-/// Whether a polygon is star-shaped about its centre: its corners go round it in one sense.
+/// Whether a polygon is star-shaped about its centre, that is, its corners run around the centre in one direction.
 function isStar({firstPoint, outlineX, outlineY, x, y}: Cells, cell: number): boolean {
     const begin = firstPoint[cell]!, end = firstPoint[cell + 1]!, x0 = x[cell]!, y0 = y[cell]!;
     let left = 0;
@@ -70,7 +70,7 @@ export function jaggedCells(cells: Cells): number[] {
     return jagged;
 }
 
-/// Number of bodies: a clump counts as one.
+/// Number of bodies; a clump counts as one.
 export function particleCount(cells: Cells): number {
     const ids = new Set<number>();
     for (let cell = 0; cell < cells.count; ++cell) if (cells.open[cell] !== 1) ids.add(cells.id[cell]!);

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Coded arrays (tools/page/page_data.hpp): whole numbers n stand for the values quantum · n, or with a growth g for
-// quantum / g · sinh(g · n), so that small and large values have about the same relative resolution. The numbers are stored
-// as differences down the rows, zigzag coded, one plane of bytes after the other (the lowest first). Slow changes give planes
-// of zeros, which zlib compresses to almost nothing.
+// Coded arrays (tools/page/page_data.hpp). An integer n means the value quantum · n, or with a growth g the value
+// quantum / g · sinh(g · n), so that small and large values have about the same relative resolution. Tables store differences
+// between rows in zigzag code, one plane of bytes after another, the lowest bytes first. Slowly changing values give planes of
+// zeros, which zlib compresses to almost nothing.
 
 export interface CodedEntry {
     quantum: number;
     growth?: number;
-    offset: number; // bytes into the block
+    offset: number; // bytes from the start of the block
     planes: number;
     rows: number;
     columns: number;
 }
 
-/// Undoes zigzag coding: 0, 1, 2, 3 … stand for 0, −1, 1, −2 …
+/// Decodes zigzag code: 0, 1, 2, 3 … mean 0, −1, 1, −2 …
 const difference = (u: number): number => (u % 2 === 0 ? u / 2 : -(u + 1) / 2);
 
 const valueOf = ({quantum, growth}: CodedEntry, n: number): number => (growth ? quantum / growth * Math.sinh(growth * n) : quantum * n);
 
-/// Spacing of representable values at a value.
+/// Spacing of representable values near a value.
 export const resolutionAt = ({quantum, growth}: CodedEntry, value: number): number => Math.hypot(quantum, (growth ?? 0) * value);
 
-/// valueOf() for many values: a sinh for each of them would double the time of decoding.
+/// Returns valueOf() with a table of known results, since computing each sinh would double the time for decoding.
 function valuesBy(entry: CodedEntry): (n: number) => number {
     if (!entry.growth) return (n) => entry.quantum * n;
-    const known: number[] = []; // of 0, 1, 2 …: some thousands
+    const known: number[] = []; // values for n = 0, 1, 2 …, at most some thousands
     return (n) => {
         const value = known[Math.abs(n)] ??= valueOf(entry, Math.abs(n));
         return n < 0 ? -value : value;
@@ -52,7 +52,7 @@ export function decode(bytes: Uint8Array, entry: CodedEntry): Float32Array {
     const low = entry.offset, high = low + size;
     for (let row = 0, at = 0; row < rows; ++row) {
         for (let column = 0; column < columns; ++column, ++at) {
-            // One or two planes are nearly always enough.
+            // Nearly all arrays have one or two planes.
             const u = planes === 1 ? bytes[low + at]! : planes === 2 ? bytes[low + at]! + 256 * bytes[high + at]! : coded(bytes, entry, at);
             values[at] = valueAt(sums[column]! += difference(u));
         }
@@ -67,7 +67,7 @@ export function decodeColumn(bytes: Uint8Array, entry: CodedEntry, column: numbe
     return Float32Array.from({length: entry.rows}, (_, row) => valueOf(entry, sum += difference(coded(bytes, entry, row * entry.columns + column))));
 }
 
-/// The values of a list: one row, differences along it.
+/// The values of a list, a single row stored as differences between columns.
 export function decodeList(bytes: Uint8Array, entry: CodedEntry): Float32Array {
     checked(bytes, entry);
     let sum = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The frames of one test. They are stored in groups, one block each; a group is unpacked when one of its frames is needed, the
-// next one soon after, and a few are kept. Arrays of a group are decoded at first use.
+// The frames of one test. They are stored in groups of one block each. A group is unpacked when one of its frames is needed,
+// and the next group soon after; a few groups are kept. Arrays of a group are decoded when first used.
 
 import {readBlock} from './blocks';
 import {decode, decodeColumn, decodeList, resolutionAt} from './coded_arrays';
@@ -12,7 +12,7 @@ const groupsKept = 3;
 export interface Contacts {
     count: number;
     i: Float32Array; // cells
-    j: Float32Array; // cells; -1 left, -2 right, -3 bottom, -4 top wall
+    j: Float32Array; // cells, or walls: -1 left, -2 right, -3 bottom, -4 top
     x: Float32Array; // m
     y: Float32Array;
     fn: Float32Array; // N, compression positive
@@ -57,7 +57,7 @@ class Group {
     }
 }
 
-/// One moment of a test. Displacements and angles are counted from the first frame.
+/// One moment of a test. Displacements and angles are relative to the first frame.
 export class Frame {
     readonly time: number; // s
     readonly strain: number | undefined;
@@ -74,12 +74,12 @@ export class Frame {
         this.angle = this.field('angle') ?? still;
     }
 
-    /// An array of the frame by its name in the format; undefined where it was not written.
+    /// An array of the frame by its name in the page's data; undefined if it was not written.
     field(name: string): Float32Array | undefined {
         return this.group?.row(name, this.index - this.group.entry.first);
     }
 
-    /// Resolution of an array at this value.
+    /// Resolution of an array's values near this value.
     resolution(name: string, value: number): number {
         const entry = this.group?.entry.arrays[name];
         return entry ? resolutionAt(entry, value) : 0;
@@ -99,12 +99,12 @@ export class Frames {
         this.count = test.frames.length;
     }
 
-    /// Whether frames have this array.
+    /// Whether the frames contain this array.
     has(name: string): boolean {
         return this.test.groups.some((group) => name in group.arrays);
     }
 
-    /// The frame, if its group is unpacked.
+    /// The frame; undefined if its group is not unpacked.
     ready(index: number): Frame | undefined {
         const entry = this.entryOf(index);
         const group = entry && this.groups.get(entry);
@@ -118,19 +118,19 @@ export class Frames {
         return this.frame(index, entry && await this.unpack(entry));
     }
 
-    /// The first frame, available before its block is loaded: nothing has moved in it.
+    /// The first frame. It is available before its block is loaded, since nothing has moved in it.
     first(): Frame {
         return this.frame(0, undefined);
     }
 
-    /// Unpacks the next group, which playing will need.
+    /// Unpacks the next group in advance, for playing.
     prefetch(index: number): void {
         const entry = this.entryOf(index);
         const next = entry && this.entryOf(entry.first + entry.count);
         if (next && !this.groups.has(next)) void this.unpack(next);
     }
 
-    /// Values of one column (a cell or a bond) over all frames.
+    /// Values of a cell or bond (a column) in all frames.
     async history(names: readonly string[], column: number): Promise<Map<string, Float32Array>> {
         const histories = new Map<string, Float32Array>();
         for (const entry of this.test.groups) {
@@ -145,7 +145,7 @@ export class Frames {
         return histories;
     }
 
-    /// A pass over frames, `stride` apart, that does not change the groups kept for playing.
+    /// Passes over every `stride`-th frame without changing the groups kept for playing.
     async* pass(stride: number): AsyncGenerator<Frame> {
         for (const entry of this.test.groups) {
             const group = this.groups.get(entry) ?? new Group(entry, await readBlock(this.test.index, entry.block));

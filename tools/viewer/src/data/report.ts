@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The data that `crackle report` and `crackle view` put into the page: format "crackle-report 2".
-// A JSON manifest describes each test and gives the positions of its arrays in the blocks; block 0 of a test holds its specimen,
-// curve, breaks and slips as plain little-endian arrays, the others hold the frames, group by group (frames.ts). Units are SI in 2D:
-// stress in N/m, angles in radians.
+// Reads the data that `crackle report` and `crackle view` put into the page: format "crackle-report 2".
+// A JSON manifest describes each test and gives the positions of its arrays in the blocks. Block 0 of a test holds its
+// specimen, curve, breaks and slips as plain little-endian arrays. The others hold the frames, group by group
+// (frames.ts). Units are SI in 2D: stress in N/m, angles in radians.
 
 import {readBlock} from './blocks';
 import type {Cells} from './cells';
 import type {CodedEntry} from './coded_arrays';
 import {plainArray, type ArrayEntry, type NumberArray} from './plain_arrays';
 
-/// Loading direction of a test.
-/// As the page names it.
+/// Kind of test, as named on the page.
 export type Kind = string;
 const kindNames: Record<string, Kind> = {scb: 'semi-circular bend', direct_shear: 'direct shear'};
 
@@ -28,12 +27,12 @@ export interface FrameEntry {
 
 export interface GroupEntry {
     block: number;
-    first: number; // frame
+    first: number; // index of the first frame
     count: number;
     arrays: Record<string, CodedEntry>;
 }
 
-/// Bodies of a deck that have curves on the page, and how many the run wrote curves of.
+/// Ids of a deck's bodies that have curves on the page, and the number of bodies for which the run wrote curves.
 interface ListedBodies {
     ids: number[];
     of: number;
@@ -44,9 +43,9 @@ interface TestEntry {
     kind: 'test' | 'deck' | 'particles';
     summary: Summary;
     walls?: [number, number, number, number];
-    sides?: [number, number]; // m, left and right of what the frames show, splinters far off left out
-    velocities?: 'mean'; // between two frames
-    curves?: {in_time: boolean; bodies: ListedBodies; velocities: ListedBodies}; // of a deck
+    sides?: [number, number]; // m, left and right end of the specimen over all frames, without splinters far away
+    velocities?: 'mean'; // if velocities are means between two frames
+    curves?: {in_time: boolean; bodies: ListedBodies; velocities: ListedBodies}; // only for decks
     arrays: Record<string, ArrayEntry>;
     frames: FrameEntry[];
     groups: GroupEntry[];
@@ -61,39 +60,39 @@ interface Manifest {
     tests: TestEntry[];
 }
 
-/// What the units of particle files and decks are called: missing where the page does not know.
+/// Names of the units of particle files and decks.
 export interface UnitNames {
     length: string;
     velocity: string;
     force: string;
     energy: string;
     stress: string;
-    prefixes: boolean; // as in kN: the units are those that prefixes go with
+    prefixes: boolean; // whether SI prefixes can be added, as in kN
 }
 
 /// summary.json as the test wrote it; keys and units are listed in specimens/results/FILES.md.
 export type Summary = Record<string, unknown>;
 
 export interface Curve {
-    strain: NumberArray; // -, positive for the test's own kind
-    stress: NumberArray; // N/m, same sign convention
-    bondsBroken: NumberArray; // so far
+    strain: NumberArray; // -, positive in the test's loading direction
+    stress: NumberArray; // N/m, positive in the test's loading direction
+    bondsBroken: NumberArray; // running total
 }
 
-/// Columns of energy.dat, in its order.
+/// Columns of energy.dat, in file order.
 export const energyNames = ['enrg', 'enva', 'enka', 'enca', 'enfr', 'enxd', 'enxf', 'err', 'enfb'] as const;
 export type EnergyName = (typeof energyNames)[number];
 
-/// What a deck's run wrote every nprn2 steps, over time (over steps, where the page has no times), in the deck's units.
+/// Values that the run of a deck wrote every nprn2 steps, in the deck's units, against time (or steps if times are unknown).
 export interface DeckCurves {
     inTime: boolean;
     energy: {time: NumberArray; parts: Record<EnergyName, NumberArray>};
     bodies: {id: number; time: NumberArray; forceX: NumberArray; x: NumberArray; forceY: NumberArray; y: NumberArray}[];
     velocities: {id: number; time: NumberArray; vy: NumberArray}[];
-    watched: number; // bodies that the run wrote curves of: the page has the first ones
+    watched: number; // number of bodies for which the run wrote curves; the page has the first of them
 }
 
-/// What happened to bonds, in the order of time.
+/// Events of bonds (breaks or slips), ordered by time.
 export interface BondEvents {
     count: number;
     time: NumberArray; // s
@@ -103,13 +102,13 @@ export interface BondEvents {
     orientation: NumberArray; // rad, of the contact normal, in (-π/2, π/2]
 }
 
-/// Breaks.
+/// Bond breaks.
 export interface Events extends BondEvents {
     energy: NumberArray; // J
-    bodyI: NumberArray; // ids of the input
+    bodyI: NumberArray; // ids of the bodies in the input
     bodyJ: NumberArray;
     shear: NumberArray; // 1: shear mode, 0: tension mode
-    last: NumberArray; // 1: the pair's last bonded point
+    last: NumberArray; // 1 if this was the last bonded point of the pair
 }
 
 /// Bonded points of the first frame.
@@ -122,27 +121,27 @@ export interface Bonds {
 }
 
 export interface TestData {
-    index: number; // in the manifest
+    index: number; // position in the manifest
     name: string;
     source: TestEntry['kind'];
-    meanVelocities: boolean; // between two frames
+    meanVelocities: boolean; // whether velocities are means between two frames
     kind: Kind;
     specimen: string;
     failed: boolean;
     summary: Summary;
     walls: TestEntry['walls'];
     sides: TestEntry['sides'];
-    curve: Curve | undefined; // only of a test
-    deck: DeckCurves | undefined; // only of a deck
+    curve: Curve | undefined; // only for tests
+    deck: DeckCurves | undefined; // only for decks
     events: Events;
-    slips: BondEvents | undefined; // first arrivals of bonds at their Coulomb limit; undefined where the test did not record them
+    slips: BondEvents | undefined; // first arrivals of bonds at their Coulomb limit; undefined if they were not recorded
     cells: Cells;
     bonds: Bonds;
     frames: FrameEntry[];
     groups: GroupEntry[];
 }
 
-/// A test with a curve, as the figures and the table of the report need it.
+/// A test with a curve, as needed for the report's figures and table.
 export type CurvedTest = TestData & {curve: Curve};
 
 export interface Report {
@@ -254,26 +253,25 @@ export function largestOf(values: ArrayLike<number>): number {
     return largest;
 }
 
-/// Whether the test recorded slips and had some.
+/// Whether the test recorded any slips.
 export function hasSlips(test: TestData): test is TestData & {slips: BondEvents} {
     return test.slips !== undefined && test.slips.count > 0;
 }
 
-/// Time of the last frame, break or slip, s: a run may have no frames.
+/// Time of the last frame, break or slip, s.
 export function lastTimeOf({frames, events, slips}: TestData): number {
     return Math.max(frames[frames.length - 1]?.time ?? 0, largestOf(events.time), largestOf(slips?.time ?? none));
 }
 
-/// Names of the minerals in the order of their material numbers; none of a rock of one material.
+/// Names of the minerals in the order of their material numbers; empty for a rock of one material.
 export function mineralsOf(summary: Summary): string[] {
     const minerals = summary['minerals'];
     return Array.isArray(minerals) ? minerals.map((mineral: {name: string}) => mineral.name) : [];
 }
 
-/// A number of summary.json, or undefined where the test does not state it.
-/// Whether stiffnesses and strengths are of an area, so that stresses are in Pa as they are.
+/// Whether the case gives stiffnesses and strengths per area, so that stresses are in Pa.
 export const inArea = (test: {summary: Summary}): boolean => test.summary['material_units'] === 'area';
-/// Of a test's stresses and moduli.
+/// Unit of a test's stresses and moduli.
 export const stressUnitOf = (test: {summary: Summary}): string => (inArea(test) ? 'Pa' : 'N/m');
 
 export function numberOf(summary: Summary, key: string): number | undefined {
@@ -281,7 +279,7 @@ export function numberOf(summary: Summary, key: string): number | undefined {
     return typeof value === 'number' && Number.isFinite(value) ? value : undefined;
 }
 
-/// Strain and stress of the peak from the summary, whose keys depend on whether the test has failed.
+/// Strain and stress at the peak, from the summary. Its keys depend on whether the specimen failed.
 export function peakOf(test: TestData): {strain: number | undefined; stress: number | undefined} {
     return {
         strain: numberOf(test.summary, 'peak_strain') ?? numberOf(test.summary, 'peak_strain_so_far'),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What each test is called, the colour of its curve, and the order in which tests are listed.
+// Names of the tests, the colours of their curves, and the order in which they are listed.
 
 import type {CurvedTest, TestData} from './report';
 
@@ -26,14 +26,14 @@ export function unique<T>(values: readonly T[]): T[] {
     return [...new Set(values)];
 }
 
-/// Each value once, those of the order first.
+/// The distinct values: first those in `order`, then all others.
 export function ordered(values: string[], order: string[]): string[] {
     const rank = (value: string) => (order.includes(value) ? order.indexOf(value) : order.length);
     return unique(values).sort((a, b) => rank(a) - rank(b));
 }
 
-/// Tests named by specimen and kind if these names are unique (colour = specimen), else as the page names them, which it does
-/// without repetition (colour = test).
+/// Labels tests by specimen and kind if these labels are unique (one colour per specimen), otherwise by their unique names on
+/// the page (one colour per test).
 export function labelTests(tests: TestData[]): LabelledTest[] {
     const name = (test: TestData) => `${specimenName(test)}, ${test.kind}`;
     const namesUnique = unique(tests.map(name)).length === tests.length && tests.every((test) => test.curve);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Text over a pane: the tests' names and moments, a scale bar, particle numbers where they fit.
+// Text over a pane: names and moments of the tests, a scale bar, and particle numbers that fit.
 
 import type {Theme} from '../colours/theme';
 import type {Frame} from '../data/frames';
@@ -10,7 +10,7 @@ import {counted, quantity, strain, stressText} from '../quantities/units';
 import type {SpecimenView} from './specimen_view';
 import type {Pane, Placing} from './stage';
 
-/// "ε = 1.94×10⁻³ σ = 67.2 kN/m", or the time where there is no strain.
+/// Text such as "ε = 1.94×10⁻³ σ = 67.2 kN/m"; the time if the frame has no strain.
 export function momentText(frame: Frame, test: TestData): string {
     if (frame.strain === undefined) return `t = ${quantity(frame.time, 's')}`;
     const stress = frame.entry.axial_stress;
@@ -19,12 +19,12 @@ export function momentText(frame: Frame, test: TestData): string {
     return `ε = ${strain(frame.strain)}\u2003σ ${text.startsWith('≈') ? text : `= ${text}`}`;
 }
 
-/// Note on magnified displacements, for every picture that shows them; else empty.
+/// Note that displacements are magnified; empty if they are not.
 export const magnified = (magnification: number): string => (magnification === 1 ? '' : `\u2003displacements ×${magnification}`);
 
 const smallestTitle = 8.5; // px
 
-/// The style made smaller until the text fits, and the text with its end cut off where that is not enough.
+/// Reduces the text size until the text fits; if the smallest size is not enough, cuts off the end of the text.
 function fitted(sheet: Sheet, text: string, style: TextStyle, room: number): {text: string; style: TextStyle; width: number} {
     const size = Math.max(smallestTitle, Math.min(style.size, style.size * room / Math.max(1, sheet.widthOf(text, style))));
     const smaller = {...style, size};
@@ -33,7 +33,7 @@ function fitted(sheet: Sheet, text: string, style: TextStyle, room: number): {te
     return {text: shown, style: smaller, width: sheet.widthOf(shown, smaller)};
 }
 
-/// The name and the moment; the moment below the name where the pane is too narrow for one line.
+/// Draws the name and the moment of each test, on two lines if the pane is too narrow for one.
 export function drawTitles(sheet: Sheet, pane: Pane, names: readonly {label: string; colour: string; moment: string}[], theme: Theme): void {
     let x = pane.rectangle.x + 9;
     const y = pane.rectangle.y + 17;
@@ -48,7 +48,7 @@ export function drawTitles(sheet: Sheet, pane: Pane, names: readonly {label: str
     }
 }
 
-/// A round length of about a fifth of the pane.
+/// Draws a scale bar of a round length, at most a quarter of the pane's width.
 export function drawScaleBar(sheet: Sheet, pane: Pane, placing: Placing, theme: Theme): void {
     const target = Math.min(130, pane.rectangle.width / 4) / placing.scale, power = 10 ** Math.floor(Math.log10(target));
     const length = [5, 2, 1].map((step) => step * power).find((candidate) => candidate <= target) ?? power;
@@ -59,13 +59,13 @@ export function drawScaleBar(sheet: Sheet, pane: Pane, placing: Placing, theme: 
     sheet.text(end + 7, y + 4, quantity(length, 'm', 1), {size: 11, colour: theme.ink, halo: theme.background});
 }
 
-const numberSize = 10; // px, letters
+const numberSize = 10; // px, font size
 const digitWidth = 6.2;
 
-/// How many particles have their numbers in the picture.
+/// Counts of particles whose numbers are drawn, and of all particles in the pane.
 export interface Numbered {
     shown: number;
-    all: number; // that the pane shows
+    all: number; // number of particles in the pane
 }
 
 export function drawNumbers(sheet: Sheet, pane: Pane, placing: Placing, view: SpecimenView, frame: Frame, magnification: number, theme: Theme): Numbered {
@@ -85,17 +85,17 @@ export function drawNumbers(sheet: Sheet, pane: Pane, placing: Placing, view: Sp
     return numbered;
 }
 
-/// Below the particles, where some have no number: that there is no room for it.
+/// Draws a note below the particles if there is no room for some of their numbers.
 export function drawNumberNote(sheet: Sheet, pane: Pane, {shown, all}: Numbered, theme: Theme): void {
     if (shown === all) return;
     const {x, y, width, height} = pane.rectangle;
     const text = shown === 0 ? 'Zoom in to see the numbers' : `Numbers of ${counted(shown)} of ${counted(all)} particles fit: zoom in to see the others`;
     const style: TextStyle = {size: 11, colour: theme.muted, align: 'right', halo: theme.background};
-    const beside = width - 150; // px, beside the scale bar
+    const beside = width - 150; // px, room beside the scale bar
     sheet.text(x + width - 9, y + height - (sheet.widthOf(text, style) < beside ? 5 : 22), text, style);
 }
 
-/// Width available for a number: the diameter, or about that of a polygon's shorter side.
+/// Width available for a particle's number, m: most of a circle's diameter or of a polygon's width.
 function sizeOf(view: SpecimenView, cell: number): number {
     const {cells} = view.test;
     if (cells.radius[cell]! > 0) return 1.8 * cells.radius[cell]!;

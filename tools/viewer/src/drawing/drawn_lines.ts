@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The lines over the particles at one moment: platens and walls, cracks, bonds, contact forces, the picked particle.
+// Lines drawn over the particles at one moment: platens and walls, cracks, bonds, contact forces, and the picked particle.
 
 import {paletteSize, rgb, type Rgb} from '../colours/palettes';
 import type {Theme} from '../colours/theme';
@@ -11,9 +11,9 @@ import {movedCentre, moverOf} from '../geometry/rigid_motion';
 import type {ForceScale} from '../quantities/ranges';
 import type {Segments} from './segments';
 
-const bondBroken = 2; // states from here on
+const bondBroken = 2; // smallest state of a broken bond
 const bondSlid = 1;
-/// Forces below this share of the scale's end are left out.
+/// Forces below this fraction of the scale's end are left out.
 export const smallestForceShown = 0.02;
 
 export function addChains(lines: Segments, test: TestData, frame: Frame, magnification: number, theme: Theme): void {
@@ -50,10 +50,10 @@ function addFaces(lines: Segments, cells: Cells, frame: Frame, faces: readonly C
 
 export interface CrackColours {
     by: 'mode' | 'time';
-    listed: boolean; // some test shown has a list of its breaks
-    unlisted: boolean; // of some, breaks are known only from the state of the bonds
-    palette: readonly Rgb[]; // over the time of all tests shown
-    lastTime: number; // s, of these
+    listed: boolean; // whether a shown test has a list of its breaks
+    unlisted: boolean; // whether breaks of a shown test are known only from the state of its bonds
+    palette: readonly Rgb[]; // colours for times from 0 to lastTime
+    lastTime: number; // s, end of the longest of the shown tests
 }
 
 export function addCracks(lines: Segments, test: TestData, cracks: readonly Crack[], frame: Frame, magnification: number, colours: CrackColours, theme: Theme): void {
@@ -68,7 +68,7 @@ export function addCracks(lines: Segments, test: TestData, cracks: readonly Crac
     if (test.events.count === 0) addBrokenBonds(lines, test, frame, magnification, theme);
 }
 
-/// Cracks of a run without a list of breaks: the mode is not known.
+/// Adds the cracks of a run without a list of breaks, whose modes are unknown.
 function addBrokenBonds(lines: Segments, test: TestData, frame: Frame, magnification: number, theme: Theme): void {
     const state = frame.field('state');
     if (!state) return;
@@ -86,7 +86,7 @@ function bondedPoint(test: TestData, frame: Frame, bond: number, magnification: 
     return {x: (a.x + b.x) / 2, y: (a.y + b.y) / 2};
 }
 
-/// Lines from centre to contact point to centre; none to the centre of a platen.
+/// Adds lines from both centres to the contact point, except from the centre of a platen.
 function addBranches(lines: Segments, cells: Cells, frame: Frame, i: number, j: number, at: Point, magnification: number, width: number, colour: Rgb, opacity: number): void {
     for (const cell of [i, j]) {
         if (cell < 0 || cells.open[cell] === 1) continue;
@@ -105,7 +105,7 @@ export function addBonds(lines: Segments, test: TestData, frame: Frame, magnific
     }
 }
 
-/// Widths are shares of the widest line: the force over the scale's end.
+/// Adds contact forces. Line widths are relative to the widest line: the force divided by the scale's end.
 export function addForces(lines: Segments, test: TestData, frame: Frame, magnification: number, {end}: ForceScale, theme: Theme): void {
     if (end === 0) return;
     const {bonds, cells} = test, compression = rgb(theme.compressive), tension = rgb(theme.tensile);
@@ -125,7 +125,7 @@ export function addForces(lines: Segments, test: TestData, frame: Frame, magnifi
     }
 }
 
-/// Contact points are given at their true positions: magnification adds the mean displacement of their cells.
+/// Position of a contact point. Stored positions are true ones, to which magnification adds the mean displacement of both cells.
 function contactPoint(contacts: Contacts, contact: number, frame: Frame, magnification: number): Point {
     const cells = [contacts.i[contact]!, contacts.j[contact]!].filter((cell) => cell >= 0);
     const mean = (values: Float32Array) => cells.reduce((sum, cell) => sum + values[cell]!, 0) / cells.length;

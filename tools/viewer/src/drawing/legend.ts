@@ -53,7 +53,7 @@ function drawMarks(sheet: Sheet, title: string, marks: readonly [string, string,
 
 function drawBar(sheet: Sheet, title: string, palette: readonly Rgb[], low: string, high: string, theme: Theme, x: number, top: number, middle = ''): number {
     sheet.text(x, top + 12, title, {...small(theme), colour: theme.muted});
-    const steps = 64; // fewer rectangles than colours: no visible difference, smaller files
+    const steps = 64; // fewer rectangles than colours make smaller files without a visible difference
     for (let step = 0; step < steps; ++step) {
         const colour = palette[Math.round(step / (steps - 1) * (paletteSize - 1))]!;
         sheet.rectangle(x + step * barWidth / steps, top + 17, barWidth / steps + 0.4, barHeight, css(colour));
@@ -68,7 +68,7 @@ function drawColours(sheet: Sheet, {quantity: shown, range, palette, names}: Col
     if (shown.scaling === 'categorical') {
         sheet.text(x, top + 12, shown.key === 'fragment' ? 'Fragment, largest first' : shown.name, {...small(theme), colour: theme.muted});
         let at = x;
-        const last = names.length > 0 ? names.length - 1 : range.high; // of minerals without the platens'
+        const last = names.length > 0 ? names.length - 1 : range.high; // named minerals leave out the platens' material
         for (let number = 0; number <= Math.min(5, last); ++number) {
             const text = number === 5 && last > 5 ? '…' : names[number] ?? String(number + 1);
             sheet.rectangle(at, top + 19, 13, 13, css(palette[number]!));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All circles and polygons of a test as one mesh of three.js. Corners are uploaded once; a frame is one small texture with
-// displacement, angle and palette index of each cell, and the vertex shader does the rigid motion. Panning and zooming change
-// the camera alone.
-//   polygon   a fan about its centre, if it is star-shaped about it, circle   a square
-// `rim` grows from the length 0 at the centre to 1 at the outline in both, which gives circles their shape and both an outline
-// of the same width in pixels at any zoom. Other polygons are cut at their corners; their outlines are lines (drawn_lines.ts).
-// WebGL in software draws a triangle in about a microsecond whatever its size. So only what is in view is drawn, by batches of
-// neighbours. If that is still too slow while the picture moves, each cell is drawn as a point of its own area; of very many
-// cells only an evenly spread part is drawn, with larger points.
+// Draws all circles and polygons of a test as one three.js mesh. Corners are uploaded once. A frame is one small
+// texture with displacement, angle and palette index of each cell, and the vertex shader applies the rigid motion.
+// Panning and zooming change only the camera. Circles are drawn as squares, and polygons that are star-shaped about
+// their centre as fans. The length of `rim` grows from 0 at the centre to 1 at the outline. It gives circles their
+// shape, and outlines the same width in pixels at any zoom. Other polygons are triangulated, and their outlines are
+// drawn as lines (drawn_lines.ts). Software WebGL needs about a microsecond per triangle, whatever its size, so only
+// batches of neighbouring cells in view are drawn. If that is still too slow while the picture moves, each cell is
+// drawn as a point of the same area. If there are very many cells, only an evenly distributed part of them is drawn,
+// with larger points.
 
 import {
     BufferAttribute, BufferGeometry, DataTexture, FloatType, GLSL3, Group, Mesh, NearestFilter, Points, RawShaderMaterial, RGBAFormat, ShapeUtils,
@@ -21,9 +21,9 @@ import type {Frame} from '../data/frames';
 import type {Extent} from '../geometry/extent';
 import {magnifiedAngle} from '../geometry/rigid_motion';
 
-const textureWidth = 512; // cells a row
+const textureWidth = 512; // cells per row
 const batchSize = 500; // cells
-/// More than these are points while the picture moves: software WebGL on two cores then keeps to 20 pictures a second.
+/// With more outlines, cells are drawn as points while the picture moves, so that software WebGL reaches 20 pictures per second.
 const mostOutlinesMoving = 8000;
 const mostPointsMoving = 20000;
 
@@ -43,7 +43,7 @@ vec4 placed() {
 }`;
 
 const fanVertex = `${placing}
-in vec4 place; // centre and the corner from there
+in vec4 place; // centre, and corner relative to the centre
 in vec2 rim;
 out vec2 toRim;
 void main() {
@@ -56,8 +56,8 @@ void main() {
 const fanFragment = `
 precision mediump float;
 uniform vec3 edge;
-uniform float edgeWidth; // pixels; 0: none
-uniform float edgeStrength; // share of its colour
+uniform float edgeWidth; // pixels; 0 for no outline
+uniform float edgeStrength; // fraction of the outline's colour, 0 to 1
 uniform float opacity;
 in vec2 toRim;
 flat in vec3 fill;
@@ -70,8 +70,8 @@ void main() {
 }`;
 
 const pointVertex = `${placing}
-in vec3 spot; // centre, and the side of the square of the cell's area
-uniform float pointScale; // pixels per metre, enlarged for the cells that are not drawn
+in vec3 spot; // centre, and side of a square with the cell's area
+uniform float pointScale; // pixels per metre, enlarged to make up for cells that are not drawn
 void main() {
     gl_Position = projectionMatrix * modelViewMatrix * vec4(spot.xy + placed().xy, 0.0, 1.0);
     gl_PointSize = max(1.0, spot.z * pointScale);
@@ -84,13 +84,13 @@ flat in vec3 fill;
 out vec4 colour;
 void main() { colour = vec4(fill, opacity); }`;
 
-/// Neighbouring cells: their part of the index, and where they are in the frame.
+/// A batch of neighbouring cells: its part of the index buffer, and its bounding box in the current frame.
 interface Batch {
     cells: number[];
-    reach: number; // m, largest
+    reach: number; // m, largest reach of its cells
     first: number;
     count: number;
-    box: Extent; // m from the origin
+    box: Extent; // m, relative to the origin
 }
 
 export class ParticleLayer {
@@ -149,9 +149,9 @@ export class ParticleLayer {
         for (const material of [...this.fans.material, this.points.material]) material.transparent = opacity < 1;
     }
 
-    /// To be called before each drawing.
-    /// @param view  what is seen, m from the origin
-    /// @param pixelsPerMetre, edge  in pixels of the picture
+    /// Call this before each drawing.
+    /// @param view  visible area, m, relative to the origin
+    /// @param pixelsPerMetre  in picture pixels @param edge  outline, width in picture pixels
     prepare(view: Extent, pixelsPerMetre: number, edge: {width: number; strength: number}, moving: boolean): void {
         const {geometry} = this.fans;
         geometry.clearGroups();
@@ -191,7 +191,7 @@ export class ParticleLayer {
     }
 }
 
-/// Cuts the closed cells into strips by height, and each strip into batches from left to right.
+/// Divides the closed cells into strips by height, and each strip into batches from left to right.
 function neighbours(cells: Cells): Batch[] {
     const closed = Array.from({length: cells.count}, (_, cell) => cell).filter((cell) => cells.open[cell] !== 1);
     closed.sort((a, b) => cells.y[a]! - cells.y[b]!);
@@ -208,7 +208,7 @@ function neighbours(cells: Cells): Batch[] {
     return batches;
 }
 
-/// Triangles of all batches, one after the other; sets their parts of the index.
+/// Triangles of all batches in order; sets each batch's part of the index buffer.
 function fanGeometry(cells: Cells, origin: Point, jagged: readonly number[], batches: readonly Batch[]): BufferGeometry {
     let corners = 0, triangles = 0;
     const cut = new Map(jagged.map((cell) => [cell, ShapeUtils.triangulateShape(outline(cells, cell).map(({x, y}) => new Vector2(x, y)), [])]));
@@ -264,7 +264,7 @@ function fanGeometry(cells: Cells, origin: Point, jagged: readonly number[], bat
     return geometry;
 }
 
-/// In an order of which any first part is spread evenly over all cells.
+/// Points for all cells, ordered such that any number of first points is evenly distributed over all cells.
 function pointGeometry(cells: Cells, origin: Point): BufferGeometry {
     const spot = new Float32Array(3 * cells.count), owner = new Float32Array(cells.count), step = coprimeStep(cells.count);
     for (let at = 0, cell = 0; at < cells.count; ++at, cell = (cell + step) % cells.count) {
@@ -279,7 +279,7 @@ function pointGeometry(cells: Cells, origin: Point): BufferGeometry {
     return geometry;
 }
 
-/// A step by which all of `count` places are visited, close to the golden ratio: the visited places are spread evenly.
+/// A step, coprime to `count` and near the golden ratio, so that repeated steps visit all places and spread them evenly.
 function coprimeStep(count: number): number {
     const divisor = (a: number, b: number): number => (b === 0 ? a : divisor(b, a % b));
     let step = Math.max(1, Math.round(0.618034 * count));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The complete picture: the WebGL stage, and over it titles, legend and numbers. For files it is drawn again at any resolution.
-// On the page the text is SVG: a transparent canvas of the picture's size would cost a browser without a graphics card more than
-// all particles.
+// The complete picture: the WebGL stage with titles, legend and numbers over it. For files it is drawn again at any resolution.
+// On the page, text is SVG, because without a graphics card a transparent canvas over the picture would take longer to draw
+// than all particles.
 
 import type {Theme} from '../colours/theme';
 import type {Frame} from '../data/frames';
@@ -27,7 +27,7 @@ export class Picture {
     width = 0;
     height = 0;
     private theme: Theme | undefined;
-    private overlays: {title: TextOverlay; foot: TextOverlay}[] = []; // of each pane
+    private overlays: {title: TextOverlay; foot: TextOverlay}[] = []; // by pane
     private readonly legend = new TextOverlay();
     private readonly numbers = new TextOverlay();
 
@@ -35,7 +35,7 @@ export class Picture {
         this.stage.onDrawn = () => this.place();
     }
 
-    /// Divides the picture into panes; all specimens at one scale where their sizes allow.
+    /// Divides the picture into panes, with the same scale for all specimens if their sizes allow it.
     layOut(panes: readonly (readonly SpecimenView[])[], width: number, height: number): void {
         this.width = width;
         this.height = height;
@@ -60,7 +60,7 @@ export class Picture {
         this.stage.request();
     }
 
-    /// The whole picture at a number of picture pixels per CSS pixel.
+    /// Draws the whole picture on a canvas. @param ratio  picture pixels per CSS pixel
     compose(ratio: number, into = element('canvas')): HTMLCanvasElement {
         into.width = Math.round(this.width * ratio);
         into.height = Math.round(this.height * ratio);
@@ -132,7 +132,7 @@ export class Picture {
         return all;
     }
 
-    /// Not in files: nobody can zoom there.
+    /// Writes the numbers, and a note to zoom in if some are missing. Files have no such note.
     private writeNumbersWithNote(sheet: Sheet, pane: Pane): void {
         const numbered = this.writeNumbers(sheet, pane);
         if (this.theme) drawNumberNote(sheet, pane, numbered, this.theme);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The view as an SVG file: the same particles, lines, titles and legend as on the screen, each particle a shape of its own.
+// The view as an SVG file, with the same particles, lines, titles and legend as on the screen. Each particle is a separate shape.
 
 import {paletteIndices} from '../colours/colouring';
 import {css, type Rgb} from '../colours/palettes';
@@ -11,7 +11,7 @@ import type {Segments} from './segments';
 import {lineScale, outlineOf, type Look, type SpecimenView} from './specimen_view';
 import type {Pane, Placing} from './stage';
 
-/// A pane's specimens, cut off at its border.
+/// The specimens of a pane, clipped at its border.
 export function paneAsSvg(pane: Pane, placing: Placing, shown: readonly {view: SpecimenView; frame: Frame; look: Look}[]): SVGElement {
     const {x, y, width, height} = pane.rectangle;
     const svg = svgElement('svg', {x, y, width, height, viewBox: `0 0 ${width} ${height}`});
@@ -46,7 +46,7 @@ function particles(view: SpecimenView, frame: Frame, look: Look, placing: Placin
     return group;
 }
 
-/// Lines of one width and colour share a path.
+/// The segments as paths; all segments of the same width and colour share one path.
 function lines(segments: Segments, placing: Placing, widest: number): SVGElement {
     const group = svgElement('g', {fill: 'none', 'stroke-linecap': 'round'});
     const paths = new Map<string, string[]>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Segments as instances of one square, stretched along each line in the vertex shader to its width in pixels.
+// Draws segments as instances of one square, which the vertex shader stretches along each line to its width in pixels.
 
 import {
     BufferAttribute, DynamicDrawUsage, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, RawShaderMaterial, Vector2,
@@ -10,9 +10,9 @@ import type {Segments} from './segments';
 const vertexShader = `
 precision highp float;
 uniform mat4 projectionMatrix, modelViewMatrix;
-uniform vec2 halfSize; // of the viewport, pixels
-uniform float scale; // picture pixels a CSS pixel
-in vec2 corner; // along and across, -1 to 1
+uniform vec2 halfSize; // half the viewport's size, pixels
+uniform float scale; // picture pixels per CSS pixel
+in vec2 corner; // position along and across the line, -1 to 1
 in vec4 ends;
 in float width;
 in vec4 colour;
@@ -23,7 +23,7 @@ void main() {
     vec2 way = to - from;
     float far = length(way), across = 0.5 * max(1.0, width * scale);
     vec2 along = far > 0.0 ? way / far : vec2(1.0, 0.0);
-    // Ends extend by half a width, so that lines in a chain join.
+    // Ends extend by half the line's width, so that the lines of a chain join.
     vec2 at = (corner.x < 0.0 ? from : to) + across * (corner.x * along + corner.y * vec2(-along.y, along.x));
     shown = colour;
     gl_Position = vec4(at / halfSize, 0.0, 1.0);
@@ -63,7 +63,7 @@ export class SegmentLayer {
         }
     }
 
-    /// The viewport's size and picture pixels a CSS pixel.
+    /// Sets the viewport's size and the number of picture pixels per CSS pixel.
     setScale(width: number, height: number, scale: number): void {
         (this.mesh.material.uniforms['halfSize']!.value as Vector2).set(width / 2, height / 2);
         this.mesh.material.uniforms['scale']!.value = scale;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Straight lines of given width and colour: platens, walls, cracks, bonds, forces. Filled on the processor for each frame, drawn
-// by WebGL (segment_layer.ts) or written to SVG (picture_svg.ts).
+// Straight lines with widths and colours, for platens, walls, cracks, bonds and forces. They are filled on the CPU for each
+// frame, and drawn by WebGL (segment_layer.ts) or written to SVG (picture_svg.ts).
 
 import type {Rgb} from '../colours/palettes';
 import type {Point} from '../data/cells';
 
 export class Segments {
     count = 0;
-    ends = new Float32Array(4 * 256); // m, from and to
+    ends = new Float32Array(4 * 256); // m, start and end of each line
     widths = new Float32Array(256); // px
     colours = new Uint8Array(4 * 256);
 
-    /// Coordinates are stored relative to the origin: 32 bits then do at any zoom.
+    /// Coordinates are stored relative to the origin, so that single precision is enough at any zoom.
     constructor(readonly origin: Point) {}
 
     clear(): void {

@@ -20,13 +20,13 @@ export interface Settings {
     layers: Record<Layer, boolean>;
     quantity: string; // key of a Quantity
     map: SequentialName;
-    range: 'peak' | 'all' | 'frame'; // frames that the colours are of
-    forcesOf: 'page' | 'shown'; // tests that the widths of forces are of
+    range: 'peak' | 'all' | 'frame'; // frames that determine the colour scale
+    forcesOf: 'page' | 'shown'; // tests that determine the scale of force widths
     crackColour: 'mode' | 'time';
     magnification: number;
     layout: Layout;
-    test: number; // the one shown alone, or first of two overlaid
-    other: number; // second of two overlaid
+    test: number; // index of the test shown alone, or of the first of two overlaid tests
+    other: number; // index of the second of two overlaid tests
 }
 
 export const initialSettings: Settings = {

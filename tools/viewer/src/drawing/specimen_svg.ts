@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One specimen at one moment, as SVG: particles, platens, and the faces of broken bonds coloured by mode.
-// Bodies move as rigid bodies from the first frame; displacements may be drawn magnified.
+// Bodies are moved rigidly from their positions in the first frame; displacements may be magnified.
 
 import type {Theme} from '../colours/theme';
 import {outline, type Point} from '../data/cells';
@@ -13,7 +13,7 @@ import {movedCentre, moverOf} from '../geometry/rigid_motion';
 import {counted, quantity} from '../quantities/units';
 import {magnified} from './annotations';
 
-/// What drawings of a test's frames show, with room for the ends of the platens: to each its own width, to all one height.
+/// Extents of the drawings of a test's frames, with room for the ends of the platens. Widths differ, but all heights are equal.
 export function viewsOfMoments(test: TestData, frames: readonly Frame[], magnification: number): InView[] {
     const views = frames.map((frame) => inView(test, frame, magnification));
     const y1 = Math.min(...views.map(({extent}) => extent.y1)), y2 = Math.max(...views.map(({extent}) => extent.y2));
@@ -23,7 +23,7 @@ export function viewsOfMoments(test: TestData, frames: readonly Frame[], magnifi
     });
 }
 
-/// Note on particles that a drawing does not show; else empty.
+/// Note on the number of particles that a drawing does not show; empty if it shows all.
 export const leftOutText = (count: number): string => (count === 0 ? '' : `${counted(count)} ${count === 1 ? 'particle' : 'particles'} farther out`);
 
 interface Drawing {
@@ -34,11 +34,11 @@ interface Drawing {
     pixelsPerMetre: number;
     magnification: number;
     scaleBar: boolean;
-    fills?: (cell: number) => string; // else all in the colour of grain
+    fills?: (cell: number) => string; // colour of each cell; by default the theme's grain colour
 }
 
-const margin = 4; // px around the extent
-const barRoom = 24; // px for the scale bar
+const margin = 4; // px, around the extent
+const barRoom = 24; // px, height for the scale bar
 
 /// A round length of about a third of the specimen's width.
 function barLength(width: number): number {
@@ -89,7 +89,7 @@ export function drawSpecimen(drawing: Drawing, theme: Theme): SVGElement {
         }
     }
 
-    // Lines are shares of a particle: where they are small, lines of a usual width would be all that is seen.
+    // Line widths are proportional to the particle size, since lines of fixed width would cover small particles.
     const size = scale * Math.sqrt((extent.x2 - extent.x1) * (extent.y2 - extent.y1) / Math.max(1, cells.count));
     const edge = Math.min(0.8, Math.max(0.1, 0.03 * size)), crack = Math.min(1.6, Math.max(0.6, 0.1 * size));
     const line = (list: string[], name: string, colour: string, lineWidth: number, dashes = '') =>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One test as the viewer draws it: its frames, cracks and lines, and the three.js scene that contains them.
+// One test as drawn by the viewer: its frames, cracks and lines, and the three.js scene that contains them.
 
 import {Scene} from 'three';
 
@@ -24,7 +24,7 @@ export interface Look {
     colouring: Colouring;
     crackColours: CrackColours;
     forceScale: ForceScale;
-    picked: number | undefined; // cell
+    picked: number | undefined; // index of the picked cell
     opacity: number;
     offered: ReadonlySet<Layer>; // layers that have something to show
     theme: Theme;
@@ -38,8 +38,8 @@ export class SpecimenView {
     readonly meanSize: number; // m, about a particle's diameter
     private readonly jagged: readonly number[]; // cells
     private readonly forceLines: number;
-    readonly lines: Segments; // platens, cracks, bonds, picked
-    readonly forces: Segments; // widths are shares of the widest
+    readonly lines: Segments; // platens, cracks, bonds, and the outline of the picked particle
+    readonly forces: Segments; // widths are relative to the widest line
     private madeParticles: ParticleLayer | undefined;
     private readonly lineLayer = new SegmentLayer(1);
     private readonly forceLayer = new SegmentLayer(2);
@@ -69,7 +69,7 @@ export class SpecimenView {
         return this.labelled.test;
     }
 
-    /// Created when first shown: not every test of a report is viewed.
+    /// Created when first shown, since the reader may not view every test of a report.
     private get particles(): ParticleLayer {
         if (!this.madeParticles) {
             this.madeParticles = new ParticleLayer(this.test.cells, this.origin, this.jagged);
@@ -78,7 +78,7 @@ export class SpecimenView {
         return this.madeParticles;
     }
 
-    /// Layers that the test has data for.
+    /// Layers for which the test has data.
     get layers(): Layer[] {
         const {bonds, cells, events, walls} = this.test;
         const missing: Partial<Record<Layer, boolean>> = {
@@ -90,7 +90,7 @@ export class SpecimenView {
         return (Object.keys(layerNames) as Layer[]).filter((layer) => !missing[layer]);
     }
 
-    /// Whether it has a list of breaks: a run of a deck may have none, a test always has one, possibly empty.
+    /// Whether there is a list of breaks. A test always has one, which may be empty; the run of a deck may have none.
     get listsBreaks(): boolean {
         return this.test.events.count > 0 || this.test.source === 'test';
     }
@@ -99,7 +99,7 @@ export class SpecimenView {
         return this.found ??= findCracks(this.test.cells, this.test.events);
     }
 
-    /// Fills the lines for a frame; also used for the SVG file.
+    /// Fills `lines` and `forces` for a frame. Also used for the SVG file.
     fillLines(frame: Frame, look: Look): void {
         const {settings, theme} = look, {layers, magnification} = settings;
         this.lines.clear();
@@ -112,7 +112,7 @@ export class SpecimenView {
         if (layers.forces) addForces(this.forces, this.test, frame, magnification, look.forceScale, theme);
     }
 
-    /// Width of the line of the largest force, px: thinner where the lines of a face's points fan out side by side.
+    /// Width of the line for the largest force, px. It is smaller if faces have several points, whose lines lie side by side.
     widestForce(pixelsPerMetre: number): number {
         return Math.min(20, Math.max(1.5, (0.22 * this.meanSize * pixelsPerMetre) / this.forceLines));
     }
@@ -127,7 +127,7 @@ export class SpecimenView {
         this.forceLayer.show(this.forces);
     }
 
-    /// To be called before each drawing.
+    /// Call this before each drawing.
     prepare({width, height, ratio, pixelsPerMetre, seen, outlines, moving}: Drawn): void {
         const particlePixels = this.meanSize * pixelsPerMetre;
         this.lineLayer.setScale(width * ratio, height * ratio, ratio * lineScale(particlePixels));
@@ -137,33 +137,33 @@ export class SpecimenView {
     }
 }
 
-/// How a pane is about to be drawn.
+/// Sizes and settings for drawing a pane.
 export interface Drawn {
     width: number; // CSS pixels
     height: number;
-    ratio: number; // picture pixels a CSS pixel
-    pixelsPerMetre: number; // CSS pixels
-    seen: Extent; // m from the specimen's origin
+    ratio: number; // picture pixels per CSS pixel
+    pixelsPerMetre: number; // in CSS pixels
+    seen: Extent; // m, visible area relative to the specimen's origin
     outlines: boolean;
     moving: boolean;
 }
 
-/// Bonded points of a pair of cells, on average: circles have one, faces of polygons several. Those of a pair are adjacent.
+/// Mean number of bonded points per pair of cells. Pairs of circles have one, faces of polygons several, which are adjacent.
 function pointsOfPair({count, i, j}: Bonds): number {
     let pairs = 0;
     for (let bond = 0; bond < count; ++bond) if (bond === 0 || i[bond] !== i[bond - 1] || j[bond] !== j[bond - 1]) ++pairs;
     return pairs > 0 ? count / pairs : 1;
 }
 
-/// Lines grow thin where particles are small: cracks would otherwise hide the specimen.
+/// Scale of line widths. Lines are thinner for small particles, since cracks would otherwise hide the specimen.
 export function lineScale(particlePixels: number): number {
     return Math.min(1, Math.max(0.4, particlePixels / 10));
 }
 
-const thinnestOutline = 0.7; // px: thinner ones are drawn in broken lines
+const thinnestOutline = 0.7; // px; thinner outlines would appear broken
 
-/// An outline's width, px, and how much of its colour it has: a share of the particle, so that the fill is what is seen, and none
-/// around very small ones, which would be grey all over.
+/// Width of an outline, px, and the strength of its colour. The width is proportional to the particle size, so that the fill
+/// remains visible. Very small particles have no outline, since they would look grey all over.
 export function outlineOf(particlePixels: number): {width: number; strength: number} {
     const share = particlePixels < 6 ? 0 : Math.min(1.1, 0.028 * particlePixels);
     return {width: share > 0 ? Math.max(thinnestOutline, share) : 0, strength: Math.min(1, share / thinnestOutline)};

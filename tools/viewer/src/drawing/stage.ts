@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The WebGL picture: one canvas, cut into panes, a test (or several, one over the other) in each. Drawn only when something has
-// changed: at one picture pixel a CSS pixel while it moves, and once more, finer, when it has come to rest.
+// The WebGL picture: one canvas divided into panes, each of which shows a test or several overlaid tests. It is drawn only
+// after changes, at one picture pixel per CSS pixel while it moves, and again at a finer resolution once it is at rest.
 
 import {ColorManagement, OrthographicCamera, WebGLRenderer} from 'three';
 
@@ -8,16 +8,16 @@ import type {Rectangle} from '../elements/sheet';
 import type {Extent} from '../geometry/extent';
 import type {SpecimenView} from './specimen_view';
 
-/// Pan and zoom, as d3-zoom gives it: shown = k · fitted + (x, y), in pixels of a pane.
+/// Pan and zoom as defined by d3-zoom: shown position = k · fitted position + (x, y), in pixels of a pane.
 export interface PanZoom {
     k: number;
     x: number;
     y: number;
 }
 
-/// Where one specimen appears in a pane: shown x = x + scale · (world x - origin x), and y downwards.
+/// Placing of a specimen in a pane: shown x = x + scale · (world x - origin x); y likewise, but downwards.
 export interface Placing {
-    scale: number; // CSS pixels a metre
+    scale: number; // CSS pixels per metre
     x: number;
     y: number;
 }
@@ -25,13 +25,13 @@ export interface Placing {
 export interface Pane {
     rectangle: Rectangle;
     views: readonly SpecimenView[];
-    pixelsPerMetre: number; // fitted
+    pixelsPerMetre: number; // at which the specimen fits the pane
 }
 
 ColorManagement.enabled = false; // colours are passed unchanged
 
-const restTime = 180; // ms without a change
-const largestPicture = 9e6; // picture pixels, still
+const restTime = 180; // ms without a change before the fine picture is drawn
+const largestPicture = 9e6; // largest number of picture pixels at rest
 export const titleRoom = 40, footRoom = 26, sideRoom = 10; // px in a pane, for text
 
 export class Stage {
@@ -44,10 +44,10 @@ export class Stage {
     private readonly camera = new OrthographicCamera();
     private width = 1;
     private height = 1;
-    private wanted = 0; // animation frame
-    private resting = 0; // timer
+    private wanted = 0; // id of the requested animation frame
+    private resting = 0; // id of the timer for the fine picture
 
-    /// @throws Error without WebGL 2
+    /// @throws Error if the browser has no WebGL 2
     constructor() {
         this.renderer = new WebGLRenderer({antialias: false, alpha: false, depth: false, stencil: false, powerPreference: 'high-performance'});
         this.renderer.autoClear = false;
@@ -65,7 +65,7 @@ export class Stage {
         this.renderer.setClearColor(colour);
     }
 
-    /// Draws soon, and finely once nothing has changed for a while.
+    /// Draws soon, and at fine resolution once nothing has changed for a while.
     request(): void {
         this.wanted ||= requestAnimationFrame(() => this.drawMoving());
     }
@@ -77,13 +77,13 @@ export class Stage {
         this.wanted = 0;
         this.draw(Math.min(1, devicePixelRatio), true);
         this.onDrawn();
-        // Counted from here: a slow picture must not be followed by a slower one while the user still drags.
+        // The timer starts only now, so that a slow drawing is not followed by a slower one while the user still drags.
         this.resting = window.setTimeout(() => {
             if (!this.wanted) this.draw(this.stillRatio());
         }, restTime);
     }
 
-    /// Draws at once and finely.
+    /// Draws at once at fine resolution.
     drawStill(): void {
         cancelAnimationFrame(this.wanted);
         this.wanted = 0;
@@ -91,7 +91,7 @@ export class Stage {
         this.onDrawn();
     }
 
-    /// The picture at a number of picture pixels a CSS pixel: readable until the browser next paints.
+    /// Draws the picture, which can be read until the browser next paints. @param ratio  picture pixels per CSS pixel
     draw(ratio: number, moving = false): void {
         const {renderer} = this;
         if (renderer.getPixelRatio() !== ratio || this.canvas.style.width !== `${this.width}px` || this.canvas.style.height !== `${this.height}px`) {
@@ -116,7 +116,7 @@ export class Stage {
         }
     }
 
-    /// Waits until the picture is finished, blocking; browsers warn about it on the console: for measurements only.
+    /// Blocks until the picture is finished. Only for measurements, since browsers print warnings on the console.
     finish(): void {
         const gl = this.renderer.getContext();
         gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
@@ -132,7 +132,7 @@ export class Stage {
     }
 
     stillRatio(): number {
-        const fine = 2 * Math.max(1, devicePixelRatio); // WebGL draws without smoothing: the browser does it
+        const fine = 2 * Math.max(1, devicePixelRatio); // the browser smooths by scaling down, since WebGL does not
         return Math.max(1, Math.min(fine, Math.sqrt(largestPicture / (this.width * this.height))));
     }
 
@@ -142,12 +142,12 @@ export class Stage {
     }
 }
 
-/// Pixels a metre at which an extent fills a pane.
+/// Pixels per metre at which an extent fills a pane.
 export function fit(extent: Extent, {width, height}: Rectangle): number {
     return Math.max(1e-9, Math.min((width - 2 * sideRoom) / (extent.x2 - extent.x1), (height - titleRoom - footRoom) / (extent.y2 - extent.y1)));
 }
 
-const leastPane = 136; // px wide, for the name of a test
+const leastPane = 136; // px, width needed for the name of a test
 
 /// A grid of panes that shows specimens of this aspect ratio as large as possible.
 export function grid(count: number, width: number, height: number, aspect: number): Rectangle[] {

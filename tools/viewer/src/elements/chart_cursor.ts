@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The shared cursor on a chart: thin lines at values of its horizontal axis, moved without redrawing the chart. A click on the
-// chart reports the value at that point.
+// The cursor on a chart, which several charts share: thin lines at values of the horizontal axis, moved without redrawing the
+// chart. A click on the chart reports the value at that point.
 
 import type {ECharts} from 'echarts/core';
 
@@ -16,13 +16,13 @@ export class Cursor {
 
     constructor(private readonly chart: ECharts, private top: number, private readonly bottom: number, onClick: (value: number) => void) {
         chart.getZr().on('click', ({offsetX, offsetY}) => {
-            if (!chart.containPixel({gridIndex: 0}, [offsetX, offsetY])) return; // a legend, an axis
+            if (!chart.containPixel({gridIndex: 0}, [offsetX, offsetY])) return; // a click on a legend or an axis
             const [value] = chart.convertFromPixel({gridIndex: 0}, [offsetX, offsetY]) as [number, number];
             if (Number.isFinite(value)) onClick(value);
         });
     }
 
-    /// To be called after a change of the chart's layout.
+    /// Call this after a change of the chart's layout.
     moveTo(top: number): void {
         this.top = top;
         for (const line of this.lines) line.style.top = `${top}px`;
@@ -36,7 +36,7 @@ export class Cursor {
         }
         this.lines.forEach((line, at) => {
             const mark = marks[at], x = mark && (this.chart.convertToPixel({xAxisIndex: 0}, mark.value) as number);
-            // Zoomed charts have places outside their grid.
+            // In a zoomed chart, values may lie outside its grid.
             line.hidden = x === undefined || !Number.isFinite(x) || !this.chart.containPixel({gridIndex: 0}, [x, this.top + 1]);
             if (mark && x !== undefined) {
                 line.style.left = `${x}px`;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Creates HTML and SVG elements in one call. Text is always inserted as text, never as markup: titles and names come from users'
-// files.
+// Creates HTML and SVG elements in one call. Text is never inserted as markup, because titles and names come from users' files.
 
 type Child = Node | string;
 
@@ -46,7 +45,7 @@ export function checkbox(label: string, checked: boolean, onChange: (checked: bo
     return element('label', {class: 'check'}, box, label);
 }
 
-/// @param ownLine  the list is as wide as its column, below its label: for long names
+/// @param ownLine  whether the list is below its label and as wide as its column, for long names
 export function select<T extends string>(
     label: string, options: readonly {value: T; text: string}[], chosen: T, onChange: (value: T) => void, attributes: Record<string, string> = {}, ownLine = false,
 ): HTMLLabelElement {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Icons of the playback buttons, drawn as SVG because fonts differ in their symbols.
+// Icons of the playback buttons, drawn as SVG because symbols differ between fonts.
 
 import {svgElement} from './dom';
 

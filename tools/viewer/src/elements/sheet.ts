@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A surface for titles, legends and numbers: a canvas or an SVG element behind one interface. Lengths in CSS pixels.
+// A surface for titles, legends and numbers: one interface for a canvas and an SVG element. Lengths are in CSS pixels.
 
 import {svgElement} from './dom';
 
@@ -24,7 +24,7 @@ export interface Sheet {
     text(x: number, y: number, text: string, style: TextStyle): void;
     line(x1: number, y1: number, x2: number, y2: number, width: number, colour: string): void;
     rectangle(x: number, y: number, width: number, height: number, colour: string): void;
-    /// Approximate: fonts differ.
+    /// Approximate width of a text, since fonts differ.
     widthOf(text: string, style: TextStyle): number;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A small SVG with text over the WebGL picture, updated only when its content changes: in a browser without a graphics card
-// every pixel that covers another one costs time.
+// A small SVG with text over the WebGL picture. It is updated only when its content changes, because without a graphics card
+// every pixel that covers another one takes time.
 
 import {svgElement} from './dom';
 import {SvgSheet, type Rectangle, type Sheet} from './sheet';

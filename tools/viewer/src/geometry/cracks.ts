@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where broken bonds are drawn: on the two faces that the bond held together, which move with their own bodies, so that an
-// open crack shows both its sides. Faces are found once, in the first frame, where the bodies still lie against each other.
+// Finds where broken bonds are drawn: on the two faces that the bond held together. Each face moves with its body, so that an
+// open crack shows both sides. Faces are found once, in the first frame, in which the bodies still touch.
 //   circle on circle      a tangent at the contact point of each
 //   polygon or platen     the parts of the two nearest parallel edges that face each other; where none do (corner on
 //                         corner), short ticks across the line of the two nearest corners
@@ -10,7 +10,7 @@ import type {Events} from '../data/report';
 
 type Segment = [Point, Point];
 
-/// One side of a broken interface: a line that moves with its body.
+/// One side of a broken interface, a line that moves with its body.
 export interface CrackFace {
     cell: number;
     from: Point; // m, first frame
@@ -111,15 +111,15 @@ export function facesOf(cells: Cells, i: number, j: number): CrackFace[] {
     return outlineFaces(cells, i, j);
 }
 
-/// Approximate distance of the surfaces of two drawn elements: to find which circles of two clumps touched.
+/// Approximate distance between the surfaces of two cells. It is used to find which circles of two clumps touched.
 function gap(cells: Cells, i: number, j: number): number {
     const a = centre(cells, i), b = centre(cells, j);
     return Math.hypot(a.x - b.x, a.y - b.y) - cells.radius[i]! - cells.radius[j]!;
 }
 
-/// One crack for each pair of bodies, in the order of their first breaks.
+/// Returns one crack per pair of bodies, ordered by their first breaks.
 export function findCracks(cells: Cells, events: Events): Crack[] {
-    const elementsOf = new Map<number, number[]>(); // several for a clump
+    const elementsOf = new Map<number, number[]>(); // cells by body id; a clump has several
     for (let element = 0; element < cells.count; ++element) {
         const id = cells.id[element]!, elements = elementsOf.get(id);
         if (elements) elements.push(element);
@@ -144,9 +144,9 @@ export function findCracks(cells: Cells, events: Events): Crack[] {
 
 /// State of one crack at a time; undefined before its first break.
 export interface CrackState {
-    shear: boolean; // most of its breaks were in shear mode
-    parted: boolean; // all bonded points of the interface are broken
-    since: number; // s, first break
+    shear: boolean; // whether most of its breaks were in shear mode
+    parted: boolean; // whether all bonded points of the interface are broken
+    since: number; // s, time of the first break
 }
 
 export function crackState(crack: Crack, time: number): CrackState | undefined {
@@ -165,7 +165,7 @@ export interface BrokenSoFar {
     shear: number;
 }
 
-/// Bonded points broken up to a time. A frame written right after a break carries its time.
+/// Number of bonded points broken up to a time, inclusive, since a frame written right after a break has its time.
 export function brokenUntil(events: Events, time: number): BrokenSoFar {
     const counts = {tension: 0, shear: 0};
     for (let event = 0; event < events.count; ++event) {

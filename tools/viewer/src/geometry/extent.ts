@@ -13,14 +13,15 @@ export interface Extent {
     y2: number;
 }
 
-const followed = 0.4; // how far out fragments are followed, of the specimen's width
-const largeShare = 0.2; // of all cells: fragments from here on are always shown
+const followed = 0.4; // distance up to which fragments are shown, relative to the specimen's width
+const largeShare = 0.2; // fragments with at least this fraction of all cells are always shown
 
-/// What a drawing of a frame shows: fragments are whole or, where they flew far off, left out; they would make the specimen small.
+/// What a drawing of a frame shows. A fragment is shown completely or, if it is far away, left out, since the specimen would
+/// otherwise be drawn small.
 export interface InView {
-    extent: Extent; // of the specimen at the start and of what is shown
+    extent: Extent; // encloses the specimen at the start and all cells shown
     shows: (cell: number) => boolean;
-    leftOut: number; // cells
+    leftOut: number; // number of cells
 }
 
 const nothing = (): Extent => ({x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity});
@@ -32,7 +33,7 @@ function include(extent: Extent, x: number, y: number, room = 0): void {
     extent.y2 = Math.max(extent.y2, y + room);
 }
 
-/// Platens may be far wider than the specimen: they set the height of the box, not its width.
+/// Chooses the cells to show. Platens affect only the height of the extent, since they may be far wider than the specimen.
 export function inView(test: TestData, frame: Frame, magnification: number): InView {
     const {cells} = test, start = nothing(), extent = nothing();
     const member = frame.field('fragment');
@@ -76,7 +77,7 @@ export function inView(test: TestData, frame: Frame, magnification: number): InV
     return {extent, shows, leftOut};
 }
 
-/// The box of the first frame and of all breaks and slips, which may have happened outside it; of these alone where there is no frame.
+/// Bounding box of the first frame, if any, and of all breaks and slips, which may lie outside it.
 export function extentOfBondEvents(test: TestData): Extent {
     const {cells, events, slips} = test;
     const box = cells.count > 0 ? extentAtStart({...test, sides: undefined}) : nothing();
@@ -85,15 +86,15 @@ export function extentOfBondEvents(test: TestData): Extent {
     };
     includeAll(events);
     if (slips) includeAll(slips);
-    // Breaks along a line, or a single one, still get a box with an area.
+    // The box has an area even for a single break or for breaks along a line.
     const size = Math.max(box.x2 - box.x1, box.y2 - box.y1) || 1;
     const roomX = Math.max(0, 0.2 * size - (box.x2 - box.x1)) / 2, roomY = Math.max(0, 0.2 * size - (box.y2 - box.y1)) / 2;
-    const marks = 0.03 * size; // circles of breaks at the edge
+    const marks = 0.03 * size; // room for the circles of breaks at the edge
     return {x1: box.x1 - roomX - marks, x2: box.x2 + roomX + marks, y1: box.y1 - roomY - marks, y2: box.y2 + roomY + marks};
 }
 
-/// The box of the first frame, without any frame's arrays, and with the walls; of platens a little more than the width. To the
-/// sides it has room for what later frames show.
+/// Bounding box of the first frame and the walls, computed without the arrays of frames. Of platens it includes little more
+/// than the specimen's width. At the sides it has room for fragments in later frames.
 export function extentAtStart(test: TestData): Extent {
     const {cells, walls, sides} = test;
     const extent = {x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity};
@@ -115,6 +116,6 @@ export function extentAtStart(test: TestData): Extent {
     }
     if (extent.x1 > extent.x2) return {x1: 0, x2: 1, y1: 0, y2: 1};
     const width = extent.x2 - extent.x1, beside = sides ? Math.max(0, extent.x1 - sides[0], sides[1] - extent.x2) : 0;
-    const room = Math.max(beside, cells.platen.includes(1) ? 0.06 * width : 0); // the same on both sides: the specimen stays in the middle
+    const room = Math.max(beside, cells.platen.includes(1) ? 0.06 * width : 0); // equal on both sides, so that the specimen is in the middle
     return {x1: extent.x1 - room, x2: extent.x2 + room, y1: extent.y1, y2: extent.y2};
 }

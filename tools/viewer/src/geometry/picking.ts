@@ -39,7 +39,7 @@ export class Picking {
     }
 }
 
-/// By the crossings of a ray.
+/// Whether a point is inside a polygon, by counting the crossings of a ray.
 function inside(point: Point, corners: readonly Point[]): boolean {
     let within = false;
     corners.forEach((a, at) => {

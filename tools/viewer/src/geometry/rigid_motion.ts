@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rigid motion of the cells since the first frame, with displacements magnified.
 //   corner' = centre + m u + R(φ)(corner - centre),   φ = max(|angle|, min(m |angle|, 0.5)) in the sense of the angle
-// u displacement [m], m magnification. Angles are magnified only while they stay small: a magnified rotation beyond
-// half a radian has no meaning, and one smaller than the true rotation would be wrong.
+// with displacement u [m] and magnification m. Angles are magnified only up to half a radian, beyond which a magnified rotation
+// has no meaning. They are never drawn smaller than they are.
 
 import type {Cells, Point} from '../data/cells';
 import type {Frame} from '../data/frames';
@@ -14,7 +14,7 @@ export function magnifiedAngle(angle: number, magnification: number): number {
     return Math.sign(angle) * Math.max(size, Math.min(magnification * size, largestMagnifiedAngle));
 }
 
-/// Maps points of the first frame to where one cell has moved them.
+/// Maps points of a cell in the first frame to their current positions.
 export type Mover = (point: Point) => Point;
 
 export function moverOf(cells: Cells, frame: Frame, cell: number, magnification: number): Mover {

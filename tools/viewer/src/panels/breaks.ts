@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Positions and directions of bond breaks, a card for each test: the map of breaks (as an acoustic-emission array would locate
-// them), with the slips beneath them, and the rose of crack directions.
+// Positions and directions of bond breaks, on one card per test. A card has a map of breaks, as acoustic-emission sensors would
+// locate them, with slips beneath, and a rose diagram of crack directions.
 
 import * as echarts from 'echarts/core';
 import type {ECharts} from 'echarts/core';
@@ -15,18 +15,18 @@ import {extentOfBondEvents} from '../geometry/extent';
 import {counted, quantity, scaleFor, significant, titled} from '../quantities/units';
 import {drawRose} from './rose';
 
-/// What the maps show.
+/// Settings of the maps.
 export interface MapSettings {
     colour: 'mode' | 'time';
     slips: boolean;
 }
 
 const mapHeight = 380; // px
-const largestMark = 26; // px across, of the largest energy, at most
+const largestMark = 26; // px, upper limit for the diameter of the mark of the largest energy
 const smallestMark = 1.5;
-const covered = 0.3; // share of the map that all circles together may cover
-const slipWidth = 1.4; // px, of the lines of slips
-const longestSlip = 9, shortestSlip = 3, slipShare = 0.8; // px; of the mean distance of slips
+const covered = 0.3; // fraction of the map that all circles together may cover
+const slipWidth = 1.4; // px, width of the lines for slips
+const longestSlip = 9, shortestSlip = 3, slipShare = 0.8; // px, px, and fraction of the mean distance between slips
 
 function sumOf(values: ArrayLike<number>): number {
     let sum = 0;
@@ -45,7 +45,7 @@ function saveButton(name: string, svg: () => string): HTMLElement {
     return save;
 }
 
-/// The card; its charts are drawn after it has been inserted into the page.
+/// Makes the card of a test. Its charts must be drawn after it has been inserted into the page.
 export function breakCard({test, label}: LabelledTest, settings: MapSettings, theme: Theme): {element: HTMLElement; draw: () => ECharts[]} {
     const slips = hasSlips(test) ? `${counted(test.slips.count)} slips` : '';
     const positions = [`${test.events.count} breaks`, ...(slips && settings.slips ? [slips] : [])].join(' and ');
@@ -68,9 +68,9 @@ export function breakCard({test, label}: LabelledTest, settings: MapSettings, th
 
 function drawMap(container: HTMLElement, test: TestData, {colour, slips}: MapSettings, largest: number, theme: Theme): ECharts {
     const {events} = test, extent = extentOfBondEvents(test);
-    const width = container.clientWidth, scale = scaleFor([0.9 * Math.max(extent.x2 - extent.x1, extent.y2 - extent.y1)], 'm'); // less the room for marks
+    const width = container.clientWidth, scale = scaleFor([0.9 * Math.max(extent.x2 - extent.x1, extent.y2 - extent.y1)], 'm'); // without the room for marks
     const left = 54, right = 12, top = 10, bottom = 40;
-    // Equal scales on both axes.
+    // Both axes have the same scale.
     const perMetre = Math.min((mapHeight - top - bottom) / (extent.y2 - extent.y1), (width - left - right) / (extent.x2 - extent.x1));
     container.style.height = `${(extent.y2 - extent.y1) * perMetre + top + bottom}px`;
     const chart = echarts.init(container, null, {renderer: 'svg'});
@@ -82,10 +82,10 @@ function drawMap(container: HTMLElement, test: TestData, {colour, slips}: MapSet
     const inner = (extent.x2 - extent.x1) * perMetre;
     const energies = sumOf(events.energy) / (largest || 1);
     const widest = Math.min(largestMark, Math.sqrt(covered * inner * (extent.y2 - extent.y1) * perMetre * 4 / Math.PI / Math.max(1e-9, energies)));
-    // Large ones first, so that they do not hide small ones.
+    // Large circles are drawn first, so that they do not hide small ones.
     const order = Array.from({length: events.count}, (_, event) => event).sort((a, b) => events.energy[b]! - events.energy[a]!);
     const place = ({x, y}: BondEvents, event: number) => [x[event]! / scale.factor, y[event]! / scale.factor];
-    // Lines along the contacts, which is where bodies slide past each other.
+    // Slips are drawn as lines along the contacts, the direction in which bodies slide past each other.
     const slipMarks = (all: BondEvents) => {
         const distance = Math.sqrt(inner * (extent.y2 - extent.y1) * perMetre / all.count);
         const length = Math.max(shortestSlip, Math.min(longestSlip, slipShare * distance));

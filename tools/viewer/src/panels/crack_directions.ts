@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Directions of cracks, counted in classes. An event's orientation is that of the contact normal; the crack is perpendicular to
-// it. Opposite directions are equivalent, so the rose repeats after half a turn.
+// Counts the directions of cracks in classes. A crack is perpendicular to the contact normal, whose orientation the event has.
+// Opposite directions are equivalent, so the rose diagram repeats after half a turn.
 
 import type {Events} from '../data/report';
 
@@ -17,7 +17,7 @@ export function countDirections(events: Events): Directions {
     const tension = new Array<number>(2 * half).fill(0), shear = new Array<number>(2 * half).fill(0);
     for (let event = 0; event < events.count; ++event) {
         const crack = events.orientation[event]! * 180 / Math.PI + 90; // 0 to 180
-        const at = Math.round(crack / directionWidth) % half; // classes are centred: each axis is the centre of a class
+        const at = Math.round(crack / directionWidth) % half; // each axis is at the centre of a class
         const counts = events.shear[event] === 1 ? shear : tension;
         counts[at]! += 1;
         counts[at + half]! += 1;

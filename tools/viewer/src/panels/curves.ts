@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One panel: stress-strain curves of its tests overlaid, and below, on the same strain axis, strips of their breaks and slips
-// (strips.ts).
-// Stresses are shown positive in a test's own sense: compression in compression tests, tension in tension tests.
+// One panel: overlaid stress-strain curves of its tests, and below them, on the same strain axis, strips of breaks and slips
+// (strips.ts). Stresses are positive in a test's loading direction: in compression for compression tests, in tension for
+// tension tests.
 
 import {CustomChart, LineChart, ScatterChart} from 'echarts/charts';
 import {
@@ -35,13 +35,13 @@ const left = 66, right = 58, titleLine = 36, legendLine = 22;
 const stressHeight = 300, stripHeight = 58, stripGap = 30, bottom = 66;
 const leastStressHeight = 150, noteSize = 11;
 
-/// Where the parts of a panel lie at its width: a legend that does not fit beside the title stands below it, in lines.
+/// Positions of the parts of a panel. A legend that does not fit beside the title is placed below it, on one or more lines.
 export interface PanelLayout {
-    top: number; // of the curves
+    top: number; // top of the curves
     legendTop: number;
     legendWidth: number;
     stressHeight: number;
-    height: number; // of all
+    height: number; // height of the panel
     note: {text: string; left: number};
 }
 
@@ -52,7 +52,7 @@ function textWidth(text: string, size: number): number {
     return ruler.measureText(text).width;
 }
 
-/// @param height  asked for; else the curves have their usual height
+/// @param height  requested height of the panel, px; by default, the curves have their usual height
 export function layoutOf({title, members}: Panel, width: number, height?: number): PanelLayout {
     const entries = members.map(({shortLabel}) => textWidth(shortLabel, 12) + 22 + 5 + 14);
     const legend = entries.reduce((sum, entry) => sum + entry, 0), beside = width - left - right - textWidth(title, 15) - 16;
@@ -73,7 +73,7 @@ export function layoutOf({title, members}: Panel, width: number, height?: number
         note: {text: note, left: Math.max(2, Math.min(left, width - textWidth(note, noteSize) - 4))}};
 }
 
-/// Value of a curve's column at a strain, linear between rows; undefined outside the test.
+/// Value of a curve's column at a strain, interpolated linearly between rows; undefined outside the range of the test.
 export function valueAt(strains: ArrayLike<number>, values: ArrayLike<number>, at: number): number | undefined {
     const count = strains.length;
     if (count === 0 || at < strains[0]! || at > strains[count - 1]!) return undefined;
@@ -132,7 +132,7 @@ function peakLabel(test: TestData, stress: number): string {
     return quantity(stress, stressUnitOf(test)) + (thickness === undefined || inArea(test) ? '' : `, ${quantity(stress / thickness, 'Pa')}`) + (test.failed ? '' : ', peak so far');
 }
 
-/// Where a curve first reaches a stress.
+/// First point at which a curve reaches a stress.
 function firstReached({strain, stress}: Curve, level: number): [number, number] | undefined {
     for (let k = 0; k < stress.length; ++k) if (stress[k]! >= level) return [strain[k]!, stress[k]!];
     return undefined;
@@ -248,7 +248,7 @@ export function panelOption(panel: Panel, {top, legendTop, legendWidth, stressHe
         yAxis,
         axisPointer: {link: [{xAxisIndex: 'all'}]},
         tooltip: {
-            trigger: 'axis', showContent: false, // a box would hide the curves: their values stand below them
+            trigger: 'axis', showContent: false, // values are listed below the curves, since a box would hide them
         },
         dataZoom: [{type: 'inside', xAxisIndex: 'all', filterMode: 'none', zoomOnMouseWheel: 'shift', moveOnMouseMove: true}],
         series: [
@@ -258,13 +258,13 @@ export function panelOption(panel: Panel, {top, legendTop, legendWidth, stressHe
     };
 }
 
-/// A panel in its place on the page.
+/// A panel drawn in its container on the page.
 export class CurvePanel {
     readonly chart: ECharts;
     readonly cursor: Cursor;
     private layout: PanelLayout;
 
-    /// @param height  of the panel, px; else the curves have their usual height
+    /// @param height  height of the panel, px; by default, the curves have their usual height
     constructor(private readonly container: HTMLElement, readonly panel: Panel, private readonly theme: Theme, private readonly onClick: (strain: number) => void,
         private readonly height?: () => number) {
         this.layout = this.newLayout();
@@ -275,7 +275,7 @@ export class CurvePanel {
         this.cursor = this.newCursor();
     }
 
-    /// To be called after a change of the container's width.
+    /// Call this after a change of the container's width.
     resize(): void {
         const now = this.newLayout();
         if (JSON.stringify(now) !== JSON.stringify(this.layout)) {
@@ -297,13 +297,13 @@ export class CurvePanel {
         return layoutOf(this.panel, this.container.clientWidth, this.height?.());
     }
 
-    /// The cursor that the panel shares with the specimens, from the top of the curves to the foot of the lowest strip.
+    /// A cursor at the strain of the specimens shown, from the top of the curves to the bottom of the lowest strip.
     private newCursor(): Cursor {
         return new Cursor(this.chart, this.layout.top, bottom, this.onClick);
     }
 }
 
-/// The values of the curves where the pointer is, as a table below the panel.
+/// A table below the panel with the values of the curves at the pointer.
 export function readoutOf({chart, panel}: CurvePanel, theme: Theme): HTMLElement {
     const {strips} = prepare(panel), lineHeight = 20; // px
     const idle = element('span', {class: 'hint'}, 'Point at the curves: their values are listed here.');

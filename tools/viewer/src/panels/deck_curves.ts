@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Curves of decks' runs: energies, and displacements and velocities of the watched bodies, over time; forces over displacements
-// where driven bodies did work. `crackle plot` draws the same (tools/plot/deck_panels.cpp).
+// Curves of deck runs: energies, displacements and velocities of the watched bodies against time, and forces against
+// displacements if driven bodies did work. `crackle plot` draws the same curves (tools/plot/deck_panels.cpp).
 
 import * as echarts from 'echarts/core';
 import type {ECharts} from 'echarts/core';
@@ -26,7 +26,7 @@ interface DrawnCurve {
 
 interface AxisOf {
     name: string;
-    unit: string; // as scaleFor() takes it
+    unit: string; // a unit accepted by scaleFor()
 }
 
 export interface DeckPanel {
@@ -34,7 +34,7 @@ export interface DeckPanel {
     title: string;
     x: AxisOf;
     y: AxisOf;
-    overTime: boolean; // in s: the page's clock can go there
+    overTime: boolean; // whether x is time in s, to which the page's clock can be set
     curves: DrawnCurve[];
 }
 
@@ -70,7 +70,7 @@ function ends(values: Values): {low: number; high: number} {
 }
 
 const lessFirst = (values: Values): Float64Array => Float64Array.from(values, (value) => value - values[0]!);
-const noChange = 1e-9; // of the other direction's: rounding
+const noChange = 1e-9; // smaller changes, relative to those in the other direction, are rounding errors
 
 export function deckPanels({test, label}: WithCurves, several: boolean): DeckPanel[] {
     const {deck} = test, time: AxisOf = deck.inTime ? {name: 'Time', unit: 's'} : {name: 'Step', unit: ''};
@@ -90,7 +90,7 @@ export function deckPanels({test, label}: WithCurves, several: boolean): DeckPan
         panel('Energy', time, {name: 'Energy', unit: 'J'}, energies),
         ...directions.map((axis) => panel(`${way[axis]} displacement`, time, displacement, ofBodies(deck.bodies, (body) => body.time, (body) => lessFirst(body[axis])))),
         ...(deck.velocities.some(({vy}) => !allZero(vy)) ? [panel('Vertical velocity', time, {name: 'Velocity', unit: 'm/s'}, ofBodies(deck.velocities, (body) => body.time, (body) => body.vy))] : []),
-        ...(driven ? directions.map((axis) => panel(`${way[axis]} force over displacement`, displacement, {name: 'Force', unit: 'N'},
+        ...(driven ? directions.map((axis) => panel(`${way[axis]} force against displacement`, displacement, {name: 'Force', unit: 'N'},
             ofBodies(deck.bodies, (body) => lessFirst(body[axis]), (body) => (axis === 'x' ? body.forceX : body.forceY)))) : []),
     ];
 }
@@ -100,7 +100,7 @@ const iconOf = (dashed: boolean) => (dashed ? 'path://M0,0L9,0L9,3L0,3ZM13,0L22,
 
 const ruler = new OffscreenCanvas(1, 1).getContext('2d')!;
 
-/// Lines that a legend takes below the title.
+/// Number of lines that a legend needs below the title.
 function legendLines(curves: readonly DrawnCurve[], room: number): number {
     ruler.font = `12px ${fontFamily}`;
     let lines = 1, at = 0;
@@ -120,7 +120,7 @@ const scaleOf = (values: readonly Values[], unit: string): Scale => {
     return unit === '' ? {factor: 1, power: '', unit: ''} : scaleFor(sizes, unit);
 };
 
-/// A figure in its place on the page.
+/// A figure drawn in its container on the page.
 export class DeckCurveFigure {
     readonly element: HTMLElement;
     private readonly figure = element('div', {class: 'panel'});
@@ -138,7 +138,7 @@ export class DeckCurveFigure {
         this.element = element('div', {class: 'frame', 'data-panel': panel.title}, element('div', {class: 'chart'}, this.figure, save));
     }
 
-    /// To be called once the element is on the page.
+    /// Call this once the element is on the page.
     draw(): void {
         this.lay();
         this.chart = echarts.init(this.figure, null, {renderer: 'svg'});
@@ -213,7 +213,7 @@ export class DeckCurveFigure {
         };
     }
 
-    /// The values where the pointer is, in lines below the figure; of curves over time, which have one at each.
+    /// Lists the values at the pointer below the figure. Only for curves against time, which have one value at each time.
     private readout(chart: ECharts): HTMLElement {
         const {panel, theme} = this;
         const idle = element('span', {class: 'hint'}, panel.overTime ? 'Point at the curves: their values are listed here.' : '');

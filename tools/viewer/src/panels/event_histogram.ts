@@ -4,12 +4,12 @@
 import type {BondEvents, Events} from '../data/report';
 
 export interface Histogram {
-    width: number; // strain of one interval
-    parts: number[][]; // counts in each interval: of breaks in tension and in shear, of slips all in one
-    most: number; // in the fullest interval, of all parts
+    width: number; // width of an interval of strain
+    parts: number[][]; // counts in each interval: one part for tension and one for shear, or one part for all slips
+    most: number; // largest count in an interval, over all parts
 }
 
-/// 1, 2 or 5 times a power of ten: the interval that cuts `range` into about `target` pieces.
+/// Width of the form 1, 2 or 5 times a power of ten that divides `range` into about `target` intervals.
 export function intervalWidth(range: number, target = 80): number {
     if (!(range > 0)) return 1e-6;
     const raw = range / target;
@@ -18,12 +18,12 @@ export function intervalWidth(range: number, target = 80): number {
     return step * power;
 }
 
-/// The interval of a strain: number k holds k·width < strain ≤ (k+1)·width, the first one also strains ≤ 0.
+/// Index of the interval that contains a strain. Interval k is k·width < strain ≤ (k+1)·width; strains ≤ 0 are in the first.
 export function intervalOf(strain: number, width: number): number {
     return Math.max(0, Math.ceil(strain / width - 1e-9) - 1);
 }
 
-/// How many events an interval has in all parts; none beyond the range.
+/// Number of events of all parts in an interval; 0 beyond the range.
 export function countIn({parts}: Histogram, interval: number): number {
     return parts.reduce((sum, counts) => sum + (counts[interval] ?? 0), 0);
 }
@@ -39,7 +39,7 @@ function countEvents({count: events, strain}: BondEvents, width: number, range: 
     return histogram;
 }
 
-/// Two parts: tension, shear.
+/// Histogram of breaks with two parts, tension and shear.
 export function countBreaks(breaks: Events, width: number, range: number): Histogram {
     return countEvents(breaks, width, range, 2, (event) => (breaks.shear[event] === 1 ? 1 : 0));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fragments at the end: groups of cells joined by unbroken bonds. A drawing coloured by fragment, and the share of the
-// specimen's area of each of the largest.
+// The fragments at the end of a test: groups of cells joined by unbroken bonds. A card has a drawing coloured by
+// fragment, and the areas of the largest fragments relative to the specimen's area.
 
 import {categoricalPalette, categoryColour, css} from '../colours/palettes';
 import type {Theme} from '../colours/theme';
@@ -22,7 +22,7 @@ interface Fragment {
     area: number; // m²
 }
 
-/// Largest first.
+/// The fragments of a frame, the largest first.
 export function fragmentsOf(view: SpecimenView, frame: Frame): Fragment[] {
     const {cells} = view.test, member = frame.field('fragment'), found: (Fragment & {ids: Set<number>})[] = [];
     for (let cell = 0; member && cell < cells.count; ++cell) {

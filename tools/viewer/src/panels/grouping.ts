@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which tests share a panel of curves, what each is called there, and how its curve is drawn.
+// Groups tests into panels of curves, with the name and line style of each test in its panel.
 
 import {largestOf, type CurvedTest, type TestData} from '../data/report';
 import {capitalised, kindOrder, ordered, specimenName, specimenOrder, unique, type LabelledTest} from '../data/test_labels';
@@ -52,9 +52,9 @@ export function panels(labelled: LabelledTest<CurvedTest>[], view: View): Panel[
     });
 }
 
-const leastStress = 0.25, leastStrain = 0.2; // of the largest
+const leastStress = 0.25, leastStrain = 0.2; // relative to the largest value of all tests
 
-/// Whether the curves of one kind would be hard to see on the scales of the other: they get panels of their own.
+/// Whether the curves of one kind of test would be hard to see on the scales of the other kind. They then get separate panels.
 function hasSlivers(members: readonly LabelledTest<CurvedTest>[]): boolean {
     const largest = (kind: string, name: 'stress' | 'strain') => members.filter((one) => one.test.kind === kind)
         .reduce((most, {test}) => Math.max(most, largestOf(test.curve[name])), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rose of crack directions as SVG: sectors whose lengths are counts, stacked by mode, on circles of round counts.
+// The rose diagram of crack directions as SVG. Lengths of sectors are counts, stacked by mode; circles mark round counts.
 
 import type {Theme} from '../colours/theme';
 import type {Events} from '../data/report';
@@ -9,9 +9,9 @@ import {counted} from '../quantities/units';
 import {countDirections} from './crack_directions';
 
 const size = 236, radius = 86; // px
-const sectorShare = 0.92; // of a class
+const sectorShare = 0.92; // width of a sector relative to that of a class
 
-/// Counts of the circles: at most four, the outermost at or above the largest count.
+/// Counts marked by circles: at most four, of which the outermost is at or above the largest count.
 function circles(most: number): number[] {
     const power = 10 ** Math.floor(Math.log10(Math.max(1, most)));
     const step = [0.5, 1, 2, 5, 10].map((factor) => factor * power).find((candidate) => Number.isInteger(candidate) && candidate * 4 >= most) ?? 1;
@@ -37,7 +37,7 @@ export function drawRose(events: Events, theme: Theme): SVGElement {
         return svgElement('path', {class: 'sector', fill,
             d: `M${point(middle - half, a)}L${point(middle - half, b)}A${rB} ${rB} 0 0 0 ${point(middle + half, b)}L${point(middle + half, a)}A${rA} ${rA} 0 0 1 ${point(middle - half, a)}Z`});
     };
-    // Counts stand where the fewest cracks are, off the axes, whose ends have labels of their own.
+    // Counts are printed in the direction with the fewest cracks, away from the axes, whose ends have their own labels.
     const fewest = [20, 30, 40, 50, 60, 70].map((degrees) => ({degrees, cracks: [-1, 0, 1].reduce((sum, off) => sum + all[degrees / width + off]!, 0)}))
         .reduce((best, one) => (one.cracks < best.cracks ? one : best)).degrees;
     return svgElement('svg', {viewBox: `0 0 ${size} ${size}`, width: size, height: size},

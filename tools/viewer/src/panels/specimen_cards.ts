@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cards of the specimens: for each test the drawings at start, peak and end side by side, all at one scale.
+// Cards with drawings of the specimens: for each test at start, peak and end, side by side at the same scale.
 
 import type {Theme} from '../colours/theme';
 import type {Frame} from '../data/frames';
@@ -13,15 +13,15 @@ import type {InView} from '../geometry/extent';
 import {counted, quantity, strain} from '../quantities/units';
 
 export const magnifications = [1, 5, 20, 100] as const;
-const drawnHeight = 330; // px, tallest specimen
-const cardWidth = 560; // px, three drawings and their gaps
+const drawnHeight = 330; // px, height of the tallest specimen
+const cardWidth = 560; // px, width of three drawings with gaps
 
 function rolesText(labelled: LabelledTest, roles: readonly Role[]): string {
     const text = roles.map((role) => (role === 'peak' && !labelled.test.failed ? 'peak so far' : role)).join(', ');
     return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
-/// The frames of a test that have a role, in their order.
+/// The frames of a test that have a role, in order.
 export interface Moments {
     view: SpecimenView;
     frames: Frame[];
@@ -62,7 +62,7 @@ export function drawings(moments: Moments[], magnification: number, theme: Theme
     const seen = drawn.map(({view, frames}) => viewsOfMoments(view.test, frames, magnification));
     const scales = seen.map((views) => Math.min(drawnHeight / (views[0]!.extent.y2 - views[0]!.extent.y1),
         (cardWidth - 16 * views.length) / views.reduce((sum, {extent}) => sum + extent.x2 - extent.x1, 0)));
-    // One scale for all, unless sizes differ so much that small specimens would be hard to see.
+    // All specimens have the same scale, unless sizes differ so much that small ones would be hard to see.
     const smallest = Math.min(...scales), shared = Math.max(...scales) < 2 * smallest;
     return drawn.map((one, index) => card(one, seen[index]!, shared ? smallest : scales[index]!, magnification, theme));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Strips below the curves of a panel: for each test one of its breaks and, where it had slips, one of these. Bars are counts in
-// each interval of strain (left axis), stacked by mode; the line is the number so far (right axis).
+// Strips below the curves of a panel: one strip per test for its breaks and, if it had slips, one for these. Bars are counts in
+// intervals of strain (left axis), stacked by mode; the line is the running total (right axis).
 
 import type {CustomSeriesRenderItemAPI, CustomSeriesRenderItemParams} from 'echarts/types/dist/shared';
 
@@ -15,18 +15,18 @@ export type StripKind = 'breaks' | 'slips';
 export interface Strip {
     kind: StripKind;
     member: Member;
-    count: number; // of all
+    count: number; // number of all events
     histogram: Histogram;
     soFar: {strain: ArrayLike<number>; count: ArrayLike<number>};
 }
 
-/// Fills of the histogram's parts, from below.
+/// Fill colours of the histogram's parts, from the bottom up.
 const fills: Record<StripKind, (theme: Theme) => string[]> = {
     breaks: ({tension, shear}) => [tension, shear],
     slips: ({slid}) => [slid],
 };
 
-/// The number of slips at the start, after each slip and at the end of the curve.
+/// Running total of slips: at the start, after each slip, and at the end of the curve.
 function slipsSoFar({count, strain}: BondEvents, end: number): Strip['soFar'] {
     const strains = [0, ...strain];
     return {strain: [...strains, Math.max(end, strains[count]!)], count: Array.from({length: count + 2}, (_, at) => Math.min(at, count))};
@@ -64,14 +64,14 @@ function drawBars(parts: number, colours: readonly string[]) {
     };
 }
 
-/// Bars and line of one strip, in the panel's grid number `grid`.
+/// Chart series for the bars and the line of a strip. @param grid  index of the strip's grid in the panel
 export function stripSeries({kind, member, histogram, soFar}: Strip, grid: number, theme: Theme) {
     const colour = theme.series[member.colour % theme.series.length]!, {parts, width} = histogram;
     const line = {
         type: 'line', name: member.shortLabel, xAxisIndex: grid, yAxisIndex: 2 * grid, showSymbol: false,
         data: pairs(soFar.strain, soFar.count, strainFactor, 1), step: 'end', animation: false, emphasis: {disabled: true},
     };
-    // A curve's colour may be close to that of the slips: an edge of the paper's colour keeps the line off their bars.
+    // The line's colour may be close to that of the bars for slips, so it has an edge in the background colour.
     const edge = kind === 'slips' ? [{...line, id: `edge of ${kind} so far ${member.label}`, lineStyle: {width: 4, color: theme.background}, z: 2}] : [];
     const bars = parts[0]!.flatMap((_, interval) => (countIn(histogram, interval) === 0 ? []
         : [[interval * width / strainFactor, (interval + 1) * width / strainFactor, ...parts.map((counts) => counts[interval]!)]]));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quantities by which particles can be coloured: a value for each cell and frame, its unit, and the arrays it is computed from.
+// Quantities by which particles can be coloured: a value for each cell and frame, a unit, and the arrays needed to compute it.
 
 import type {Cells} from '../data/cells';
 import type {Frame, Frames} from '../data/frames';
@@ -7,7 +7,7 @@ import {ofStress} from './units';
 
 export type Scaling =
     | 'sequential' // from zero up
-    | 'diverging' // two signs, zero in the middle
+    | 'diverging' // positive and negative, zero in the middle
     | 'categorical'; // whole numbers from 0
 
 export interface Quantity {
@@ -15,8 +15,8 @@ export interface Quantity {
     name: string;
     unit: string;
     scaling: Scaling;
-    needs: readonly string[]; // arrays of a frame
-    value: (...values: number[]) => number; // from one value of each of these
+    needs: readonly string[]; // names of the arrays of a frame that are needed
+    value: (...values: number[]) => number; // computed from one value of each needed array
     of: (frame: Frame, cells: Cells) => (cell: number) => number;
 }
 
@@ -28,7 +28,7 @@ function quantity(key: string, name: string, unit: string, scaling: Scaling, nee
         key, name, unit, scaling, needs, value,
         of: (frame) => {
             const arrays = needs.map((need) => frame.field(need));
-            if (arrays.some((array) => !array)) return () => 0; // the first frame, before its block is loaded
+            if (arrays.some((array) => !array)) return () => 0; // in the first frame, before its block is loaded
             const [a, b, c] = arrays as [Values, Values?, Values?];
             return (cell) => value(a[cell]!, b?.[cell] ?? 0, c?.[cell] ?? 0);
         },
@@ -60,7 +60,7 @@ const all: readonly Quantity[] = [
     quantity('stress_shear', 'Stress, largest shear', ofStress, 'sequential', stress, radius),
 ];
 
-/// The quantities whose arrays a test has. @param meanVelocities  velocities are those between two frames
+/// The quantities whose arrays a test has. @param meanVelocities  whether velocities are means between two frames
 export function quantitiesOf(frames: Frames, meanVelocities: boolean): Quantity[] {
     return all.filter(({needs}) => needs.every((need) => frames.has(need)))
         .map((one) => (meanVelocities && /^(velocity|rate)/.test(one.key) ? {...one, name: `${one.name} (mean)`} : one));

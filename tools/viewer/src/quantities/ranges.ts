@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ranges of the colour scale: of one frame, of the frames up to the peak, or of all frames of all shown tests. A range excludes
-// the largest two per cent of the values (otherwise splinters that fly off would leave a single colour for all others), and up to
-// the peak whatever follows it: after the collapse most values are many times as large. Legends mark such ends with ≤ and ≥.
+// Ranges of the colour scale: of one frame, of the frames up to the peak, or of all frames of all shown tests. A range
+// excludes the largest two per cent of the values; otherwise splinters that fly away would leave a single colour for
+// all others. A range up to the peak excludes later frames, because after the collapse most values are many times
+// larger. If values lie beyond the range, legends mark its ends with ≤ and ≥.
 
 import type {Cells} from '../data/cells';
 import type {Frame, Frames} from '../data/frames';
@@ -10,7 +11,7 @@ import type {Quantity} from './quantities';
 export interface Range {
     low: number; // ends of the scale
     high: number;
-    least: number; // of all values
+    least: number; // smallest and largest of all values
     most: number;
 }
 
@@ -18,14 +19,14 @@ const excluded = 0.02;
 const samplesWanted = 60000;
 const framesSampled = 60;
 
-/// Ends from samples, marks from all values.
+/// Collects values. The ends of the scale are found from samples, `least` and `most` from all values.
 class Values {
     private readonly samples: number[] = [];
     private least = Infinity;
     private most = -Infinity;
-    private largest = 0; // of the frames that the range is of
+    private largest = 0; // largest absolute value in the frames that determine the range
 
-    /// @param within  whether the frame is one that the range is of
+    /// @param within  whether the frame is one of those that determine the range
     add(frame: Frame, cells: Cells, quantity: Quantity, stride: number, within = true): void {
         const value = quantity.of(frame, cells);
         for (let cell = 0; cell < cells.count; ++cell) {
@@ -42,7 +43,7 @@ class Values {
     range(quantity: Quantity): Range {
         if (this.samples.length === 0) return {low: 0, high: 0, least: 0, most: 0};
         const {largest} = this, kept = upper(this.samples);
-        // A tail that is only slightly longer is not cut off.
+        // The largest values are not cut off if they exceed the others only slightly.
         const high = largest > 1.3 * kept && kept > 0 ? kept : largest;
         return {low: quantity.scaling === 'diverging' ? -high : 0, high, least: this.least, most: this.most};
     }
@@ -59,7 +60,7 @@ export function rangeOfFrames(frames: readonly {frame: Frame; cells: Cells}[], q
     return values.range(quantity);
 }
 
-/// Numbers of the categories that the shown frames have: low to high.
+/// Range of the category numbers in the shown frames.
 export function categories(frames: readonly {frame: Frame; cells: Cells}[], quantity: Quantity): Range {
     let high = 0;
     for (const {frame, cells} of frames) {
@@ -69,7 +70,7 @@ export function categories(frames: readonly {frame: Frame; cells: Cells}[], quan
     return {low: 0, high, least: 0, most: high};
 }
 
-/// @param last  the last frame that it is a range of; marks are of all frames
+/// Range over the frames up to `last`; `least` and `most` are over all frames.
 export async function rangeUntil(last: number, frames: Frames, cells: Cells, quantity: Quantity): Promise<Range> {
     const count = Math.min(last + 1, frames.count);
     const values = new Values(), frameStride = Math.max(1, Math.floor(count / framesSampled));
@@ -85,7 +86,7 @@ export function joined(ranges: readonly Range[]): Range {
 
 /// The scale of contact forces, N: its end excludes the largest two per cent of the non-zero forces.
 export interface ForceScale {
-    end: number; // 0: no forces
+    end: number; // 0 if there are no forces
     largest: number;
 }
 

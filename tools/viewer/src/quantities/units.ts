@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers for readers: SI prefixes, significant digits, typographic minus and powers of ten.
+// Formats numbers with SI prefixes, significant digits, typographic minus and powers of ten.
 
 import type {UnitNames} from '../data/report';
 
@@ -13,32 +13,32 @@ export const thinSpace = '\u202f';
 
 export interface Scale {
     factor: number; // shown value = value / factor
-    power: string; // "10⁶", of a unit that takes no prefix
-    unit: string; // with its prefix; empty where the page does not know it
+    power: string; // such as "10⁶", for a unit without SI prefixes
+    unit: string; // unit with its prefix; empty if the unit is unknown
 }
 
-/// Units that particle files and decks do not state; angles and times always have units.
+/// Quantities by SI unit whose units particle files and decks do not state. The units of angles and times are always known.
 const unstated: Record<string, Exclude<keyof UnitNames, 'prefixes'>> = {m: 'length', 'm/s': 'velocity', N: 'force', J: 'energy', 'N/m': 'stress'};
 let statedUnits = true;
 let unitNames: UnitNames | undefined;
 
-/// From here on lengths and forces have the units of particle files and decks: for a page that shows more than tests.
-/// @param names  what the user calls them; undefined: they are shown as plain numbers
+/// Switches lengths and forces to the units of particle files and decks, for a page that shows any of them.
+/// @param names  names of the units, as given by the user; if undefined, values are shown as plain numbers
 export function useFileUnits(names: UnitNames | undefined): void {
     statedUnits = names?.prefixes === true;
     unitNames = names;
 }
 
-/// Stands for the unit of stresses and moduli, which depends on the tests of the page.
+/// Placeholder for the unit of stresses and moduli, which depends on the tests on the page.
 export const ofStress = 'stress';
 let stressUnits: readonly string[] = ['N/m'];
 
-/// @param units of the page's tests: N/m, Pa, or both
+/// @param units  units of the tests on the page: N/m, Pa, or both
 export function useStressUnits(units: readonly string[]): void {
     stressUnits = units;
 }
 
-/// The prefix that puts the largest of the values between 1 and 1000.
+/// Scale with the SI prefix for which the largest of the values is between 1 and 1000.
 export function scaleFor(values: readonly (number | undefined)[], unit: string): Scale {
     const names = unit === ofStress ? stressUnits : [unit];
     const largest = Math.max(0, ...values.map((value) => Math.abs(value ?? 0)).filter(Number.isFinite));
@@ -48,7 +48,7 @@ export function scaleFor(values: readonly (number | undefined)[], unit: string):
     return {factor, power: '', unit: names.map((name) => prefix + name).join(' or ')};
 }
 
-const longest = 1e4, shortest = 1e-2; // numbers without a power
+const longest = 1e4, shortest = 1e-2; // range of numbers shown without a power of ten
 
 function powerFor(largest: number, unit: string): Scale {
     if (largest === 0 || (largest >= shortest && largest < longest)) return {factor: 1, power: '', unit};
@@ -56,31 +56,31 @@ function powerFor(largest: number, unit: string): Scale {
     return {factor: 10 ** exponent, power: `10${powerOfTen(exponent)}`, unit};
 }
 
-/// "10⁶ dyn"
+/// Text such as "10⁶ dyn".
 export function unitOf({power, unit}: Scale): string {
     return [power, unit].filter((part) => part !== '').join(thinSpace);
 }
 
-/// "Force [10⁶ dyn]"; of an unknown unit the name and a power alone.
+/// Text such as "Force [10⁶ dyn]"; for an unknown unit, only the name and the power of ten.
 export function titled(name: string, scale: Scale): string {
     const inside = unitOf(scale);
     return inside === '' ? name : `${name} [${inside}]`;
 }
 
-/// The same for an axis or a legend by itself, which says so where the unit is unknown.
+/// Title of an axis or legend that stands alone. If the unit is unknown, the title says «deck’s units».
 export function titledInFull(name: string, scale: Scale): string {
     return titled(name, scale.unit === '' ? {...scale, unit: 'deck’s units'} : scale);
 }
 
-/// What follows a number: "×10⁶ dyn".
+/// Text that follows a number, such as "×10⁶ dyn".
 export function suffixOf({power, unit}: Scale): string {
     return (power === '' ? '' : `×${power}`) + (unit === '' ? '' : thinSpace + unit);
 }
 
 const withMinus = (text: string): string => text.replace('-', '−');
 
-/// `digits` significant digits, fewer where the last would be finer than the numbers are stored (`resolution`); without
-/// an exponent where that stays readable.
+/// Formats a number with `digits` significant digits, or fewer if the last digits would be below its `resolution`. An exponent
+/// is used only if the number would be hard to read without it.
 export function significant(value: number | undefined, digits = 3, resolution = 0): string {
     if (value === undefined || !Number.isFinite(value)) return missing;
     if (value === 0) return '0';
@@ -97,7 +97,7 @@ export function significant(value: number | undefined, digits = 3, resolution = 
     return withMinus(value.toFixed(decimals));
 }
 
-/// 1.23×10⁻⁵
+/// Formats a number such as 1.23×10⁻⁵.
 export function scientific(value: number, digits = 3): string {
     const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
     return withMinus(`${mantissa}×10${powerOfTen(Number(exponent))}`);
@@ -108,7 +108,7 @@ export function powerOfTen(exponent: number): string {
     return (exponent < 0 ? '⁻' : '') + digits;
 }
 
-/// Whole numbers, digits in groups of three.
+/// Formats a whole number with its digits in groups of three.
 export function counted(value: number | undefined): string {
     if (value === undefined || !Number.isFinite(value)) return missing;
     return withMinus(Math.round(value).toString()).replace(/\B(?=(\d{3})+$)/g, thinSpace);
@@ -121,14 +121,14 @@ export function quantity(value: number | undefined, unit: string, digits = 3, re
     return significant(value / scale.factor, digits, resolution / scale.factor) + suffixOf(scale);
 }
 
-const leastStress = 0.005; // of the peak
+const leastStress = 0.005; // relative to the peak
 
-/// A stress of a test; what the inertia and the dashpots of the start leave, far below the peak, is no stress of the rock.
+/// A stress of a test as text. Values far below the peak are shown as ≈ 0, since they come from inertia and dashpots at the start.
 export function stressText(value: number | undefined, peak: number | undefined): string {
     return value !== undefined && Math.abs(value) < leastStress * (peak ?? 0) ? '≈ 0' : quantity(value, ofStress);
 }
 
-/// Strains are shown in thousandths: 1.94×10⁻³.
+/// Strains are shown in thousandths, such as 1.94×10⁻³.
 export const strainFactor = 1e-3;
 export const strainUnit = '10⁻³';
 export function strain(value: number | undefined, digits = 3): string {

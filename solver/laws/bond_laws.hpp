@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The list of bond laws. A law is a type with static members, in a header of its own:
+//
+//     law                     its BondLaw
+//     facts                   BondLawFacts
+//     fails()                 whether the bonds of one point, or of several in lanes, break in this step
+//     with_back_tension()     normal force of a bonded point
+//     shear_limit()           largest shear force of every point of a world with bonds, bonded or not
+//     carries_half_strength() whether a bond carries at least half its strength; only with remembers_strong_forces
+//     break_bond()            state and forces after a break, and the energy released. It is called twice: in the
+//                             force pass without BondMemory, for the forces that are left, and for the event with it.
+//                             Forces must not depend on the memory
+//     elastic_limits()        strains at which a bond breaks or slides in a linear solution
+//
+// A new law needs a value and a name in BondLaw, a header, and an entry in BondLaws. Kernels are compiled for every
+// law.
+//
+// A law of faces would be a PointKind with a kernel of its own. A scalar of each body, known before its forces, would
+// be an array of Bodies in PassView. sweep_of() (stepping/sweep_kernels.cpp) would sum it in a phase before
+// do_smaller_kinds(), where all bodies are at time n. A world without points of that kind skips both.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+#include "solver/laws/back_tension_bond.hpp"
+#include "solver/laws/bond_law.hpp"
+#include "solver/laws/coulomb_bond.hpp"
+
+namespace crackle {
+
+/// The types of all bond laws, in the order of the enumerators of BondLaw.
+using BondLaws = std::tuple<BackTensionBond, CoulombBond>;
+inline constexpr std::size_t bond_laws = std::tuple_size_v<BondLaws>;
+static_assert(bond_laws == table_of_names<BondLaw>.size());
+
+template <class... Bonds>
+constexpr bool points_have_what_facts_need(const std::tuple<Bonds...>&) {
+    return ((Bonds::facts.own_shares || !(Bonds::facts.strengths_are_given || Bonds::facts.from_rest_overlap)) && ...);
+}
+static_assert(points_have_what_facts_need(BondLaws{}),
+              "given strengths need a strength factor per point, and a rest overlap is kept only with own_shares");
+
+/// The type of a law.
+template <BondLaw law>
+using BondLawType = std::tuple_element_t<static_cast<std::size_t>(law), BondLaws>;
+
+/// Returns visit.operator()<Type>() for the type of a law.
+template <class Visit>
+constexpr decltype(auto) with_law(BondLaw law, Visit&& visit) {
+    using Result = decltype(visit.template operator()<std::tuple_element_t<0, BondLaws>>());
+    const auto call = [&]<std::size_t... N>(std::index_sequence<N...>) -> Result {
+        constexpr std::array<Result (*)(Visit&), bond_laws> calls{[](Visit& of) -> Result {
+            using Bond = std::tuple_element_t<N, BondLaws>;
+            static_assert(static_cast<std::size_t>(Bond::law) == N);
+            return of.template operator()<Bond>();
+        }...};
+        return calls[static_cast<std::size_t>(law)](visit);
+    };
+    return call(std::make_index_sequence<bond_laws>{});
+}
+
+/// facts_of() for constant expressions.
+constexpr const BondLawFacts& known_facts(BondLaw law) {
+    return with_law(law, []<class Bond>() -> const BondLawFacts& { return Bond::facts; });
+}
+
+/// The first bond law for which `fact` is true.
+constexpr BondLaw first_law_with(bool BondLawFacts::*fact) {
+    std::size_t n = 0;
+    while (!(known_facts(static_cast<BondLaw>(n)).*fact)) ++n;
+    return static_cast<BondLaw>(n);
+}
+
+}  // namespace crackle

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What bond laws compute with: the values of a bonded point, what a break makes of them, and how they grow with the
+// strain in a linear solution.
+// Tested by tests/solver/laws/bond_law_test.cpp.
+#pragma once
+
+#include <limits>
+#include <optional>
+
+namespace crackle {
+
+/// A bonded point in a force pass. Values that the law's facts do not ask for are 0.
+template <class Number>
+struct BondedPoint {
+    Number overlap;            // m; from the rest overlap if the law counts from_rest_overlap
+    Number bond_overlap;       // m, δ0
+    Number closing, slipping;  // m/s, relative velocities along the normal and tangent
+    Number shear_force;        // N, elastic, before the last drift
+    Number strength_share;     // Points::strength_share, if strengths_are_given
+    double drift;              // s, length of the last drift
+};
+
+/// Elastic forces of a bonded point, N: normal force (compression positive) and shear force.
+template <class Number>
+struct BondForces {
+    Number normal, shear;
+};
+
+/// Strengths of a bond, including its point's strength factor.
+template <class Number>
+struct BondStrength {
+    Number tensile, cohesion;  // N
+    Number friction;           // friction coefficient μ
+};
+
+/// What a point remembers of its bond; what its world does not keep is 0.
+struct BondMemory {
+    BondForces<double> strong;          // in the last step in which it carried at least half its strength
+    bool slid;                          // whether it has reached its Coulomb limit
+    std::optional<double> normal_work;  // J, stored in its normal spring, where its force has no potential
+};
+
+/// State of a point after its bond has broken, and the energy released.
+struct BrokenBond {
+    bool in_shear, slid;
+    double rest_overlap;          // m, overlap at which the force is zero
+    double normal, shear;         // N, remaining elastic forces
+    double strength;              // N
+    double energy;                // J
+    BondForces<double> reported;  // forces of its event
+};
+
+/// Growth of a quantity per unit of strain, with its error; a value below the error counts as 0.
+struct Rate {
+    double value = 0.0, error = 0.0;
+};
+
+/// Strain at which a quantity that is `now`, and grows by `slope` per unit of strain, becomes 0. Infinite if the
+/// quantity grows, or falls by at most the slope's error.
+inline double strain_of_loss(double now, Rate slope) {
+    return slope.value < -slope.error ? -now / slope.value : std::numeric_limits<double>::infinity();
+}
+
+/// Growth of a bonded point's overlap, m, and of its elastic forces, N.
+struct BondGrowth {
+    Rate closing, normal, shear;  ///< the normal force positive in compression, the shear force without its sign
+};
+
+/// Limits of a bond; strains are infinite where it never reaches them.
+struct ElasticLimits {
+    double strength = 0.0;  // N, in tension
+    double break_strain = 0.0, slip_strain = 0.0;
+};
+
+}  // namespace crackle

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Constants of the contact law of a pair of materials. The formulas are in law.hpp, friction.hpp, dashpot.hpp and the
+// bond laws.
+// Tested by tests/solver/world/world_test.cpp.
+#pragma once
+
+#include "solver/base/fields.hpp"
+
+namespace crackle {
+
+/// Constants of the contact law of a pair of materials. With StiffnessUnits::area, stiffnesses apply to a point whose
+/// Points::stiffness_share is 1, and strengths are stresses. Numbers are stored in pairs, as the kernels load them.
+struct ContactLaw {
+    double normal_stiffness, shear_stiffness;  // N/m
+    double normal_damping, shear_damping;      // N s/m; add the ratio terms times Points::root_mass
+    double normal_damping_ratio_term;          // 2h sqrt(k_n), sqrt(N/m)
+    double shear_damping_ratio_term;           // 2h sqrt(k_s)
+    /// Coulomb friction coefficient μ = tan φ; the residual one if bonds have their own. Infinite if sliding is
+    /// switched off.
+    double friction;
+    double break_overlap;  // m; a back-tension bond breaks when δ <= this: 0, or -infinity if it is unbreakable
+    // Strengths that are given; infinite if the bond is unbreakable.
+    double tensile_strength, cohesion;  // N
+    double bond_friction;               // friction coefficient μ of the bond's failure envelope
+    double dilation = 0.0;              // tan ψ of a joint
+
+    CRACKLE_FIELDS(normal_stiffness, shear_stiffness, normal_damping, shear_damping, normal_damping_ratio_term,
+                   shear_damping_ratio_term, friction, break_overlap, tensile_strength, cohesion, bond_friction,
+                   dilation);
+};
+
+}  // namespace crackle

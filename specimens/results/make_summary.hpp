@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Makes the summary of a test: all its figures and their numerical errors. If the specimen has not failed, the keys of
+// figures that refer to the peak end in _so_far. Tested by tests/specimens/results/files_test.cpp.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "specimens/case/case_file.hpp"
+#include "specimens/measures/crack_thresholds.hpp"
+#include "specimens/measures/cycles.hpp"
+#include "specimens/results/state.hpp"
+#include "specimens/setup/setup.hpp"
+#include "specimens/summary/summary.hpp"
+
+namespace crackle {
+
+struct NumericalErrors;
+
+/// Wall-clock times of the whole test, including resumed parts, s. Only these keys differ between two runs of a case.
+struct TestTiming {
+    double wall_seconds = 0.0;  ///< s; of the whole test
+    /// s; of the stepping loop, including neighbour list rebuilds, bond breakage and observers
+    double step_seconds = 0.0;
+    int threads = 1;
+};
+
+/// The rows from which peak, moduli and thresholds are computed: all rows, or those without unloading cycles if the
+/// case unloads.
+FirstLoading judged_rows(const TestCase& test, const TestState& state);
+/// Crack thresholds of a compression test between platens; empty for other tests.
+std::optional<CrackThresholds> crack_thresholds_of(const TestCase& test, const TestSetup& setup,
+                                                   const TestState& state);
+
+/// @param errors  the numerical errors from companion runs; null if there are none
+Summary make_summary(const TestCase& test, const TestSetup& setup, const TestState& state, const World& world,
+                     const TestTiming& timing, const NumericalErrors* errors = nullptr);
+
+}  // namespace crackle
