@@ -2,6 +2,9 @@
 // Entry point of the program `crackle`.
 // Tested by tests/tools/commands/command_line_test.cpp.
 
+#include <exception>
+
+#include "tools/command_line/command_line.hpp"
 #include "tools/command_line/program.hpp"
 #include "tools/commands/commands.hpp"
 
@@ -11,5 +14,10 @@ int main(int argc, char** argv) {
                           .summary = "makes bonded rock specimens and tests them",
                           .first_word = "command",
                           .commands = commands};
-    return run_program(program, argc, argv);
+    try {
+        const SelectedCommand command = select_command(program, argc, argv);
+        return end_output(command.run == nullptr ? command.code : command.run(*command.given));
+    } catch (const std::exception&) {
+        return report_failure(argc > 1 ? argv[1] : program.name);
+    }
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/elastic/analysis.hpp"
 #include "specimens/loading/confine.hpp"
 #include "specimens/loading/press.hpp"
@@ -133,6 +134,7 @@ bool bears(const VirtualTest& refused, const TestCase& lower, const Specimen& sp
     attempt.small_strain = refused.small_strain;
     BondedSpecimen bonded = bond_specimen(specimen, lower, lower.loading, twin.while_solving);
     attempt.world = std::move(bonded.world);
+    compute_forces(attempt.world);
     attempt.setup =
         record_setup(attempt.world, specimen, bonded.platens, lower.loading.kind, lower.loading.grip.value_or(0.0));
     try {
@@ -168,10 +170,18 @@ void confine_or_advise(VirtualTest& test, const Specimen& specimen, const Separa
     }
 }
 
-}  // namespace
-
-VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const SolutionVisitor& visit) {
+/// A test whose bonds have been made, and what it was made from.
+struct NewTest {
     VirtualTest test;
+    Specimen specimen;
+    Platens platens;
+    std::function<void()> while_solving;
+};
+
+/// Makes the specimen, its platens, the world and the bonds.
+NewTest make_and_bond(const TestCase& description, const TestHooks& hooks) {
+    NewTest made;
+    VirtualTest& test = made.test;
     test.description = description;
     const TestCase::MaterialKeys& material = description.material;
     if (description.has_table("packing") && !material.damping_ratio && !material.normal_damping) {
@@ -181,21 +191,30 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
                         default_damping_ratio));
     }
     const Clock::time_point begun = Clock::now();
-    const Specimen specimen = make_specimen(description, hooks);
+    made.specimen = make_specimen(description, hooks);
     test.specimen_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-    if (specimen.mesh_thick > 0.0) test.description.mesh.thick = specimen.mesh_thick;
+    if (made.specimen.mesh_thick > 0.0) test.description.mesh.thick = made.specimen.mesh_thick;
     hooks.report_work("bonding");
-    std::function<void()> while_solving;
     if (hooks.interrupted)
-        while_solving = [asked = hooks.interrupted] {
+        made.while_solving = [asked = hooks.interrupted] {
             if (asked()) throw TestInterrupted();
         };
-    BondedSpecimen bonded = bond_specimen(specimen, description, description.loading, while_solving);
+    BondedSpecimen bonded = bond_specimen(made.specimen, description, description.loading, made.while_solving);
     test.world = std::move(bonded.world);
     test.world.bonds.watch_slips = description.output.slips;
+    made.platens = std::move(bonded.platens);
+    return made;
+}
+
+/// Measures a test with bonds and forces at rest, and confines it.
+VirtualTest measure_at_rest(NewTest made, const TestCase& description, const TestHooks& hooks,
+                            const SolutionVisitor& visit) {
+    VirtualTest test = std::move(made.test);
+    const Specimen& specimen = made.specimen;
+    const std::function<void()>& while_solving = made.while_solving;
     const double grip = description.loading.grip.value_or(0.0);
     const LoadingKind kind = description.loading.kind;
-    test.setup = record_setup(test.world, specimen, bonded.platens, kind, grip);
+    test.setup = record_setup(test.world, specimen, made.platens, kind, grip);
     if (!description.output.frames)
         test.description.output.frames = default_frames(test.setup.particles, description.output.curve_rows);
     test.state.failure.strength_drop = description.loading.strength_drop;
@@ -207,15 +226,16 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
     for (std::string& notice : unlikely_numbers(description, test.setup))
         test.setup.notices.push_back(std::move(notice));
     notice_deep_bonds(test);
-    if (bonded.platens.bonded) {
-        check_platen_hold(test.world, test.setup, bonded.platens, description);
+    if (made.platens.bonded) {
+        check_platen_hold(test.world, test.setup, made.platens, description);
         solve_small_strain(test, test.world, test.setup, visit);
         if (description.confined()) confine_or_advise(test, specimen, {nullptr, nullptr, while_solving});
         if (test.setup.normal_force > 0.0 || test.setup.normal_spring > 0.0) press(test);
     } else {
         TestCase::Loading held = description.loading;
         held.platens = PlatenKind::bonded;
-        const BondedSpecimen twin = bond_specimen(specimen, description, held, while_solving);
+        BondedSpecimen twin = bond_specimen(specimen, description, held, while_solving);
+        compute_forces(twin.world);
         const TestSetup own = record_setup(twin.world, specimen, twin.platens, kind, grip);
         try {
             check_platen_hold(twin.world, own, twin.platens, description);
@@ -240,8 +260,18 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
     return test;
 }
 
+}  // namespace
+
+VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const SolutionVisitor& visit) {
+    NewTest made = make_and_bond(description, hooks);
+    compute_forces(made.test.world);
+    return measure_at_rest(std::move(made), description, hooks, visit);
+}
+
 VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks, const SolutionVisitor& visit) {
-    VirtualTest test = bond_test(description, hooks, visit);
+    NewTest made = make_and_bond(description, hooks);
+    compute_forces(made.test.world);
+    VirtualTest test = measure_at_rest(std::move(made), description, hooks, visit);
     if (description.loading.rate_tolerance) {
         start_by_tolerance(test);
         hooks.report_stage(

@@ -11,7 +11,6 @@
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
-#include "solver/stepping/step.hpp"
 #include "solver/stepping/time_step.hpp"
 
 namespace crackle {
@@ -126,7 +125,6 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, con
     bond(bonded.world, test, bonding);
     apply_given_step(bonded.world, test);
     place_platens(bonded.world, bonded.platens);
-    compute_forces(bonded.world);
     return bonded;
 }
 

@@ -19,9 +19,9 @@ struct BondedSpecimen {
     Platens platens;
 };
 
-/// Adds platens, builds the world, creates bonds, moves the platens to their initial positions and computes forces.
-/// @param loading  the test's own loading, or a copy with other platens @param while_solving  passed to the world
-/// (Workers)
+/// Adds platens, builds the world, creates bonds and moves the platens to their initial positions. Forces are not yet
+/// computed. @param loading  the test's own loading, or a copy with other platens @param while_solving  passed to the
+/// world (Workers)
 /// @throws InputError if the time step exceeds the exact stable step; the error names the case's key
 BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading,
                              std::function<void()> while_solving = {});

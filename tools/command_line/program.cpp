@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <memory>
 #include <new>
 #include <span>
 #include <string>
@@ -71,10 +72,17 @@ void print_overview(const Program& program, std::ostream& out, Stream stream) {
     out << '\n';
 }
 
-int call(const Command& command, const std::string& name, const Arguments& words) {
+SelectedCommand ended(int code) {
+    SelectedCommand nothing;
+    nothing.code = code;
+    return nothing;
+}
+
+/// Parses the words after a command's name, or prints its help.
+SelectedCommand selected(const Command& command, const std::string& name, const Arguments& words) {
     if (command.studies != nullptr && !words.empty()) {
         if (const Command* study = named(command.studies(), words[0]))
-            return call(*study, name + ' ' + study->name, {words.begin() + 1, words.end()});
+            return selected(*study, name + ' ' + study->name, {words.begin() + 1, words.end()});
     }
     const CommandLine line = command.describe();
     ParsedWords parsed;
@@ -89,27 +97,30 @@ int call(const Command& command, const std::string& name, const Arguments& words
             std::cout << '\n' << styled("further:", Style::heading, Stream::out) << '\n';
             list(std::cout, command.studies());
         }
-        return exit_done;
+        return {};
     }
-    Messages messages(parsed.loudness);
-    return command.run({parsed.values, parsed.operands, words, messages});
+    SelectedCommand chosen;
+    chosen.run = command.run;
+    chosen.messages = std::make_unique<Messages>(parsed.loudness);
+    chosen.given.reset(new Invocation{parsed.values, parsed.operands, words, *chosen.messages});
+    return chosen;
 }
 
-/// Runs the command selected by the words after the program's name. @throws errors of the command
-int call(const Program& program, const Arguments& words) {
+/// The command that words after the program's name select. Other requests are carried out by printing.
+SelectedCommand selected(const Program& program, const Arguments& words) {
     if (words.empty()) {
         print_overview(program, std::cerr, Stream::err);
-        return exit_bad_input;
+        return ended(exit_bad_input);
     }
     const bool help = words[0] == "help";
     if (asks_for_help(words[0]) || (help && words.size() == 1)) {
         print_overview(program, std::cout, Stream::out);
-        return exit_done;
+        return {};
     }
     if (words[0] == "--version") {
         fmt::print("{} {}\ncommit {}\nresults version {}\n", program.name, project_version, build_commit,
                    results_version);
-        return exit_done;
+        return {};
     }
     // `crackle help campaign show` means `crackle campaign show --help`.
     Arguments asked(words.begin() + (help ? 1 : 0), words.end());
@@ -119,9 +130,9 @@ int call(const Program& program, const Arguments& words) {
         report_error(fmt::format("found {} '{}', expected one of those below{}\n", program.first_word, asked[0],
                                  suggestion(asked[0], names_of(program.commands()))));
         print_overview(program, std::cerr, Stream::err);
-        return exit_bad_input;
+        return ended(exit_bad_input);
     }
-    return call(*command, fmt::format("{} {}", program.name, command->name), {asked.begin() + 1, asked.end()});
+    return selected(*command, fmt::format("{} {}", program.name, command->name), {asked.begin() + 1, asked.end()});
 }
 
 /// Whether standard output is a pipe whose reader has closed it.
@@ -155,27 +166,37 @@ const std::vector<ExitCode>& exit_codes() {
     return all;
 }
 
-int run_program(const Program& program, int argc, char** argv) {
+SelectedCommand::SelectedCommand() = default;
+SelectedCommand::SelectedCommand(SelectedCommand&&) noexcept = default;
+SelectedCommand::~SelectedCommand() = default;
+
+SelectedCommand select_command(const Program& program, int argc, char** argv) {
     // Makes glibc return freed arrays of large specimens to the operating system. By default it soon keeps them
     // permanently, and rebuilding a neighbour list would then need as much memory as the whole specimen.
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
     mallopt(M_TRIM_THRESHOLD, 1 << 22);
     const auto all = std::span(argv, static_cast<std::size_t>(argc));
-    const char* const called = argc > 1 ? argv[1] : program.name;
     name_program(program.name);
     make_writing_fail_by_error();
+    refuse_small_stack();
+    chosen_set();  // refuses an invalid CRACKLE_ISA before any work is done
+    return selected(program, {all.begin() + 1, all.end()});
+}
+
+int end_output(int code) {
+    // Fails if the result cannot be written to stdout; a full disc may be noticed only with the last bytes.
+    errno = 0;
+    const bool written = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+    if (written || code != exit_done) return code;
+    if (reader_is_gone()) return exit_system_fails;  // the reader, such as `| head`, needs no more output
+    report_error(fmt::format("standard output: {}, expected room for everything that is printed",
+                             errno != 0 ? std::generic_category().message(errno) : "cannot be written"));
+    return exit_system_fails;
+}
+
+int report_failure(const char* called) {
     try {
-        refuse_small_stack();
-        chosen_set();  // refuses an invalid CRACKLE_ISA before any work is done
-        const int code = call(program, {all.begin() + 1, all.end()});
-        // Fails if the result cannot be written to stdout; a full disc may be noticed only with the last bytes.
-        errno = 0;
-        const bool written = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-        if (written || code != exit_done) return code;
-        if (reader_is_gone()) return exit_system_fails;  // the reader, such as `| head`, needs no more output
-        report_error(fmt::format("standard output: {}, expected room for everything that is printed",
-                                 errno != 0 ? std::generic_category().message(errno) : "cannot be written"));
-        return exit_system_fails;
+        throw;
     } catch (const InputError& error) {
         report_error(error.what());
         return exit_bad_input;

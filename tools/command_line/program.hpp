@@ -4,12 +4,14 @@
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 namespace crackle::tools {
 
 struct CommandLine;
 struct Invocation;
+class Messages;
 
 /// One command: its line in the program's --help, its command line, and the function that runs it. The function prints
 /// results to stdout, and uses Messages for progress and notices on stderr. It returns the exit code, or throws an
@@ -45,7 +47,25 @@ struct ExitCode {
 };
 const std::vector<ExitCode>& exit_codes();
 
-/// Runs the command selected by main()'s arguments. @return exit code; errors have already been reported
-int run_program(const Program& program, int argc, char** argv);
+/// The command that a command line selects. Where it selects none, for example with --help, everything has been printed.
+struct SelectedCommand {
+    SelectedCommand();
+    SelectedCommand(SelectedCommand&& other) noexcept;
+    ~SelectedCommand();
+
+    int (*run)(const Invocation& given) = nullptr;  ///< null if there is nothing to run
+    int code = exit_done;                           ///< exit code if there is nothing to run
+    std::unique_ptr<Messages> messages;
+    std::unique_ptr<Invocation> given;
+};
+
+// A program's main() calls these three, so that a command runs directly below main().
+
+/// Prepares the process and selects a command. @throws InputError, SystemFailure
+SelectedCommand select_command(const Program& program, int argc, char** argv);
+/// Completes standard output after a command. @return `code`, or exit_system_fails after an error is reported
+int end_output(int code);
+/// Reports the exception that is being handled. @param called  the command, for messages @return exit code
+int report_failure(const char* called);
 
 }  // namespace crackle::tools
