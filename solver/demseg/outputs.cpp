@@ -208,7 +208,7 @@ void DeckOutputs::write_frame(const World& world, std::span<const BodyIndex> ord
         const std::vector<Vec2> points = element_positions(world, b);
         if (info.piece_count == 0) {
             for (std::uint32_t k = 0; k < points.size(); ++k, ++circle_count) {
-                const double radius = element_of(world, b, info.first_element + k).radius;
+                const double radius = element_of(BodyView(world), b, info.first_element + k).radius;
                 fmt::format_to(std::back_inserter(circles), "{} {} {} {} {}\n", info.id, radius, points[k].x,
                                points[k].y, world.bodies.state[b].angle);
             }

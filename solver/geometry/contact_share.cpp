@@ -36,8 +36,9 @@ std::vector<Vec2> corners_of(const World& world, BodyIndex b) {
     const BodyInfo info = world.bodies.info(b);
     std::vector<Vec2> corners;
     corners.reserve(info.element_count);
+    const BodyView bodies(world);
     for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e)
-        corners.push_back(centre_of(world, b) + turned(world.bodies.state[b], element_of(world, b, e)));
+        corners.push_back(centre_of(world, b) + turned(bodies.state[b], element_of(bodies, b, e)));
     return corners;
 }
 
@@ -100,7 +101,7 @@ double length_of_corner(const World& world, BodyIndex b, std::uint32_t element) 
 /// Diameter of a circle element, or half the sum of the two edge lengths at a corner, m.
 double length_of(const World& world, BodyIndex b, std::uint32_t element) {
     return world.bodies.info(b).piece_count > 0 ? length_of_corner(world, b, element)
-                                                : 2.0 * element_of(world, b, element).radius;
+                                                : 2.0 * element_of(BodyView(world), b, element).radius;
 }
 
 }  // namespace

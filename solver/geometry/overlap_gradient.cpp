@@ -40,9 +40,9 @@ Discs discs_of(const World& world, PointKind kind, const ContactPoint& point) {
     };
     const BodyState &i = world.bodies.state[point.body_i], &j = world.bodies.state[point.body_j];
     if (kind == PointKind::disc_segment) {
-        visit_discs<PointKind::disc_segment>(world, point, i, j, add);
+        visit_discs<PointKind::disc_segment>(BodyView(world), point, i, j, add);
     } else {
-        visit_discs<PointKind::segment_segment>(world, point, i, j, add);
+        visit_discs<PointKind::segment_segment>(BodyView(world), point, i, j, add);
     }
     return discs;
 }

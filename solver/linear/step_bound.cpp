@@ -210,7 +210,7 @@ LongestLap longest_lap(const World& world, PointIndex k) {
     const ContactPoint point = world.points.contact[k];
     const FlatFace &i = world.bodies.flat_faces[point.element_i], &j = world.bodies.flat_faces[point.feature_j];
     const double skin = world.list.half_skin_of(point.body_i) + world.list.half_skin_of(point.body_j);
-    const double now = std::max(world.points.lap[k], flat_face_contact(world, point).lap());
+    const double now = std::max(world.points.lap[k], flat_face_contact(BodyView(world), point).lap());
     const double lap = std::min({now + skin, i.to - i.from, j.to - j.from});
     return {law_with(world, k, world.points.stiffness_share[k] * lap), world.points.root_mass[k] * std::sqrt(lap)};
 }
@@ -274,11 +274,12 @@ template <class Counts>
 std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>& weights,
                                   const std::vector<Spring>& rows, Counts counts) {
     std::vector<BodyBlocks> blocks(world.bodies.size());
+    const BodyView bodies(world);
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
             const ContactPoint point = world.points.contact.at<K>(k);
             std::uint32_t feature = point.feature_j;
-            const ContactGeometry g = contact_geometry<K>(world, point, feature);
+            const ContactGeometry g = contact_geometry<K>(bodies, point, feature);
             if (!counts(k, g.overlap)) continue;
             const auto add = [&](BodyIndex b) {
                 if (world.bodies.inertia[b].held()) return;

@@ -38,7 +38,7 @@ PointLoad load_of_kind(const World& world, PointIndex k) {
     const BodyState i = body_at_last_pass(world, point.body_i);
     const BodyState j = K == PointKind::element_wall ? i : body_at_last_pass(world, point.body_j);
     std::uint32_t feature = point.feature_j;
-    const ContactGeometry g = contact_geometry<K>(world, point, i, j, feature);
+    const ContactGeometry g = contact_geometry<K>(BodyView(world), point, i, j, feature);
     const bool bonded = (world.points.state[k].flags & point_bonded) != 0;
     PointLoad load{{}, {i.x + g.aix, i.y + g.aiy}, {g.nx, g.ny}};
     if (!bonded && !(g.overlap > world.points.bond_overlap[k])) return load;

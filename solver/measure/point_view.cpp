@@ -20,31 +20,31 @@ PointKind kind_of(const World& world, PointIndex k) {
     return static_cast<PointKind>(kind);
 }
 
-ContactGeometry geometry_of(const World& world, PointKind kind, const ContactPoint& point) {
+ContactGeometry geometry_of(const BodyView& bodies, PointKind kind, const ContactPoint& point) {
     std::uint32_t feature = point.feature_j;
     switch (kind) {
         case PointKind::circle_circle:
-            return contact_geometry<PointKind::circle_circle>(world, point, feature);
+            return contact_geometry<PointKind::circle_circle>(bodies, point, feature);
         case PointKind::element_element:
-            return contact_geometry<PointKind::element_element>(world, point, feature);
+            return contact_geometry<PointKind::element_element>(bodies, point, feature);
         case PointKind::element_outline:
-            return contact_geometry<PointKind::element_outline>(world, point, feature);
+            return contact_geometry<PointKind::element_outline>(bodies, point, feature);
         case PointKind::face_face:
-            return contact_geometry<PointKind::face_face>(world, point, feature);
+            return contact_geometry<PointKind::face_face>(bodies, point, feature);
         case PointKind::disc_segment:
-            return contact_geometry<PointKind::disc_segment>(world, point, feature);
+            return contact_geometry<PointKind::disc_segment>(bodies, point, feature);
         case PointKind::segment_segment:
-            return contact_geometry<PointKind::segment_segment>(world, point, feature);
+            return contact_geometry<PointKind::segment_segment>(bodies, point, feature);
         case PointKind::element_wall:
             break;
     }
-    return contact_geometry<PointKind::element_wall>(world, point, feature);
+    return contact_geometry<PointKind::element_wall>(bodies, point, feature);
 }
 
 }  // namespace
 
 ContactGeometry geometry_at(const World& world, PointIndex k) {
-    return geometry_of(world, kind_of(world, k), world.points.contact[k]);
+    return geometry_of(BodyView(world), kind_of(world, k), world.points.contact[k]);
 }
 
 std::pair<PointIndex, PointIndex> points_between(const World& world, PointIndex k) {
@@ -65,7 +65,7 @@ PointView view_point(const World& world, PointIndex k) {
     const ContactLaw law = law_of(world, k);
     PointView view{};
     view.kind = kind_of(world, k);
-    const ContactGeometry g = geometry_of(world, view.kind, point);
+    const ContactGeometry g = geometry_of(BodyView(world), view.kind, point);
     const BodyState& body = world.bodies.state[point.body_i];
     view.body_i = point.body_i;
     view.body_j = point.body_j;
@@ -121,8 +121,9 @@ std::vector<Vec2> element_positions(const World& world, BodyIndex body) {
     const BodyState& state = world.bodies.state[body];
     std::vector<Vec2> positions;
     positions.reserve(info.element_count);
+    const BodyView bodies(world);
     for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e) {
-        positions.push_back(Vec2{state.x, state.y} + turned(state, element_of(world, body, e)));
+        positions.push_back(Vec2{state.x, state.y} + turned(state, element_of(bodies, body, e)));
     }
     return positions;
 }

@@ -277,11 +277,12 @@ float contact_stiffness_share(const World& world, PointIndex k) {
 /// points keep the lap that was used to compute their last force.
 void find_laps(World& world) {
     if (world.points.lap.empty()) return;
+    const BodyView bodies(world);
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
             if constexpr (K == PointKind::face_face) {
                 if ((world.points.state[k].flags & (point_bonded | point_touching)) == 0)
-                    world.points.lap[k] = flat_face_contact(world, world.points.contact[k]).lap();
+                    world.points.lap[k] = flat_face_contact(bodies, world.points.contact[k]).lap();
             } else {
                 world.points.lap[k] = 1.0;
             }

@@ -22,9 +22,10 @@ struct Box {
 Box bounding_box(const World& world, std::size_t b) {
     const BodyState& body = world.bodies.state[b];
     const BodyInfo info = world.bodies.info(b);
+    const BodyView bodies(world);
     Box box;
     for (std::uint32_t e = 0; e < info.element_count; ++e) {
-        const Element element = element_of(world, b, info.first_element + e);
+        const Element element = element_of(bodies, b, info.first_element + e);
         box.add(centre_of(body) + turned(body, element), info.piece_count > 0 ? 0.0 : element.radius);
     }
     return box;

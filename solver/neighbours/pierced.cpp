@@ -105,7 +105,7 @@ void refuse_piercing(const World& world) {
             throw UnstableRun(world.stepping.steps, world.bodies.info(i).id,
                               fmt::format("its centroid moved into body {}{}", target.id, likely_cause(world)));
         }
-        const Element element = element_of(world, i, world.points.contact[k].element_i);
+        const Element element = element_of(BodyView(world), i, world.points.contact[k].element_i);
         const Vec2 at{element.x, element.y};
         const std::uint32_t segment =
             segment_between(world, target, place_then(world, j).inwards(place_then(world, i).outwards(at)),

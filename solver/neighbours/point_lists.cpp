@@ -33,12 +33,13 @@ void add_single_circles(const World& world, BodyIndex i, BodyIndex j, PointLists
 /// Lists contacts between the circles of two bodies, at least one of which is a clump.
 void add_circle_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
     const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
+    const BodyView bodies(world);
     const double skin = skin_between(world, i, j);
     for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
-        const Element own = element_of(world, i, p);
+        const Element own = element_of(bodies, i, p);
         const Vec2 centre = centre_of(world.bodies.state[i]) + turned(world.bodies.state[i], own);
         for (std::uint32_t q = b.first_element; q < b.first_element + b.element_count; ++q) {
-            const Element partner = element_of(world, j, q);
+            const Element partner = element_of(bodies, j, q);
             const Vec2 other = centre_of(world.bodies.state[j]) + turned(world.bodies.state[j], partner);
             if (norm(other - centre) > own.radius + partner.radius + skin) continue;
             lists[static_cast<std::size_t>(PointKind::element_element)].push_back(new_point(i, j, p, q));
@@ -49,15 +50,16 @@ void add_circle_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& 
 /// Lists contacts of the elements of i with the outline of j.
 void add_outline_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
     const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
+    const BodyView bodies(world);
     const BodyState &own = world.bodies.state[i], &target = world.bodies.state[j];
     const double skin = skin_between(world, i, j);
     for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
-        const Element element = element_of(world, i, p);
+        const Element element = element_of(bodies, i, p);
         const Vec2 w = centre_of(own) + turned(own, element) - centre_of(target);
         const double limit = element.radius + element.target_reach + skin;
         if (dot(w, w) > (b.reach + limit) * (b.reach + limit)) continue;
         const double c = target.shape[0], s = target.shape[1];
-        const OutlineFacing facing = face_outline(world, b, b.first_piece, c * w.x + s * w.y, c * w.y - s * w.x);
+        const OutlineFacing facing = face_outline(bodies, b, b.first_piece, c * w.x + s * w.y, c * w.y - s * w.x);
         if (facing.distance > limit) continue;
         lists[static_cast<std::size_t>(PointKind::element_outline)].push_back(new_point(i, j, p, facing.edge));
     }
@@ -66,16 +68,17 @@ void add_outline_points(const World& world, BodyIndex i, BodyIndex j, PointLists
 /// Lists contacts of the circles of i with the segments of j under the DEMseg guide's segment law.
 void add_circle_segment_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
     const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
+    const BodyView bodies(world);
     const BodyState& own = world.bodies.state[i];
     const Vec2 to_j = centre_of(world.bodies.state[j]) - centre_of(own);
     for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
-        const Element circle = element_of(world, i, p);
+        const Element circle = element_of(bodies, i, p);
         const Vec2 centre = turned(own, circle);
         const double limit = circle.radius + world.settings.thick + skin_between(world, i, j);
         if (norm(centre - to_j) > b.reach + limit) continue;
         for (std::uint32_t q = b.first_element; q < b.first_element + b.element_count; ++q) {
             if (world.bodies.segments[q].length == 0.0) continue;
-            const DiscCase found = disc_case(bar_of(world, world.bodies.state[j], q, to_j), centre, limit);
+            const DiscCase found = disc_case(bar_of(bodies, world.bodies.state[j], q, to_j), centre, limit);
             if (found.rule == DiscRule::none) continue;
             lists[static_cast<std::size_t>(PointKind::disc_segment)].push_back(new_point(i, j, p, q));
         }
@@ -86,15 +89,16 @@ void add_circle_segment_points(const World& world, BodyIndex i, BodyIndex j, Poi
 /// segment is close to the other segment.
 void add_segment_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
     const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
+    const BodyView bodies(world);
     const Vec2 to_j = centre_of(world.bodies.state[j]) - centre_of(world.bodies.state[i]);
     const double limit = world.settings.thick + skin_between(world, i, j);
     for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
         if (world.bodies.segments[p].length == 0.0) continue;
-        const Bar own = bar_of(world, world.bodies.state[i], p, {});
+        const Bar own = bar_of(bodies, world.bodies.state[i], p, {});
         if (std::sqrt(disc_case(own, to_j, 0.0).squared_distance) > b.reach + limit) continue;
         for (std::uint32_t q = b.first_element; q < b.first_element + b.element_count; ++q) {
             if (world.bodies.segments[q].length == 0.0) continue;
-            const Bar other = bar_of(world, world.bodies.state[j], q, to_j);
+            const Bar other = bar_of(bodies, world.bodies.state[j], q, to_j);
             const auto near = [&](const Bar& bar, Vec2 end) {
                 return disc_case(bar, end, 0.0).squared_distance < limit * limit;
             };
@@ -120,6 +124,7 @@ void add_guide_points(const World& world, BodyIndex i, BodyIndex j, PointLists& 
 
 void add_wall_points(const World& world, BodyIndex i, PointLists& lists) {
     const BodyInfo info = world.bodies.info(i);
+    const BodyView bodies(world);
     const BodyState& body = world.bodies.state[i];
     const Domain& d = world.settings.domain;
     const bool chain = info.piece_count > 0;
@@ -132,7 +137,7 @@ void add_wall_points(const World& world, BodyIndex i, PointLists& lists) {
                                          : d.y2 - body.y;
         if (whole > info.reach + skin) continue;
         for (std::uint32_t p = info.first_element; p < info.first_element + info.element_count; ++p) {
-            const Element element = element_of(world, i, p);
+            const Element element = element_of(bodies, i, p);
             const Vec2 o = turned(body, element);
             const double distance = whole + (wall == 0 ? o.x : wall == 1 ? -o.x : wall == 2 ? o.y : -o.y);
             if (distance > (chain ? 0.0 : element.radius) + skin) continue;
@@ -184,11 +189,12 @@ std::vector<FaceNow> faces_now(const World& world) {
 /// list is rebuilt.
 void add_face_points(const World& world, PointLists& lists) {
     auto& list = lists[static_cast<std::size_t>(PointKind::face_face)];
+    const BodyView bodies(world);
     const auto meet = [&](std::uint32_t one, std::uint32_t other) {
         const BodyIndex a = world.bodies.flat_faces[one].body, b = world.bodies.flat_faces[other].body;
         if (left_out(world, a, b)) return;
         const ContactPoint point = a < b ? new_point(a, b, one, other) : new_point(b, a, other, one);
-        if (flat_face_contact(world, point).closed > -skin_between(world, a, b)) list.push_back(point);
+        if (flat_face_contact(bodies, point).closed > -skin_between(world, a, b)) list.push_back(point);
     };
     const std::vector<FaceNow> faces = faces_now(world);
     std::vector<FaceNow>

@@ -189,8 +189,9 @@ void set_strengths(World& world, const Bonding& bonding) {
 /// Sets Points::lap of flat faces at the current positions.
 void take_laps(World& world) {
     constexpr auto kind = static_cast<std::size_t>(PointKind::face_face);
+    const BodyView bodies(world);
     for (PointIndex k = world.points.kind_begin[kind]; k < world.points.kind_begin[kind + 1]; ++k)
-        world.points.lap[k] = flat_face_contact(world, world.points.contact[k]).lap();
+        world.points.lap[k] = flat_face_contact(bodies, world.points.contact[k]).lap();
 }
 
 /// For each point between bodies: index of the joint across which the point would be bonded, or no_joint. Empty without

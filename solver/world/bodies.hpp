@@ -244,7 +244,7 @@ struct Bodies {
 /// or in the caller's own arrays. Valid until one of the arrays is resized.
 struct BodyView {
     BodyView() = default;
-    BodyView(const World& world);  // defined in world.hpp
+    explicit BodyView(const World& world);  // defined in world.hpp
 
     const BodyState* state = nullptr;
     const BodyName* names = nullptr;

@@ -16,11 +16,12 @@ struct Stretch {
 };
 
 double smaller_radius(const World& world, PointKind kind, const ContactPoint& point) {
-    const double radius = element_of(world, point.body_i, point.element_i).radius;
+    const BodyView bodies(world);
+    const double radius = element_of(bodies, point.body_i, point.element_i).radius;
     if (!is_circles(world, point.body_j)) return radius;
     const bool named = kind == PointKind::element_element;
     const std::uint32_t partner = named ? point.feature_j : world.bodies.info(point.body_j).first_element;
-    return std::min(radius, element_of(world, point.body_j, partner).radius);
+    return std::min(radius, element_of(bodies, point.body_j, partner).radius);
 }
 
 Vec2 middle_of(const Facing& facing) { return 0.5 * (facing.on_i + facing.on_j); }

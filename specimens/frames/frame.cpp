@@ -100,7 +100,7 @@ void take(const World& world, const TestSetup& setup, const ContactHistory& hist
             if constexpr (K == PointKind::face_face)
                 frame.joint_forces.push_back(
                     {next, law_of(world, k).normal_stiffness *
-                               (flat_face_contact(world, point).overlap - world.points.bond_overlap[k])});
+                               (flat_face_contact(BodyView(world), point).overlap - world.points.bond_overlap[k])});
         }
     });
     take_loose(setup, history.loose, target);

@@ -34,9 +34,10 @@ FrameForces find_forces(const PlacedFrame& placed) {
     FrameForces forces;
     forces.normal.reserve(setup.bonds.size() + frame.loose.contacts.size());
     forces.stress.resize(frame.bodies.size());
+    const BodyView bodies(world);
     const auto geometry = [&]<PointKind K>(const ContactPoint& point) {
         std::uint32_t feature = point.feature_j;
-        return contact_geometry<K>(world, point, placed.body(point.body_i), placed.body(point.body_j), feature);
+        return contact_geometry<K>(bodies, point, placed.body(point.body_i), placed.body(point.body_j), feature);
     };
     const auto add_force = [&](const ContactPoint& point, const ContactGeometry& g, double normal, double shear) {
         forces.normal.push_back(normal);

@@ -215,6 +215,7 @@ FramePainter::FramePainter(const World& world, const TestSetup& setup, FramePrec
 /// clump is a cell. Of a platen, only the face is a cell, because only the face touches the specimen.
 template <class Visit>
 void FramePainter::visit_cells(const Visit& visit) const {
+    const BodyView bodies(world_);
     for (const BodyIndex b : order_) {
         const BodyInfo info = world_.bodies.info(b);
         if (!is_circles(world_, b)) {
@@ -222,7 +223,7 @@ void FramePainter::visit_cells(const Visit& visit) const {
             continue;
         }
         for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e)
-            visit(b, e, outline_.size(), element_of(world_, b, e).radius);
+            visit(b, e, outline_.size(), element_of(bodies, b, e).radius);
     }
 }
 
@@ -269,11 +270,12 @@ void FramePainter::write_particles(std::ostream& out, const PlacedFrame& placed,
     const Frame& frame = placed.frame();
     write_head(out, frame, particle_counts_);
     write_points(out, precision_, particle_counts_.points, [&](const auto& add) {
+        const BodyView shapes(world_);
         visit_cells([&](BodyIndex b, std::uint32_t element, std::size_t corners, double radius) {
             const Frame::Body& body = frame.bodies[b];
             const Vec2 centroid{body.x, body.y}, turn = placed.turn(b);
             const auto place_of = [&](std::uint32_t e) {
-                const Element at = element_of(world_, b, e);
+                const Element at = element_of(shapes, b, e);
                 return centroid + rotated(turn, {at.x, at.y});
             };
             if (radius == 0.0) {
@@ -391,12 +393,13 @@ void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, 
                 add_places(placed.carried(point.body_i, held.on_i), placed.carried(point.body_j, held.on_j));
             }
         });
+        const BodyView bodies(world_);
         visit_kinds(frame.loose.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
             for (PointIndex k = begin; k < end; ++k) {
                 const ContactPoint& point = loose[k].point;
                 std::uint32_t feature = point.feature_j;
                 const BodyState i = placed.body(point.body_i), j = placed.body(point.body_j);
-                const Facing now = facing_at(setup_, K, i, contact_geometry<K>(world_, point, i, j, feature));
+                const Facing now = facing_at(setup_, K, i, contact_geometry<K>(bodies, point, i, j, feature));
                 add_places(now.on_i, now.on_j);
             }
         });

@@ -69,7 +69,7 @@ Facing facing_at_start(const World& world, const TestSetup& setup, const Contact
     };
     const BodyState i = body(point.body_i);
     std::uint32_t feature = point.feature_j;
-    return facing_at(setup, K, i, contact_geometry<K>(world, point, i, body(point.body_j), feature));
+    return facing_at(setup, K, i, contact_geometry<K>(BodyView(world), point, i, body(point.body_j), feature));
 }
 
 /// Whether a body is a circle or a clump of circles.

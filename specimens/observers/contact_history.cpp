@@ -34,7 +34,7 @@ namespace {
 template <PointKind K>
 double joint_force(const World& world, PointIndex k) {
     if (world.points.state[k].law < world.settings.first_joint_law()) return std::numeric_limits<double>::quiet_NaN();
-    const double overlap = overlap_at<K>(world, world.points.contact[k]);
+    const double overlap = overlap_at<K>(BodyView(world), world.points.contact[k]);
     return law_of(world, k).normal_stiffness * std::max(0.0, overlap - world.points.bond_overlap[k]);
 }
 

@@ -30,7 +30,7 @@ BondedFace hold_of(const World& world, const TestSetup& setup, BodyIndex platen)
         const std::vector<Vec2> places = element_positions(world, particle);
         const std::uint32_t first = world.bodies.info(particle).first_element;
         for (std::uint32_t e = 0; e < places.size(); ++e) {
-            const double radius = setup.polygons ? 0.0 : element_of(world, particle, first + e).radius;
+            const double radius = setup.polygons ? 0.0 : element_of(BodyView(world), particle, first + e).radius;
             hold.from = std::min(hold.from, places[e].x - radius);
             hold.to = std::max(hold.to, places[e].x + radius);
         }

@@ -69,7 +69,7 @@ std::optional<TraceFace> flat_face_of(const World& world, PointIndex begin, Poin
         if ((flags & (point_bonded | point_had_bond)) == 0) continue;
         const ContactPoint point = world.points.contact[k];
         const FlatFace &i = world.bodies.flat_faces[point.element_i], &j = world.bodies.flat_faces[point.feature_j];
-        const FlatFaceContact g = flat_face_contact(world, point);
+        const FlatFaceContact g = flat_face_contact(BodyView(world), point);
         face.bonds += (flags & point_bonded) != 0 ? 1 : 0;
         if (face.length == 0.0) {
             std::tie(face.i, face.j) = ordered(point.body_i, point.body_j);

@@ -105,7 +105,7 @@ json state_of(const std::string& folder) {
         const double share =
             setup.is_platen(b) ? 0.0 : world.settings.materials[info.material].density / world.bodies.inertia[b].mass;
         for (std::uint32_t e = 0; e < (circles ? info.element_count : 1); ++e) {
-            const double radius = circles ? element_of(world, b, info.first_element + e).radius : 0.0;
+            const double radius = circles ? element_of(BodyView(world), b, info.first_element + e).radius : 0.0;
             if (circles) discs.push_back({places[e].x, places[e].y, radius});
             const auto put = [&](const char* name, std::initializer_list<double> values) {
                 particles[name].insert(particles[name].end(), values);

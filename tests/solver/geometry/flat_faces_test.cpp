@@ -72,7 +72,7 @@ TEST(FlatFaces, LieFlushAndLapOverTheWholeTrace) {
     const World world = bonded_circles(scene_of(circles));
     double laps = 0.0;
     for (PointIndex k = begin_of_faces(world); k < end_of_faces(world); ++k) {
-        const FlatFaceContact g = flat_face_contact(world, world.points.contact[k]);
+        const FlatFaceContact g = flat_face_contact(BodyView(world), world.points.contact[k]);
         laps += g.lap();
         EXPECT_NEAR(g.nx, -std::sin(std::atan2(0.06, 0.28)) * (g.ny > 0.0 ? 1.0 : -1.0), 1e-12);
         if ((world.points.state[k].flags & point_bonded) != 0) {
@@ -357,7 +357,7 @@ TEST(FlatFaces, KeepTheirLapWhileTheyAreBonded) {
     for (PointIndex k = begin_of_faces(world); k < end_of_faces(world); ++k)
         if ((world.points.state[k].flags & point_bonded) != 0)
             moved = std::max(
-                moved, std::abs(flat_face_contact(world, world.points.contact[k]).lap() -
+                moved, std::abs(flat_face_contact(BodyView(world), world.points.contact[k]).lap() -
                                 before.at({world.points.contact[k].element_i, world.points.contact[k].feature_j})));
     EXPECT_GT(moved, 1e-7);
     const std::map<Pair, double> after = bonded_laps();
@@ -441,7 +441,7 @@ TEST(FlatFaces, OfAnOpenJointBearNothingUntilItsApertureHasClosed) {
     double expected = 0.0;
     for (PointIndex k = begin_of_faces(world); k < end_of_faces(world); ++k) {
         const ContactPoint point = world.points.contact[k];
-        const FlatFaceContact g = flat_face_contact(world, point);
+        const FlatFaceContact g = flat_face_contact(BodyView(world), point);
         const double radii = world.bodies.state[point.body_i].shape[0] + world.bodies.state[point.body_j].shape[0];
         expected += g.lap() / (radii / 5e9 + 1.0 / stiffness) * std::max(0.0, g.closed - aperture);
     }

@@ -101,7 +101,7 @@ TEST(ConvexOutline, DistanceAndNormalAreContinuousAroundEveryCorner) {
         for (int k = 0; k <= 62832; ++k) {
             const Vec2 p{reach * std::cos(step * k), reach * std::sin(step * k)};
             const OutlineFacing now =
-                face_outline(world, world.bodies.info(0), last.edge, p.x - centroid.x, p.y - centroid.y);
+                face_outline(BodyView(world), world.bodies.info(0), last.edge, p.x - centroid.x, p.y - centroid.y);
             if (k > 0) {
                 // |∇d| = 1, and the normal turns no faster than about a corner at that distance.
                 const double way = norm(p - before);
@@ -128,7 +128,7 @@ TEST(NonConvexOutline, DistanceOutsideIsThatOfTheWholeOutline) {
         const Vec2 p{uniform_number(generator, -1.0, 6.0), uniform_number(generator, -1.0, 4.0)};
         const double expected = distance_to_outline(p, comb, true);
         const auto facing = [&](const World& world) {
-            return face_outline(world, world.bodies.info(0), 0, p.x - world.bodies.state[0].x,
+            return face_outline(BodyView(world), world.bodies.info(0), 0, p.x - world.bodies.state[0].x,
                                 p.y - world.bodies.state[0].y);
         };
         worst_open = std::max(worst_open, std::abs(facing(open).distance - distance_to_outline(p, comb, false)));

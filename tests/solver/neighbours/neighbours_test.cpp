@@ -62,7 +62,7 @@ std::set<Touch> searched(const World& world) {
         const bool chain_i = world.bodies.info(i).piece_count > 0;
         for (std::uint32_t e = 0; e < places[i].size(); ++e) {
             const Vec2 p = places[i][e];
-            const double radius = element_of(world, i, world.bodies.info(i).first_element + e).radius;
+            const double radius = element_of(BodyView(world), i, world.bodies.info(i).first_element + e).radius;
             const double bare = chain_i ? 0.0 : radius;
             const double to_wall[4] = {p.x - d.x1, d.x2 - p.x, p.y - d.y1, d.y2 - p.y};
             for (int wall = 0; wall < 4; ++wall) {
@@ -77,7 +77,8 @@ std::set<Touch> searched(const World& world) {
                         touches.insert({world.bodies.info(i).id, e, world.bodies.info(j).id, -1});
                 } else if (!chain_i && world.bodies.info(i).id < world.bodies.info(j).id) {
                     for (std::uint32_t f = 0; f < places[j].size(); ++f) {
-                        const double other = element_of(world, j, world.bodies.info(j).first_element + f).radius;
+                        const double other =
+                            element_of(BodyView(world), j, world.bodies.info(j).first_element + f).radius;
                         if (norm(places[j][f] - p) < radius + other)
                             touches.insert({world.bodies.info(i).id, e, world.bodies.info(j).id, f});
                     }
