@@ -20,10 +20,8 @@
 // do_smaller_kinds(), where all bodies are at time n. A world without points of that kind skips both.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <tuple>
-#include <utility>
 
 #include "solver/laws/back_tension_bond.hpp"
 #include "solver/laws/bond_law.hpp"
@@ -47,19 +45,15 @@ static_assert(points_have_what_facts_need(BondLaws{}),
 template <BondLaw law>
 using BondLawType = std::tuple_element_t<static_cast<std::size_t>(law), BondLaws>;
 
-/// Returns visit.operator()<Type>() for the type of a law.
-template <class Visit>
-constexpr decltype(auto) with_law(BondLaw law, Visit&& visit) {
-    using Result = decltype(visit.template operator()<std::tuple_element_t<0, BondLaws>>());
-    const auto call = [&]<std::size_t... N>(std::index_sequence<N...>) -> Result {
-        constexpr std::array<Result (*)(Visit&), bond_laws> calls{[](Visit& of) -> Result {
-            using Bond = std::tuple_element_t<N, BondLaws>;
-            static_assert(static_cast<std::size_t>(Bond::law) == N);
-            return of.template operator()<Bond>();
-        }...};
-        return calls[static_cast<std::size_t>(law)](visit);
-    };
-    return call(std::make_index_sequence<bond_laws>{});
+/// Returns visit.operator()<Type>() for the type of a law. @tparam N number of the first law to try
+template <std::size_t N = 0, class Visit>
+constexpr decltype(auto) with_law(BondLaw law, const Visit& visit) {
+    using Bond = std::tuple_element_t<N, BondLaws>;
+    static_assert(static_cast<std::size_t>(Bond::law) == N);
+    if constexpr (N + 1 < bond_laws) {
+        if (law != Bond::law) return with_law<N + 1>(law, visit);
+    }
+    return visit.template operator()<Bond>();
 }
 
 /// facts_of() for constant expressions.
