@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -74,6 +75,34 @@ class PackedArray {
     std::size_t blocks_ = 0, added_ = 0;
     std::streampos header_at_;
 };
+
+/// Writes a whole array. @param add  is called with a function, which it must call for each value
+template <class T, class Add>
+void write_array(std::ostream& out, const char* name, std::size_t values, const Add& add) {
+    PackedArray<T> array(out, name, 1, values);
+    add([&](auto value) { array.add(static_cast<T>(value)); });
+    array.finish();
+}
+
+/// Writes an array of indices, as Int32 if `largest` fits.
+template <class Add>
+void write_indices(std::ostream& out, const char* name, std::size_t values, std::size_t largest, const Add& add) {
+    constexpr std::size_t most_in_int32 = std::numeric_limits<std::int32_t>::max();
+    largest <= most_in_int32 ? write_array<std::int32_t>(out, name, values, add)
+                             : write_array<std::int64_t>(out, name, values, add);
+}
+
+/// Writes a line for each pair of points: from each even-numbered point to the next one.
+inline void write_pairs_as_lines(std::ostream& out, std::size_t lines) {
+    begin_element(out, "Lines");
+    write_indices(out, "connectivity", 2 * lines, 2 * lines, [&](const auto& add) {
+        for (std::size_t point = 0; point < 2 * lines; ++point) add(point);
+    });
+    write_indices(out, "offsets", lines, 2 * lines, [&](const auto& add) {
+        for (std::size_t line = 1; line <= lines; ++line) add(2 * line);
+    });
+    end_element(out, "Lines");
+}
 
 /// A file of a collection, with the time that it shows.
 struct CollectionEntry {
