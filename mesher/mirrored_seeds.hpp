@@ -33,4 +33,14 @@ struct SeedSet {
 SeedSet mirrored_seeds(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
                        double spacing, std::span<const double> shrink);
 
+// Angles are computed only from sums, products and square roots, which all processors round identically. The sine of a
+// mathematical library may differ in the last digit between machines, and then so would the seeds.
+
+/// Angle of a direction, rad, from -π to π, with an error of about 1e-15. The angle is reduced to half a quadrant. Then
+/// the tangent of an eighth of the angle is computed and inserted into the arctangent series.
+double angle_of(double x, double y);
+/// Unit vector at an angle of at most a few turns, rad: sums the series for 1/64 of the angle and doubles the angle six
+/// times.
+Point direction_at(double angle);
+
 }  // namespace crackle

@@ -13,11 +13,7 @@
 
 #include "mesher/partition.hpp"
 
-#include <CGAL/Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
-#include <CGAL/Triangulation_face_base_with_info_2.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 #include <fmt/format.h>
@@ -30,37 +26,11 @@
 #include <utility>
 
 #include "mesher/inset.hpp"
+#include "mesher/partition_net.hpp"
 
 namespace crackle {
+namespace partition {
 namespace {
-
-enum class Origin : std::uint8_t { centre, image, guard, added };
-
-// All data of a centre are stored in the vertex rather than in per-centre arrays, so that neighbours in space are also
-// neighbours in memory.
-struct VertexInfo {
-    int index = -1;  // index of the centre (for an image, of its original); after numbering, index of the point
-    Origin origin = Origin::guard;
-    // Set of SideBits. For a centre: walls on which it lies; for an image: the wall across which it was mirrored.
-    std::uint8_t walls = 0;
-    std::uint8_t settled = 0;  // for a centre: walls on which it lies or across which it has been mirrored
-    std::uint8_t pending = 0;  // for a centre: walls across which it is to be mirrored in this round
-};
-
-struct FaceInfo {
-    Point dual;            // circumcentre, where the Voronoi cells of the three corners meet
-    int index = -1;        // index of the triangle, or of a member of a cluster of coincident duals
-    bool outside = false;  // whether the dual is beyond a wall on which all centres of the face lie
-};
-
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>;
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>;
-using Triangulation =
-    CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
-using CgalPoint = Triangulation::Point;
-using VertexHandle = Triangulation::Vertex_handle;
-using FaceHandle = Triangulation::Face_handle;
 
 constexpr std::array<std::uint8_t, 4> all_sides{side_left, side_right, side_bottom, side_top};
 // Edges shorter than this fraction of their circumradius count as zero-length edges of co-circular centres. The
@@ -74,10 +44,6 @@ constexpr double coincidence_share = 1e-9;
 // domain is closer to its nearest centre.
 constexpr double guard_distance = 4.0;
 
-double squared_distance(Point a, Point b) { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y); }
-
-Point position(VertexHandle v) { return {v->point().x(), v->point().y()}; }
-
 // Computed relative to one corner, so that large coordinates cause round-off only in the last addition.
 Point circumcentre(FaceHandle face) {
     const Point a = position(face->vertex(0)), b = position(face->vertex(1)), c = position(face->vertex(2));
@@ -87,81 +53,7 @@ Point circumcentre(FaceHandle face) {
     return {a.x + (cy * b2 - by * c2) / twice, a.y + (bx * c2 - cx * b2) / twice};
 }
 
-// Relation of a face's corners to the walls, as sets of SideBits.
-struct WallsOfFace {
-    unsigned images = 0;    // walls across which at least one corner is an image
-    unsigned on_all = ~0U;  // walls on which all corners that are centres lie
-    bool any_centre = false;
-};
-
-WallsOfFace walls_of(FaceHandle face) {
-    WallsOfFace walls;
-    for (int k = 0; k < 3; ++k) {
-        const VertexInfo& info = face->vertex(k)->info();
-        if (info.origin == Origin::image) walls.images |= info.walls;
-        if (info.origin == Origin::centre) walls.on_all &= info.walls;
-        walls.any_centre = walls.any_centre || info.origin == Origin::centre;
-    }
-    return walls;
-}
-
-class Partition {
-  public:
-    Partition(std::span<const CellCentre> centres, const Rectangle& domain, Patience& patience)
-        : centres_(centres), domain_(domain), patience_(patience), scale_(coordinate_scale(domain)) {
-        insert_guards();
-        insert_centres();
-        mirror_where_needed();
-    }
-
-    VoronoiCells cells();
-    Triangles triangles(Boundary boundary);
-    /// Only the points of the triangles that fill the domain.
-    Triangles points_with_flat_faces() const;
-
-  private:
-    struct Image {
-        VertexHandle vertex, centre;
-        std::uint8_t wall;
-    };
-    /// Projection of a centre onto a wall on which its cell has an edge.
-    struct Foot {
-        Point place;
-        VertexHandle beside;
-    };
-
-    void insert_guards();
-    void insert_centres();
-    void mirror_where_needed();
-    void refuse_near_coincident(FaceHandle face, double too_close) const;
-    void place_dual(FaceHandle face, std::vector<VertexHandle>& to_mirror);
-    void mirror(VertexHandle centre, std::uint8_t walls, std::vector<VertexHandle>& touched);
-
-    bool is_centre(VertexHandle v) const { return v->info().origin == Origin::centre; }
-    static bool is_kept(VertexHandle v) {
-        return v->info().origin == Origin::centre || v->info().origin == Origin::added;
-    }
-    unsigned walls_beyond(Point p) const;
-    Point dual(FaceHandle face, const WallsOfFace& walls) const;
-    Point on_wall(FaceHandle face, std::uint8_t wall) const;
-    bool collect_cells(VoronoiCells& out, bool allow_zero_edges) const;
-    void contract_zero_edges();
-    void cut_at_walls(std::vector<Point>& polygon, std::vector<Point>& scratch) const;
-    double zero_edge(Point dual_point, Point centre) const;
-    bool meets_wall(const Image& image) const;
-    std::vector<Foot> feet() const;
-    std::array<Point, 4> corners() const;
-    void close_with_flat_faces();
-    Triangles points(Boundary boundary);
-
-    std::span<const CellCentre> centres_;
-    Rectangle domain_;
-    Patience& patience_;
-    double scale_;
-    Triangulation triangulation_;
-    std::vector<Image> images_;
-    std::vector<VertexHandle> guards_;
-};
+}  // namespace
 
 void Partition::insert_guards() {
     const double reach = guard_distance * distance({domain_.x1, domain_.y1}, {domain_.x2, domain_.y2});
@@ -565,7 +457,7 @@ Triangles Partition::triangles(Boundary boundary) {
     return out;
 }
 
-}  // namespace
+}  // namespace partition
 
 MeshError coincident_centres(std::span<const CellCentre> centres, int a, int b) {
     const auto [first, second] = std::minmax(a, b);
@@ -574,7 +466,7 @@ MeshError coincident_centres(std::span<const CellCentre> centres, int a, int b) 
     return MeshError(
         fmt::format("mesh: found centres {} and {} at the same place (({}, {}) and ({}, {}), {:.3g} apart), expected "
                     "distinct centres; remove one of them",
-                    first, second, p.x, p.y, q.x, q.y, std::sqrt(squared_distance(p, q))),
+                    first, second, p.x, p.y, q.x, q.y, distance(p, q)),
         {first, second});
 }
 
@@ -583,16 +475,16 @@ double coordinate_scale(const Rectangle& domain) {
 }
 
 VoronoiCells voronoi_cells(std::span<const CellCentre> centres, const Rectangle& domain, Patience& patience) {
-    return Partition(centres, domain, patience).cells();
+    return partition::Partition(centres, domain, patience).cells();
 }
 
 Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangle& domain, Boundary boundary,
                              Patience& patience) {
-    return Partition(centres, domain, patience).triangles(boundary);
+    return partition::Partition(centres, domain, patience).triangles(boundary);
 }
 
 Triangles delaunay_points(std::span<const CellCentre> centres, const Rectangle& domain, Patience& patience) {
-    return Partition(centres, domain, patience).points_with_flat_faces();
+    return partition::Partition(centres, domain, patience).points_with_flat_faces();
 }
 
 }  // namespace crackle

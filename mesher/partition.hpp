@@ -5,15 +5,37 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
 
 #include "mesher/inset.hpp"
 #include "mesher/mesher.hpp"
-#include "mesher/patience.hpp"
 
 namespace crackle {
+
+/// Checks whether meshing was cancelled. The mesher counts units of work, and every 1024 units the callback is called.
+class Patience {
+  public:
+    /// @param interrupted as in MeshRequest; must outlive this object
+    explicit Patience(const std::function<bool()>& interrupted) : interrupted_(interrupted) {}
+
+    /// Call this before each unit of work, for example for one centre or cell. @throws MeshInterrupted
+    void piece() {
+        if (++pieces_ % pieces_a_question == 0) ask();
+    }
+    /// Checks immediately; call this before work that takes long. @throws MeshInterrupted
+    void ask() const {
+        if (interrupted_ && interrupted_()) throw MeshInterrupted();
+    }
+
+  private:
+    static constexpr std::uint32_t pieces_a_question = 1024;
+
+    const std::function<bool()>& interrupted_;
+    std::uint32_t pieces_ = 0;
+};
 
 /// Voronoi cells of the domain. Neighbours have identical coordinates at shared corners (equal up to round-off if a
 /// centre lies on the boundary).

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesher/angles.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "mesher/mirrored_seeds.hpp"
 
 namespace crackle {
 namespace {

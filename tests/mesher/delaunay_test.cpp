@@ -6,7 +6,6 @@
 #include <set>
 
 #include "mesher/partition.hpp"
-#include "mesher/patience.hpp"
 #include "tests/mesher/centres.hpp"
 
 namespace crackle {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <optional>
 
-#include "mesher/patience.hpp"
+#include "mesher/partition.hpp"
 #include "tests/mesher/jointed.hpp"
 
 namespace crackle {

@@ -18,13 +18,13 @@
 #include "solver/files/replace_file.hpp"
 #include "specimens/recordings/distinct_names.hpp"
 #include "specimens/recordings/recording.hpp"
+#include "specimens/recordings/unit_names.hpp"
 #include "specimens/statistics/spoken.hpp"
 #include "tools/campaign/page/figures.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/plot_decks.hpp"
-#include "tools/commands/plot_look.hpp"
 #include "tools/page/report_page.hpp"
+#include "tools/plot/deck_panels.hpp"
 #include "tools/plot/figure_options.hpp"
 #include "tools/plot/panels.hpp"
 #include "tools/terminal/printable.hpp"
@@ -34,6 +34,13 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace plot;
+using Words = std::vector<std::string>;
+
+/// Appearance of a figure, for all kinds of input.
+struct Look : FigureLook {
+    Format format = Format::svg;
+    DrawingStyle drawing;
+};
 
 Look look_of(const po::variables_map& given) {
     const Format format = given.contains("guide") ? format_named("plot", "--format", given["format"].as<std::string>())
@@ -41,6 +48,14 @@ Look look_of(const po::variables_map& given) {
     Look look{figure_look("plot", given, format), format, {}};
     look.drawing.magnify = number_between("plot", given, "magnify", 0.0, 1e6, "");
     return look;
+}
+
+/// Refuses options that have no effect on figures of `input`. @param used options that have an effect, in addition to
+/// --output, --force and those for the appearance
+void expect_options(const po::variables_map& given, const std::string& input, Words used) {
+    used.insert(used.end(), {"output", "force"});
+    used.insert(used.end(), figure_options().begin(), figure_options().end());
+    refuse_unused("crackle plot", given, input, used);
 }
 
 std::string capitalised(std::string word) {
@@ -229,6 +244,76 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
     if (!messages.quiet()) print_text(output.string() + '\n');
 }
 
+bool is_run_of_deck(const fs::path& path) {
+    const fs::path folder = folder_of_run(path);
+    return fs::exists(folder / "output.dat") && !fs::exists(folder / "summary.json");
+}
+
+/// Whether all paths are deck runs. @throws InputError if only some are, since their diagrams have no axes in common
+bool are_runs_of_decks(const Words& paths) {
+    const bool of_deck = is_run_of_deck(paths.front());
+    const auto other =
+        std::ranges::find_if(paths, [&](const std::string& path) { return is_run_of_deck(path) != of_deck; });
+    if (other == paths.end()) return of_deck;
+    throw InputError(fmt::format("plot: {}: found the run of a deck and {}, expected either runs of decks or tests",
+                                 of_deck ? paths.front() : *other, of_deck ? *other : paths.front()));
+}
+
+/// Bodies selected by --bodies; if not given, the first few.
+std::vector<int> drawn_bodies(const po::variables_map& given, const Recording& deck, Messages& messages) {
+    constexpr std::size_t most = 8;  // number of curves that can be distinguished
+    std::vector<int> watched = watched_bodies(deck);
+    if (given.contains("bodies")) {
+        std::vector<int> bodies = given["bodies"].as<std::vector<int>>();
+        for (const int id : bodies) {
+            if (std::ranges::find(watched, id) != watched.end()) continue;
+            throw InputError(
+                fmt::format("plot: --bodies: found {}, expected a body for which the run of {} wrote rows: {}", id,
+                            deck.name, watched.empty() ? "none" : fmt::format("{}", fmt::join(watched, ", "))));
+        }
+        return bodies;
+    }
+    if (watched.size() > most) {
+        messages.notice(fmt::format("{}: the first {} of {} bodies are drawn; choose others with --bodies", deck.name,
+                                    most, watched.size()));
+        watched.resize(most);
+    }
+    return watched;
+}
+
+/// Draws curves of deck runs; several runs share panels.
+void plot_decks(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
+    expect_options(given, "runs of decks", {"what", "labels", "units", "bodies"});
+    const fs::path output = output_file(given["output"].as<std::string>(), given.contains("force"));
+    std::optional<UnitNames> units;
+    if (given.contains("units")) units = units_named("plot: --units", given["units"].as<std::string>());
+    std::vector<Recording> runs;
+    for (const std::string& folder : folders) {
+        runs.push_back(read_recording(folder, std::numeric_limits<std::size_t>::max(), 1));
+        report_recording(messages, runs.back());
+    }
+    Words labels = given.contains("labels") ? given["labels"].as<Words>()
+                   : runs.size() > 1        ? distinct_names(runs)
+                                            : Words{""};
+    if (labels.size() != runs.size())
+        throw InputError(fmt::format("plot: --labels: found {}, expected {}, one per run",
+                                     counted(labels.size(), "name"), runs.size()));
+    std::vector<PlottedDeck> decks;
+    for (std::size_t k = 0; k < runs.size(); ++k)
+        decks.push_back({&runs[k], labels[k], drawn_bodies(given, runs[k], messages)});
+    const Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
+    const std::vector<DeckWord> words = words_of_decks(what, decks);
+    if (given.contains("bodies") && std::ranges::all_of(words, [](DeckWord word) { return word == DeckWord::energy; }))
+        throw without_effect("plot", "--bodies", "--what energy");
+    std::vector<Panel> panels;
+    for (const DeckWord word : words) {
+        const std::vector<Panel> added = deck_panels(word, decks, units, std::ranges::find(what, "all") == what.end());
+        panels.insert(panels.end(), added.begin(), added.end());
+    }
+    replace_file(output, figure(panels, look.title, look.width, look.format, look.sheet));
+    if (!messages.quiet()) print_text(output.string() + '\n');
+}
+
 /// Draws all diagrams of a campaign, below each other. @return exit code
 int plot_campaign(const po::variables_map& given, const fs::path& folder, const Look& look, Messages& messages) {
     expect_options(given, "a campaign's folder", {"what", "figure", "test", "measured"});
@@ -321,12 +406,6 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
 }
 
 }  // namespace
-
-void expect_options(const po::variables_map& given, const std::string& input, Words used) {
-    used.insert(used.end(), {"output", "force"});
-    used.insert(used.end(), figure_options().begin(), figure_options().end());
-    refuse_unused("crackle plot", given, input, used);
-}
 
 CommandLine describe_plot() {
     po::options_description options;

@@ -2,13 +2,16 @@
 #include "tools/plot/deck_panels.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <ranges>
 #include <utility>
 
+#include "solver/base/errors.hpp"
 #include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
 #include "tools/plot/plotted_curves.hpp"
@@ -244,6 +247,47 @@ std::vector<DeckWord> words_worth_drawing(const std::vector<PlottedDeck>& decks)
     if (all_have(DeckWord::velocity) && std::ranges::any_of(decks, moves)) words.push_back(DeckWord::velocity);
     if (all_have(DeckWord::curve) && std::ranges::any_of(decks, is_driven)) words.push_back(DeckWord::curve);
     return words;
+}
+
+std::vector<DeckWord> words_of_decks(const std::vector<std::string>& what, const std::vector<PlottedDeck>& decks) {
+    std::vector<DeckWord> words;
+    for (const std::string& word : what) {
+        if (word == "all") {
+            words = words_worth_drawing(decks);
+            break;
+        }
+        const std::optional<DeckWord> found = from_name<DeckWord>(word);
+        if (!found)
+            throw InputError(fmt::format("plot: --what: found '{}', expected {} or all for the run of a deck", word,
+                                         fmt::join(crackle::names_of<DeckWord>(), ", ")));
+        words.push_back(*found);
+    }
+    for (const DeckWord word : words) {
+        for (const PlottedDeck& deck : decks) {
+            if (has_rows(*deck.recording, word)) continue;
+            const char* file = word == DeckWord::energy     ? "energy.dat"
+                               : word == DeckWord::velocity ? "velocity_y.dat"
+                                                            : "f-d_curve.dat";
+            throw InputError(fmt::format("plot: {}: found no rows in {}, expected {}", deck.recording->name, file,
+                                         word == DeckWord::energy || word == DeckWord::velocity
+                                             ? "those of a run of at least one step"
+                                             : "those of bodies that in_bc.dat lists (npfd)"));
+        }
+    }
+    if (words.empty())
+        throw InputError(
+            fmt::format("plot: {}: found no changing values, expected rows in energy.dat, f-d_curve.dat "
+                        "or velocity_y.dat",
+                        decks.front().recording->name));
+    return words;
+}
+
+std::vector<int> watched_bodies(const Recording& deck) {
+    std::vector<int> all;
+    const auto id = [](const auto& curve) { return curve.id; };
+    std::ranges::transform(deck.curves.bodies, std::back_inserter(all), id);
+    if (all.empty()) std::ranges::transform(deck.curves.velocities, std::back_inserter(all), id);
+    return all;
 }
 
 std::vector<Panel> deck_panels(DeckWord word, const std::vector<PlottedDeck>& decks,

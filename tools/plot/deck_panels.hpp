@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/names.hpp"
 #include "specimens/recordings/recording.hpp"
 #include "specimens/recordings/unit_names.hpp"
 #include "tools/plot/panels.hpp"
@@ -23,6 +24,9 @@ struct PlottedDeck {
 
 /// Values of --what for decks, except `all`.
 enum class DeckWord { energy, displacement, height, velocity, force, curve };
+constexpr auto list_names(DeckWord) {
+    return in_order("energy", "displacement", "height", "velocity", "force", "curve");
+}
 
 /// Whether the run has data for this value.
 bool has_rows(const Recording& deck, DeckWord word);
@@ -30,6 +34,12 @@ bool has_rows(const Recording& deck, DeckWord word);
 /// Values that give a useful diagram: energies; displacements and velocities that are not all 0; forces against
 /// displacements if driven bodies did work.
 std::vector<DeckWord> words_worth_drawing(const std::vector<PlottedDeck>& decks);
+
+/// The parts selected by --what; `all` means everything that is worth drawing. @throws InputError
+std::vector<DeckWord> words_of_decks(const std::vector<std::string>& what, const std::vector<PlottedDeck>& decks);
+
+/// Ids of the bodies for which a run has curves.
+std::vector<int> watched_bodies(const Recording& deck);
 
 /// Panels for one value of --what. Energies have one panel per run; forces and displacements have one per direction,
 /// each with the curves of all runs.
