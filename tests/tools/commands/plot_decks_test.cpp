@@ -117,7 +117,7 @@ TEST_F(PlotDecks, RefusesWhatARunHasNot) {
     expect_refused("wave pulled -o figure.pdf",
                    "found the run of a deck and pulled, expected either runs of decks or tests");
     expect_refused("wave -o figure.pdf --what strain",
-                   "--what: found 'strain', expected curve, displacement, energy, force, height, velocity or all "
+                   "--what: found 'strain', expected energy, displacement, height, velocity, force, curve or all "
                    "for the run of a deck");
     expect_refused("wave -o figure.pdf --bodies 12",
                    "--bodies: found 12, expected a body for which the run of wave wrote rows: 11, 13, 15, 17");
