@@ -49,7 +49,7 @@ FileOptions file_options(const VirtualTest& test) {
     return {.precision = output.frame_precision,
             .slips = output.slips,
             .pressed = test.description.pressed(),
-            .jointed = !test.setup.traces.empty()};
+            .jointed = !test.setup.bonds.traces.empty()};
 }
 
 /// Sets the number of threads: at most as many as are requested and worthwhile.
@@ -117,7 +117,7 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
         load_specimen(test, hooks, &files);
     } catch (const UnstableRun& error) {
         test.state.ended_by = ended_by_instability;
-        test.setup.notices.push_back(error.what());
+        test.setup.origin.notices.push_back(error.what());
         files.flush();
         write_peak();
         write_summary();
@@ -289,7 +289,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     // The summary of the interrupted test is removed, because curve and frames continue beyond it.
     fs::remove(folder.path() / "summary.json", error);
     hooks.report_stage(fmt::format("resumed at step {}, axial strain {:.4g}", test.world.stepping.steps,
-                                   test.setup.axial_strain(test.world)));
+                                   test.setup.apparatus.axial_strain(test.world)));
     return naming_the_fate(folder, [&] {
         TestFiles files(folder, checkpoint.case_hash, test.state, file_options(test));
         return run_with_files(test, options, hooks, folder, files);

@@ -73,18 +73,18 @@ void TestFiles::add_frame(const CurveRow& row, std::int64_t row_index, const Tes
                           const World& world) {
     if (!list_frame({row_index, row.axial_strain, row.time}, setup, state, world)) return;
     Frame frame;
-    take_frame(world, setup, state.history, row, row_index, frame);
+    take_frame(world, setup.bonds, state.history, row, row_index, frame);
     draw(std::move(frame), setup, state, world);
 }
 
 void TestFiles::keep_peak(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,
                           const World& world) {
     if (world.bodies.size() < options_.large_frame) {
-        take_frame(world, setup, state.history, row, row_index, state.peak_frame);
+        take_frame(world, setup.bonds, state.history, row, row_index, state.peak_frame);
         return;
     }
     if (!peak_on_disc_) peak_on_disc_.emplace(folder_.path());
-    take_frame(world, setup, state.history, row, row_index, *peak_on_disc_);
+    take_frame(world, setup.bonds, state.history, row, row_index, *peak_on_disc_);
 }
 
 void TestFiles::add_peak(const TestSetup& setup, TestState& state, const World& world) {

@@ -52,7 +52,7 @@ struct TestState {
     LoadingPath path;
     std::int64_t breaks_in_shear = 0, breaks_in_tension = 0, breaks_after_sliding = 0;
     std::int64_t breaks_in_shear_to_peak = 0, breaks_in_tension_to_peak = 0;
-    std::vector<FacePlaces> faces_at_peak;  ///< for TestSetup::trace_faces, at the current peak
+    std::vector<FacePlaces> faces_at_peak;  ///< for BondRecord::trace_faces, at the current peak
     std::string ended_by;                   ///< empty while the test runs
 
     // Moduli of the specimen with all bonds intact and without sliding (linear solution); NaN if there is no solution.

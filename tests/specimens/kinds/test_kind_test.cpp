@@ -102,7 +102,8 @@ TEST(TestKinds, SupportsOfABeamCarryHalfTheLoadEachAndNoThrust) {
     EXPECT_TRUE(within("right support over the load", -reaction[1].y / load, 0.5, 1e-3));
     for (const BodyMotion& one : reaction) EXPECT_TRUE(within("thrust over the load", one.x / load, 0.0, 1e-6));
     for (const BodyMotion& one : reaction)
-        EXPECT_TRUE(within("moment over load and depth", one.rotation / (load * test.setup.height), 0.0, 1e-6));
+        EXPECT_TRUE(
+            within("moment over load and depth", one.rotation / (load * test.setup.specimen.height), 0.0, 1e-6));
 }
 
 TEST(TestKinds, BadInputOfAKindIsRefusedByName) {
