@@ -21,8 +21,8 @@
 #include <vector>
 
 #include "solver/scene/scene.hpp"
-#include "specimens/case/test_case.hpp"
 #include "specimens/case/kinds/test_kind.hpp"
+#include "specimens/case/test_case.hpp"
 
 namespace crackle {
 

@@ -13,7 +13,9 @@
 #include "solver/measure/ledger.hpp"
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/emission/acoustic_event.hpp"
 #include "specimens/loading/expected_run.hpp"
+#include "specimens/observers/events.hpp"
 #include "specimens/results/files.hpp"
 #include "specimens/setup/lateral_control.hpp"
 #include "specimens/setup/unloading.hpp"
@@ -162,7 +164,8 @@ class LoadingLoop {
         if (world_.bonds.slips.empty()) return;
         const PhaseTimer timer(world_.workers.profile, Phase::observe);
         if (files_ != nullptr)
-            for (const SlipEvent& event : world_.bonds.slips) files_->add_slip(event, strain_);
+            for (const SlipEvent& event : world_.bonds.slips)
+                files_->add(ResultTable::slips, slip_line(event, strain_));
         world_.bonds.slips.clear();
     }
 
@@ -196,7 +199,7 @@ class LoadingLoop {
         if (files_ == nullptr) return;
         const std::vector<AcousticEvent>& events = state_.emission.events;
         for (std::size_t k = events.size() - count; k < events.size(); ++k)
-            files_->add_emission(events[k], state_.emission.rule.thickness);
+            files_->add(ResultTable::ae, acoustic_line(events[k], state_.emission.rule.thickness));
     }
 
     void record_row(bool at_end) {

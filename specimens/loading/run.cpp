@@ -45,9 +45,8 @@ std::ifstream open_file(const fs::path& path) {
 }
 
 FileOptions file_options(const VirtualTest& test) {
-    const TestCase::Output& output = test.description.output;
-    return {.precision = output.frame_precision,
-            .slips = output.slips,
+    return {.output = test.description.output,
+            .emission = test.state.emission.rule.on(),
             .pressed = test.description.pressed(),
             .jointed = !test.setup.bonds.traces.empty()};
 }
@@ -196,10 +195,7 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
     const auto write_summary = [&] {
         outcome.summary =
             make_summary(test.description, test.setup, test.state, test.world, timing, errors ? &*errors : nullptr);
-        FileMarks files{{"curve.csv", test.state.curve}, {"events.csv", test.state.events}};
-        if (test.description.output.slips) files.emplace_back("slips.csv", test.state.slips);
-        if (test.state.emission.rule.on()) files.emplace_back("ae.csv", test.state.ae);
-        crackle::write_summary(folder, outcome.summary, std::move(files));
+        crackle::write_summary(folder, outcome.summary, named_marks(tables_of(file_options(test)), test.state.tables));
     };
     write_summary();
     if (options.verify) {
