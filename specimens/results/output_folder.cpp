@@ -33,24 +33,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* frames_folder = "frames";
+
 /// The files in the order in which staged results replace the old ones. The summary comes last, because other programs
 /// check for it.
 std::vector<ResultFile> files_of_a_test() {
     std::vector<ResultFile> files{
         {"case.toml",
          "the case with all values written out, including defaults, the hashes of its inputs, and a comment on each "
-         "key "
-         "(`crackle test --keys` lists all keys); it can be run again"},
+         "key (`crackle test --keys` lists all keys); it can be run again"},
         {circles_file,
          "circles as packed or read, with the walls between which they were packed, in the layout of DEMseg's "
-         "in_gm.dat "
-         "(solver/demseg/FORMATS.md); the damping is in case.toml. Absent if polygons were read from a file"},
+         "in_gm.dat (solver/demseg/FORMATS.md); the damping is in case.toml. Absent if polygons were read from a file"},
         {polygons_file, "polygons as meshed or read, in the same layout; absent for circles"}};
     for (std::size_t k = 0; k < result_tables; ++k) {
         const auto table = static_cast<ResultTable>(k);
         files.push_back({name_of(table), facts_of(table).holds});
     }
-    files.push_back({"frames",
+    files.push_back({frames_folder,
                      "folder of frames for ParaView, including those at the start, at the peak and at the end; open "
                      "`frames/frames.pvd`"});
     files.push_back(
@@ -162,13 +162,14 @@ void move_staged(const fs::path& working, const fs::path& target, const std::set
     // As long as the first file is still here, nothing has been moved, so extra files in `target` belong to the old
     // results.
     if (is_there(working / result_files().front().name)) {
-        for (const char* name : {circles_file, polygons_file})
-            if (!is_there(working / name)) remove_or_throw(target / name);
+        for (const ResultFile& file : result_files())
+            if (file.name != std::string(frames_folder) && !is_there(working / file.name))
+                remove_or_throw(target / file.name);
     }
     for (const ResultFile& file : result_files()) {
         const std::string name = file.name;
         if (!is_there(working / name)) continue;
-        if (name == "frames") {
+        if (name == frames_folder) {
             replace_frames(working / name, target / name, names);
         } else {
             rename_or_throw(working / name, target / name);
