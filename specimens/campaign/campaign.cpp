@@ -6,28 +6,25 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "solver/base/errors.hpp"
 #include "solver/base/system_failure.hpp"
-#include "solver/files/file_stream.hpp"
 #include "solver/files/folder_lock.hpp"
 #include "solver/files/new_file.hpp"
 #include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/campaign/crew.hpp"
+#include "specimens/campaign/tasks.hpp"
 #include "specimens/making/specimen.hpp"
 
 namespace crackle {
@@ -86,127 +83,6 @@ RowResult unpacked(const Json& json) {
     r.summary_sha256 = json.at("summary_sha256");
     return r;
 }
-
-/// A test to be run, for all rows of the plan with the same identity.
-struct Task {
-    std::size_t row;  // row of the plan; one with Variant::as_asked if there is one
-    std::string identity;
-    std::size_t group;
-    bool reads_files = false;  // whether the case names further files
-};
-
-struct Tasks {
-    std::vector<std::string> identities;  // identity of each row of the plan
-    std::vector<Task> tasks;              // tasks of this shard
-    std::vector<std::string> groups;      // identity of each group's packing; empty if the group needs no packing
-};
-
-Tasks tasks_of(const Plan& plan, const Shard& shard, const std::function<bool()>& interrupted) {
-    Tasks all;
-    FileHashes files;
-    std::map<std::string, std::size_t> groups, seen;
-    std::vector<Task> tasks;
-    for (std::size_t k = 0; k < plan.rows.size(); ++k) {
-        if (interrupted && k % 100 == 0 && interrupted()) throw TestInterrupted();
-        const TestCase test = plan.test_of(plan.rows[k]);
-        all.identities.push_back(identity_of(test, files));
-        const auto [known, is_new] = seen.emplace(all.identities.back(), tasks.size());
-        if (!is_new) {
-            if (plan.rows[k].variant == Variant::as_asked) tasks[known->second].row = k;
-            continue;
-        }
-        const bool packs = test.has_table("packing");
-        // A test without a packing forms a group of its own.
-        const std::string group = packs ? packing_identity(test, files) : all.identities.back();
-        const auto [at, added] = groups.emplace(group, groups.size());
-        if (added) all.groups.push_back(packs ? group : "");
-        tasks.push_back({k, all.identities.back(), at->second, files_read(test).size() > test.inputs.size()});
-    }
-    // Whole packings are dealt out if there are enough of them, otherwise single tests.
-    const auto shares = static_cast<std::size_t>(shard.whole() ? 1 : shard.of);
-    const auto own = static_cast<std::size_t>(shard.whole() ? 0 : shard.number - 1);
-    const bool by_group = all.groups.size() >= shares;
-    for (std::size_t k = 0; k < tasks.size(); ++k)
-        if ((by_group ? tasks[k].group : k) % shares == own) all.tasks.push_back(tasks[k]);
-    return all;
-}
-
-/// Chooses the next piece of work. Numbers below the number of tasks are tests; higher ones stand for making the
-/// packing of a group.
-class Queue {
-  public:
-    /// @param open  tasks to be run
-    Queue(const Tasks& tasks, const std::vector<std::size_t>& open, const fs::path& packings)
-        : tasks_(tasks), groups_(tasks.groups.size()) {
-        for (const std::size_t task : open) {
-            const std::size_t group = tasks.tasks[task].group;
-            if (groups_[group].left.empty()) order_.push_back(group);
-            groups_[group].left.push_back(task);
-        }
-        for (const std::size_t group : order_) {
-            std::vector<std::size_t>& left = groups_[group].left;
-            std::reverse(left.begin(), left.end());
-            const std::string& packing = tasks.groups[group];
-            // A packing used by a single test is made by that test.
-            groups_[group].first = left.back();
-            groups_[group].made = packing.empty() || left.size() == 1 || is_file(packings / (packing + ".json"));
-        }
-    }
-
-    bool is_packing(std::size_t piece) const { return piece >= tasks_.tasks.size(); }
-    /// A task whose case describes the packing of `piece`.
-    std::size_t task_of_packing(std::size_t piece) const { return groups_[group_of(piece)].first; }
-
-    /// Next test for a worker. It prefers a test with the packing that the worker has in memory, then one with a
-    /// packing that no worker has begun, then any test.
-    std::optional<std::size_t> next(std::optional<std::size_t> before) {
-        if (before && can_give(group_of(*before))) return take(group_of(*before));
-        while (first_ < order_.size() && groups_[order_[first_]].left.empty()) ++first_;
-        std::optional<std::size_t> shared;
-        for (std::size_t k = first_; k < order_.size(); ++k) {
-            if (!can_give(order_[k])) continue;
-            if (!groups_[order_[k]].begun) return take(order_[k]);
-            if (!shared) shared = order_[k];
-        }
-        return shared ? std::optional(take(*shared)) : std::nullopt;
-    }
-    void packing_ended(std::size_t piece) {
-        groups_[group_of(piece)].made = true;
-        groups_[group_of(piece)].making = false;
-    }
-    void again(std::size_t task) {
-        groups_[group_of(task)].left.push_back(task);
-        first_ = 0;  // the test's group may precede those already begun
-    }
-
-  private:
-    struct Group {
-        std::vector<std::size_t> left;  // remaining tasks; the last one is taken next
-        std::size_t first = 0;
-        bool begun = false, made = false, making = false;
-    };
-
-    std::size_t group_of(std::size_t piece) const {
-        return is_packing(piece) ? piece - tasks_.tasks.size() : tasks_.tasks[piece].group;
-    }
-    bool can_give(std::size_t group) const { return !groups_[group].left.empty() && !groups_[group].making; }
-    std::size_t take(std::size_t number) {
-        Group& group = groups_[number];
-        group.begun = true;
-        if (!group.made) {
-            group.making = true;
-            return tasks_.tasks.size() + number;
-        }
-        const std::size_t task = group.left.back();
-        group.left.pop_back();
-        return task;
-    }
-
-    const Tasks& tasks_;
-    std::vector<Group> groups_;
-    std::vector<std::size_t> order_;  // groups in the order in which they are begun
-    std::size_t first_ = 0;           // first position in order_ whose group has tasks left
-};
 
 /// Processes one piece in a worker. The answer is a result in CBOR, or the reason why the whole campaign must stop.
 class RowWorker {
@@ -384,7 +260,7 @@ CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, c
     progress.left = static_cast<std::int64_t>(open.size());
     progress.tests_per_second = progress.seconds_left = std::numeric_limits<double>::quiet_NaN();
 
-    Queue queue(tasks, open, options.folder / "packings");
+    TaskQueue queue(tasks, open, options.folder / "packings");
     RowWorker worker(plan, options);
     const std::string host = host_name();
     std::map<std::pair<std::size_t, int>, int> killed;  // number of kills, by piece and signal
