@@ -209,126 +209,183 @@ fs::path ledger_file(const fs::path& folder, const Shard& shard) {
     return folder / "shards" / fmt::format("{}.sqlite", shard.number);
 }
 
-CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, const CampaignHooks& hooks) {
-    const Clock::time_point begun = Clock::now();
-    check_campaign_folder(options.folder, plan);
-    const fs::path file = ledger_file(options.folder, options.shard);
-    // Each shard has its own folder, which is locked.
-    const fs::path held =
-        options.shard.whole() ? options.folder : options.folder / "shards" / fmt::format("{}", options.shard.number);
-    make_folder(held);
-    const FolderLock lock(held);
-    const Tasks tasks = tasks_of(plan, options.shard, hooks.interrupted);
-    refuse_no_plain_file(file);
-    CampaignLedger ledger = CampaignLedger::open(file, options.shard.whole() ? Journal::beside : Journal::within);
-    ledger.set_plan(plan, tasks.identities);
-    const auto say = [&](const std::string& text) {
-        if (hooks.told) hooks.told(text);
-    };
-    for (const std::string& damaged : ledger.drop_damaged())
-        say(fmt::format("{}: {}: found other values than were recorded; the test is run again", file.string(),
-                        damaged));
+namespace {
 
-    CampaignOutcome outcome;
-    outcome.ledger = file;
-    CampaignProgress& progress = outcome.progress;
-    std::map<std::string, std::string> ended = ledger.ended();
-    std::map<std::string, KeptHashes> hashes = ledger.kept_hashes();
-    if (!options.shard.whole() && is_file(ledger_file(options.folder))) {
-        // Tests need not be run again if they were gathered, or run here before.
-        const CampaignLedger gathered = CampaignLedger::read(ledger_file(options.folder));
-        hashes.merge(gathered.kept_hashes());
-        for (const auto& [identity, state] : gathered.ended())
-            if (state == row_done) ended[identity] = state;
-    }
-    const KeptTests kept(options.folder, std::move(hashes));
-    std::vector<std::size_t> open;
-    for (std::size_t k = 0; k < tasks.tasks.size(); ++k) {
-        const std::string& identity = tasks.tasks[k].identity;
-        const auto at = ended.find(identity);
-        const bool ran = at != ended.end() && at->second == row_done;
-        const bool asked = plan.rows[tasks.tasks[k].row].variant == Variant::as_asked;
-        const std::string fault = ran && asked ? kept.fault_of(identity, plan.keep) : "";
-        if (!fault.empty() && kept.name(identity)) say(fault);
-        const bool done = ran && fault.empty();
-        const bool wrong = at != ended.end() && kind_of_row(at->second) == RowKind::verdict && !options.retry;
-        progress.done += done ? 1 : 0;
-        progress.gone_wrong += wrong ? 1 : 0;
-        if (!done && !wrong) open.push_back(k);
-    }
-    progress.tests = static_cast<std::int64_t>(tasks.tasks.size());
-    progress.left = static_cast<std::int64_t>(open.size());
-    progress.tests_per_second = progress.seconds_left = std::numeric_limits<double>::quiet_NaN();
+/// The folder that a run locks; each shard has its own.
+fs::path folder_to_lock(const CampaignOptions& options) {
+    return options.shard.whole() ? options.folder : options.folder / "shards" / fmt::format("{}", options.shard.number);
+}
 
-    TaskQueue queue(tasks, open, options.folder / "packings");
-    RowWorker worker(plan, options);
-    const std::string host = host_name();
-    std::map<std::pair<std::size_t, int>, int> killed;  // number of kills, by piece and signal
-    std::string stop, stop_by_system;
-    std::int64_t failures_in_a_row = 0;
-    const int workers = static_cast<int>(std::clamp<std::int64_t>(progress.left, 1, options.workers));
-    const Clock::time_point loading = Clock::now();
-    const auto told = [&](std::size_t task, const RowResult& result) {
-        const PlanRow& row = plan.rows[tasks.tasks[task].row];
-        std::string at;
-        for (const CaseSetting& setting : plan.points[row.point].settings)
-            at += fmt::format(", {} = {}", setting.key, value_text(setting.value));
-        return fmt::format("{}{}, seed {}: {}: {}", plan.kind_of(row).name, at, row.seed, result.state, result.message);
-    };
-    const auto take = [&](std::size_t task, const RowResult& result) {
-        ledger.record(result, host);
-        ++outcome.run;
-        outcome.processor_seconds += result.processor_seconds;
-        --progress.left;
-        const RowKind kind = kind_of_row(result.state);
-        ++(kind == RowKind::result ? progress.done : progress.gone_wrong);
-        progress.failures += kind == RowKind::failure ? 1 : 0;
-        if (kind == RowKind::failure) outcome.failure = told(task, result);
-        failures_in_a_row = kind == RowKind::failure ? failures_in_a_row + 1 : 0;
-        if (failures_in_a_row >= workers + most_failures_in_a_row)
-            stop_by_system = fmt::format("{} tests one after the other failed by the system, the last one: {}",
-                                         failures_in_a_row, result.message);
-        const double seconds = std::chrono::duration<double>(Clock::now() - loading).count();
-        progress.tests_per_second = static_cast<double>(outcome.run) / seconds;
-        progress.seconds_left = static_cast<double>(progress.left) / progress.tests_per_second;
-        if (kind != RowKind::result) say(told(task, result));
-        if (hooks.progress) hooks.progress(progress);
-    };
-    CrewWork crew;
-    crew.time_limit = plan.time_limit;
-    crew.work = [&](std::size_t piece) {
-        if (queue.is_packing(piece)) return worker.packing(tasks.tasks[queue.task_of_packing(piece)]);
-        return worker.test(tasks.tasks[piece]);
-    };
-    crew.next = [&](std::optional<std::size_t> before) { return queue.next(before); };
-    crew.ended = [&](std::size_t piece, const PieceEnd& end) {
+/// A call of run_campaign(): the ledger, what is still to be run, and what workers answer.
+class CampaignRun {
+  public:
+    /// Opens the ledger and finds the tests of the plan. Requires a locked folder.
+    CampaignRun(const Plan& plan, const CampaignOptions& options, const CampaignHooks& hooks)
+        : plan_(plan),
+          options_(options),
+          hooks_(hooks),
+          tasks_(tasks_of(plan, options.shard, hooks.interrupted)),
+          file_(ledger_file(options.folder, options.shard)),
+          ledger_(opened(file_, options.shard)) {
+        outcome_.ledger = file_;
+    }
+
+    CampaignOutcome run() {
+        ledger_.set_plan(plan_, tasks_.identities);
+        for (const std::string& damaged : ledger_.drop_damaged())
+            say(fmt::format("{}: {}: found other values than were recorded; the test is run again", file_.string(),
+                            damaged));
+        const std::vector<std::size_t> open = open_tasks();
+        CampaignProgress& progress = outcome_.progress;
+        progress.tests = static_cast<std::int64_t>(tasks_.tasks.size());
+        progress.left = static_cast<std::int64_t>(open.size());
+        progress.tests_per_second = progress.seconds_left = std::numeric_limits<double>::quiet_NaN();
+        workers_ = static_cast<int>(std::clamp<std::int64_t>(progress.left, 1, options_.workers));
+        TaskQueue queue(tasks_, open, options_.folder / "packings");
+        RowWorker worker(plan_, options_);
+        loading_ = Clock::now();
+        if (hooks_.progress) hooks_.progress(progress);
+        if (!open.empty()) outcome_.interrupted = !run_crew(workers_, crew(queue, worker)) && stop_by_system_.empty();
+        refuse_unfinished();
+        outcome_.wall_seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+        return outcome_;
+    }
+
+  private:
+    static CampaignLedger opened(const fs::path& file, const Shard& shard) {
+        refuse_no_plain_file(file);
+        return CampaignLedger::open(file, shard.whole() ? Journal::beside : Journal::within);
+    }
+
+    void say(const std::string& text) const {
+        if (hooks_.told) hooks_.told(text);
+    }
+
+    /// The tests to be run. The others are counted as done or gone wrong.
+    std::vector<std::size_t> open_tasks() {
+        std::map<std::string, std::string> ended = ledger_.ended();
+        std::map<std::string, KeptHashes> hashes = ledger_.kept_hashes();
+        if (!options_.shard.whole() && is_file(ledger_file(options_.folder))) {
+            // Tests need not be run again if they were gathered, or run here before.
+            const CampaignLedger gathered = CampaignLedger::read(ledger_file(options_.folder));
+            hashes.merge(gathered.kept_hashes());
+            for (const auto& [identity, state] : gathered.ended())
+                if (state == row_done) ended[identity] = state;
+        }
+        const KeptTests kept(options_.folder, std::move(hashes));
+        std::vector<std::size_t> open;
+        for (std::size_t k = 0; k < tasks_.tasks.size(); ++k) {
+            const std::string& identity = tasks_.tasks[k].identity;
+            const auto at = ended.find(identity);
+            const bool ran = at != ended.end() && at->second == row_done;
+            const bool asked = plan_.rows[tasks_.tasks[k].row].variant == Variant::as_asked;
+            const std::string fault = ran && asked ? kept.fault_of(identity, plan_.keep) : "";
+            if (!fault.empty() && kept.name(identity)) say(fault);
+            const bool done = ran && fault.empty();
+            const bool wrong = at != ended.end() && kind_of_row(at->second) == RowKind::verdict && !options_.retry;
+            outcome_.progress.done += done ? 1 : 0;
+            outcome_.progress.gone_wrong += wrong ? 1 : 0;
+            if (!done && !wrong) open.push_back(k);
+        }
+        return open;
+    }
+
+    CrewWork crew(TaskQueue& queue, RowWorker& worker) {
+        CrewWork crew;
+        crew.time_limit = plan_.time_limit;
+        crew.work = [&](std::size_t piece) {
+            if (queue.is_packing(piece)) return worker.packing(tasks_.tasks[queue.task_of_packing(piece)]);
+            return worker.test(tasks_.tasks[piece]);
+        };
+        crew.next = [&](std::optional<std::size_t> before) { return queue.next(before); };
+        crew.ended = [&](std::size_t piece, const PieceEnd& end) { take_end(queue, piece, end); };
+        crew.interrupted = [&] {
+            return !stop_.empty() || !stop_by_system_.empty() || (hooks_.interrupted && hooks_.interrupted());
+        };
+        return crew;
+    }
+
+    void take_end(TaskQueue& queue, std::size_t piece, const PieceEnd& end) {
         if (end.how == PieceEnd::How::answered) {
             const Json json = end.answer.empty() ? Json::object() : Json::from_cbor(end.answer);
             if (json.contains("stop")) {
-                stop = json["stop"];
+                stop_ = json["stop"];
                 return;
             }
             if (!queue.is_packing(piece)) take(piece, unpacked(json));
         } else if (!queue.is_packing(piece)) {
-            if (end.how == PieceEnd::How::killed && ++killed[{piece, end.code}] < most_tries(end.code))
+            if (end.how == PieceEnd::How::killed && ++killed_[{piece, end.code}] < most_tries(end.code))
                 queue.again(piece);
             else
-                take(piece, result_of(tasks.tasks[piece].identity, end, plan.time_limit));
+                take(piece, result_of(tasks_.tasks[piece].identity, end, plan_.time_limit));
         }
         if (queue.is_packing(piece)) queue.packing_ended(piece);
-    };
-    crew.interrupted = [&] {
-        return !stop.empty() || !stop_by_system.empty() || (hooks.interrupted && hooks.interrupted());
-    };
-    if (hooks.progress) hooks.progress(progress);
-    if (!open.empty()) outcome.interrupted = !run_crew(workers, crew) && stop_by_system.empty();
-    if (!stop.empty()) throw OutputError(stop + "; the same command resumes");
-    if (!stop_by_system.empty() && progress.left > 0)
-        throw SystemFailure(stop_by_system + "; the same command resumes");
-    if (!outcome.interrupted && progress.left > 0)
-        throw std::logic_error(fmt::format("campaign: {} tests were never given to a worker", progress.left));
-    outcome.wall_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-    return outcome;
+    }
+
+    /// Records the result of a test.
+    void take(std::size_t task, const RowResult& result) {
+        CampaignProgress& progress = outcome_.progress;
+        ledger_.record(result, host_);
+        ++outcome_.run;
+        outcome_.processor_seconds += result.processor_seconds;
+        --progress.left;
+        const RowKind kind = kind_of_row(result.state);
+        ++(kind == RowKind::result ? progress.done : progress.gone_wrong);
+        progress.failures += kind == RowKind::failure ? 1 : 0;
+        if (kind == RowKind::failure) outcome_.failure = told(task, result);
+        failures_in_a_row_ = kind == RowKind::failure ? failures_in_a_row_ + 1 : 0;
+        if (failures_in_a_row_ >= workers_ + most_failures_in_a_row)
+            stop_by_system_ = fmt::format("{} tests one after the other failed by the system, the last one: {}",
+                                          failures_in_a_row_, result.message);
+        const double seconds = std::chrono::duration<double>(Clock::now() - loading_).count();
+        progress.tests_per_second = static_cast<double>(outcome_.run) / seconds;
+        progress.seconds_left = static_cast<double>(progress.left) / progress.tests_per_second;
+        if (kind != RowKind::result) say(told(task, result));
+        if (hooks_.progress) hooks_.progress(progress);
+    }
+
+    /// A sentence about a test without results.
+    std::string told(std::size_t task, const RowResult& result) const {
+        const PlanRow& row = plan_.rows[tasks_.tasks[task].row];
+        std::string at;
+        for (const CaseSetting& setting : plan_.points[row.point].settings)
+            at += fmt::format(", {} = {}", setting.key, value_text(setting.value));
+        return fmt::format("{}{}, seed {}: {}: {}", plan_.kind_of(row).name, at, row.seed, result.state,
+                           result.message);
+    }
+
+    void refuse_unfinished() const {
+        if (!stop_.empty()) throw OutputError(stop_ + "; the same command resumes");
+        const std::int64_t left = outcome_.progress.left;
+        if (!stop_by_system_.empty() && left > 0) throw SystemFailure(stop_by_system_ + "; the same command resumes");
+        if (!outcome_.interrupted && left > 0)
+            throw std::logic_error(fmt::format("campaign: {} tests were never given to a worker", left));
+    }
+
+    const Plan& plan_;
+    const CampaignOptions& options_;
+    const CampaignHooks& hooks_;
+    const Clock::time_point begun_ = Clock::now();
+    Tasks tasks_;
+    fs::path file_;
+    CampaignLedger ledger_;
+    CampaignOutcome outcome_;
+    std::string host_ = host_name();
+    Clock::time_point loading_;
+    std::map<std::pair<std::size_t, int>, int> killed_;  // number of kills, by piece and signal
+    std::string stop_, stop_by_system_;                  // why the campaign stops
+    std::int64_t failures_in_a_row_ = 0;
+    int workers_ = 1;
+};
+
+}  // namespace
+
+CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, const CampaignHooks& hooks) {
+    check_campaign_folder(options.folder, plan);
+    const fs::path held = folder_to_lock(options);
+    make_folder(held);
+    const FolderLock lock(held);
+    return CampaignRun(plan, options, hooks).run();
 }
 
 Gathered gather_shards(const fs::path& folder) {
