@@ -6,28 +6,25 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "solver/base/errors.hpp"
 #include "solver/base/system_failure.hpp"
-#include "solver/files/file_stream.hpp"
 #include "solver/files/folder_lock.hpp"
 #include "solver/files/new_file.hpp"
 #include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/campaign/crew.hpp"
+#include "specimens/campaign/tasks.hpp"
 #include "specimens/making/specimen.hpp"
 
 namespace crackle {
@@ -86,127 +83,6 @@ RowResult unpacked(const Json& json) {
     r.summary_sha256 = json.at("summary_sha256");
     return r;
 }
-
-/// A test to be run, for all rows of the plan with the same identity.
-struct Task {
-    std::size_t row;  // row of the plan; one with Variant::as_asked if there is one
-    std::string identity;
-    std::size_t group;
-    bool reads_files = false;  // whether the case names further files
-};
-
-struct Tasks {
-    std::vector<std::string> identities;  // identity of each row of the plan
-    std::vector<Task> tasks;              // tasks of this shard
-    std::vector<std::string> groups;      // identity of each group's packing; empty if the group needs no packing
-};
-
-Tasks tasks_of(const Plan& plan, const Shard& shard, const std::function<bool()>& interrupted) {
-    Tasks all;
-    FileHashes files;
-    std::map<std::string, std::size_t> groups, seen;
-    std::vector<Task> tasks;
-    for (std::size_t k = 0; k < plan.rows.size(); ++k) {
-        if (interrupted && k % 100 == 0 && interrupted()) throw TestInterrupted();
-        const TestCase test = plan.test_of(plan.rows[k]);
-        all.identities.push_back(identity_of(test, files));
-        const auto [known, is_new] = seen.emplace(all.identities.back(), tasks.size());
-        if (!is_new) {
-            if (plan.rows[k].variant == Variant::as_asked) tasks[known->second].row = k;
-            continue;
-        }
-        const bool packs = test.has_table("packing");
-        // A test without a packing forms a group of its own.
-        const std::string group = packs ? packing_identity(test, files) : all.identities.back();
-        const auto [at, added] = groups.emplace(group, groups.size());
-        if (added) all.groups.push_back(packs ? group : "");
-        tasks.push_back({k, all.identities.back(), at->second, files_read(test).size() > test.inputs.size()});
-    }
-    // Whole packings are dealt out if there are enough of them, otherwise single tests.
-    const auto shares = static_cast<std::size_t>(shard.whole() ? 1 : shard.of);
-    const auto own = static_cast<std::size_t>(shard.whole() ? 0 : shard.number - 1);
-    const bool by_group = all.groups.size() >= shares;
-    for (std::size_t k = 0; k < tasks.size(); ++k)
-        if ((by_group ? tasks[k].group : k) % shares == own) all.tasks.push_back(tasks[k]);
-    return all;
-}
-
-/// Chooses the next piece of work. Numbers below the number of tasks are tests; higher ones stand for making the
-/// packing of a group.
-class Queue {
-  public:
-    /// @param open  tasks to be run
-    Queue(const Tasks& tasks, const std::vector<std::size_t>& open, const fs::path& packings)
-        : tasks_(tasks), groups_(tasks.groups.size()) {
-        for (const std::size_t task : open) {
-            const std::size_t group = tasks.tasks[task].group;
-            if (groups_[group].left.empty()) order_.push_back(group);
-            groups_[group].left.push_back(task);
-        }
-        for (const std::size_t group : order_) {
-            std::vector<std::size_t>& left = groups_[group].left;
-            std::reverse(left.begin(), left.end());
-            const std::string& packing = tasks.groups[group];
-            // A packing used by a single test is made by that test.
-            groups_[group].first = left.back();
-            groups_[group].made = packing.empty() || left.size() == 1 || is_file(packings / (packing + ".json"));
-        }
-    }
-
-    bool is_packing(std::size_t piece) const { return piece >= tasks_.tasks.size(); }
-    /// A task whose case describes the packing of `piece`.
-    std::size_t task_of_packing(std::size_t piece) const { return groups_[group_of(piece)].first; }
-
-    /// Next test for a worker. It prefers a test with the packing that the worker has in memory, then one with a
-    /// packing that no worker has begun, then any test.
-    std::optional<std::size_t> next(std::optional<std::size_t> before) {
-        if (before && can_give(group_of(*before))) return take(group_of(*before));
-        while (first_ < order_.size() && groups_[order_[first_]].left.empty()) ++first_;
-        std::optional<std::size_t> shared;
-        for (std::size_t k = first_; k < order_.size(); ++k) {
-            if (!can_give(order_[k])) continue;
-            if (!groups_[order_[k]].begun) return take(order_[k]);
-            if (!shared) shared = order_[k];
-        }
-        return shared ? std::optional(take(*shared)) : std::nullopt;
-    }
-    void packing_ended(std::size_t piece) {
-        groups_[group_of(piece)].made = true;
-        groups_[group_of(piece)].making = false;
-    }
-    void again(std::size_t task) {
-        groups_[group_of(task)].left.push_back(task);
-        first_ = 0;  // the test's group may precede those already begun
-    }
-
-  private:
-    struct Group {
-        std::vector<std::size_t> left;  // remaining tasks; the last one is taken next
-        std::size_t first = 0;
-        bool begun = false, made = false, making = false;
-    };
-
-    std::size_t group_of(std::size_t piece) const {
-        return is_packing(piece) ? piece - tasks_.tasks.size() : tasks_.tasks[piece].group;
-    }
-    bool can_give(std::size_t group) const { return !groups_[group].left.empty() && !groups_[group].making; }
-    std::size_t take(std::size_t number) {
-        Group& group = groups_[number];
-        group.begun = true;
-        if (!group.made) {
-            group.making = true;
-            return tasks_.tasks.size() + number;
-        }
-        const std::size_t task = group.left.back();
-        group.left.pop_back();
-        return task;
-    }
-
-    const Tasks& tasks_;
-    std::vector<Group> groups_;
-    std::vector<std::size_t> order_;  // groups in the order in which they are begun
-    std::size_t first_ = 0;           // first position in order_ whose group has tasks left
-};
 
 /// Processes one piece in a worker. The answer is a result in CBOR, or the reason why the whole campaign must stop.
 class RowWorker {
@@ -333,126 +209,183 @@ fs::path ledger_file(const fs::path& folder, const Shard& shard) {
     return folder / "shards" / fmt::format("{}.sqlite", shard.number);
 }
 
-CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, const CampaignHooks& hooks) {
-    const Clock::time_point begun = Clock::now();
-    check_campaign_folder(options.folder, plan);
-    const fs::path file = ledger_file(options.folder, options.shard);
-    // Each shard has its own folder, which is locked.
-    const fs::path held =
-        options.shard.whole() ? options.folder : options.folder / "shards" / fmt::format("{}", options.shard.number);
-    make_folder(held);
-    const FolderLock lock(held);
-    const Tasks tasks = tasks_of(plan, options.shard, hooks.interrupted);
-    refuse_no_plain_file(file);
-    CampaignLedger ledger = CampaignLedger::open(file, options.shard.whole() ? Journal::beside : Journal::within);
-    ledger.set_plan(plan, tasks.identities);
-    const auto say = [&](const std::string& text) {
-        if (hooks.told) hooks.told(text);
-    };
-    for (const std::string& damaged : ledger.drop_damaged())
-        say(fmt::format("{}: {}: found other values than were recorded; the test is run again", file.string(),
-                        damaged));
+namespace {
 
-    CampaignOutcome outcome;
-    outcome.ledger = file;
-    CampaignProgress& progress = outcome.progress;
-    std::map<std::string, std::string> ended = ledger.ended();
-    std::map<std::string, KeptHashes> hashes = ledger.kept_hashes();
-    if (!options.shard.whole() && is_file(ledger_file(options.folder))) {
-        // Tests need not be run again if they were gathered, or run here before.
-        const CampaignLedger gathered = CampaignLedger::read(ledger_file(options.folder));
-        hashes.merge(gathered.kept_hashes());
-        for (const auto& [identity, state] : gathered.ended())
-            if (state == row_done) ended[identity] = state;
-    }
-    const KeptTests kept(options.folder, std::move(hashes));
-    std::vector<std::size_t> open;
-    for (std::size_t k = 0; k < tasks.tasks.size(); ++k) {
-        const std::string& identity = tasks.tasks[k].identity;
-        const auto at = ended.find(identity);
-        const bool ran = at != ended.end() && at->second == row_done;
-        const bool asked = plan.rows[tasks.tasks[k].row].variant == Variant::as_asked;
-        const std::string fault = ran && asked ? kept.fault_of(identity, plan.keep) : "";
-        if (!fault.empty() && kept.name(identity)) say(fault);
-        const bool done = ran && fault.empty();
-        const bool wrong = at != ended.end() && kind_of_row(at->second) == RowKind::verdict && !options.retry;
-        progress.done += done ? 1 : 0;
-        progress.gone_wrong += wrong ? 1 : 0;
-        if (!done && !wrong) open.push_back(k);
-    }
-    progress.tests = static_cast<std::int64_t>(tasks.tasks.size());
-    progress.left = static_cast<std::int64_t>(open.size());
-    progress.tests_per_second = progress.seconds_left = std::numeric_limits<double>::quiet_NaN();
+/// The folder that a run locks; each shard has its own.
+fs::path folder_to_lock(const CampaignOptions& options) {
+    return options.shard.whole() ? options.folder : options.folder / "shards" / fmt::format("{}", options.shard.number);
+}
 
-    Queue queue(tasks, open, options.folder / "packings");
-    RowWorker worker(plan, options);
-    const std::string host = host_name();
-    std::map<std::pair<std::size_t, int>, int> killed;  // number of kills, by piece and signal
-    std::string stop, stop_by_system;
-    std::int64_t failures_in_a_row = 0;
-    const int workers = static_cast<int>(std::clamp<std::int64_t>(progress.left, 1, options.workers));
-    const Clock::time_point loading = Clock::now();
-    const auto told = [&](std::size_t task, const RowResult& result) {
-        const PlanRow& row = plan.rows[tasks.tasks[task].row];
-        std::string at;
-        for (const CaseSetting& setting : plan.points[row.point].settings)
-            at += fmt::format(", {} = {}", setting.key, value_text(setting.value));
-        return fmt::format("{}{}, seed {}: {}: {}", plan.kind_of(row).name, at, row.seed, result.state, result.message);
-    };
-    const auto take = [&](std::size_t task, const RowResult& result) {
-        ledger.record(result, host);
-        ++outcome.run;
-        outcome.processor_seconds += result.processor_seconds;
-        --progress.left;
-        const RowKind kind = kind_of_row(result.state);
-        ++(kind == RowKind::result ? progress.done : progress.gone_wrong);
-        progress.failures += kind == RowKind::failure ? 1 : 0;
-        if (kind == RowKind::failure) outcome.failure = told(task, result);
-        failures_in_a_row = kind == RowKind::failure ? failures_in_a_row + 1 : 0;
-        if (failures_in_a_row >= workers + most_failures_in_a_row)
-            stop_by_system = fmt::format("{} tests one after the other failed by the system, the last one: {}",
-                                         failures_in_a_row, result.message);
-        const double seconds = std::chrono::duration<double>(Clock::now() - loading).count();
-        progress.tests_per_second = static_cast<double>(outcome.run) / seconds;
-        progress.seconds_left = static_cast<double>(progress.left) / progress.tests_per_second;
-        if (kind != RowKind::result) say(told(task, result));
-        if (hooks.progress) hooks.progress(progress);
-    };
-    CrewWork crew;
-    crew.time_limit = plan.time_limit;
-    crew.work = [&](std::size_t piece) {
-        if (queue.is_packing(piece)) return worker.packing(tasks.tasks[queue.task_of_packing(piece)]);
-        return worker.test(tasks.tasks[piece]);
-    };
-    crew.next = [&](std::optional<std::size_t> before) { return queue.next(before); };
-    crew.ended = [&](std::size_t piece, const PieceEnd& end) {
+/// A call of run_campaign(): the ledger, what is still to be run, and what workers answer.
+class CampaignRun {
+  public:
+    /// Opens the ledger and finds the tests of the plan. Requires a locked folder.
+    CampaignRun(const Plan& plan, const CampaignOptions& options, const CampaignHooks& hooks)
+        : plan_(plan),
+          options_(options),
+          hooks_(hooks),
+          tasks_(tasks_of(plan, options.shard, hooks.interrupted)),
+          file_(ledger_file(options.folder, options.shard)),
+          ledger_(opened(file_, options.shard)) {
+        outcome_.ledger = file_;
+    }
+
+    CampaignOutcome run() {
+        ledger_.set_plan(plan_, tasks_.identities);
+        for (const std::string& damaged : ledger_.drop_damaged())
+            say(fmt::format("{}: {}: found other values than were recorded; the test is run again", file_.string(),
+                            damaged));
+        const std::vector<std::size_t> open = open_tasks();
+        CampaignProgress& progress = outcome_.progress;
+        progress.tests = static_cast<std::int64_t>(tasks_.tasks.size());
+        progress.left = static_cast<std::int64_t>(open.size());
+        progress.tests_per_second = progress.seconds_left = std::numeric_limits<double>::quiet_NaN();
+        workers_ = static_cast<int>(std::clamp<std::int64_t>(progress.left, 1, options_.workers));
+        TaskQueue queue(tasks_, open, options_.folder / "packings");
+        RowWorker worker(plan_, options_);
+        loading_ = Clock::now();
+        if (hooks_.progress) hooks_.progress(progress);
+        if (!open.empty()) outcome_.interrupted = !run_crew(workers_, crew(queue, worker)) && stop_by_system_.empty();
+        refuse_unfinished();
+        outcome_.wall_seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+        return outcome_;
+    }
+
+  private:
+    static CampaignLedger opened(const fs::path& file, const Shard& shard) {
+        refuse_no_plain_file(file);
+        return CampaignLedger::open(file, shard.whole() ? Journal::beside : Journal::within);
+    }
+
+    void say(const std::string& text) const {
+        if (hooks_.told) hooks_.told(text);
+    }
+
+    /// The tests to be run. The others are counted as done or gone wrong.
+    std::vector<std::size_t> open_tasks() {
+        std::map<std::string, std::string> ended = ledger_.ended();
+        std::map<std::string, KeptHashes> hashes = ledger_.kept_hashes();
+        if (!options_.shard.whole() && is_file(ledger_file(options_.folder))) {
+            // Tests need not be run again if they were gathered, or run here before.
+            const CampaignLedger gathered = CampaignLedger::read(ledger_file(options_.folder));
+            hashes.merge(gathered.kept_hashes());
+            for (const auto& [identity, state] : gathered.ended())
+                if (state == row_done) ended[identity] = state;
+        }
+        const KeptTests kept(options_.folder, std::move(hashes));
+        std::vector<std::size_t> open;
+        for (std::size_t k = 0; k < tasks_.tasks.size(); ++k) {
+            const std::string& identity = tasks_.tasks[k].identity;
+            const auto at = ended.find(identity);
+            const bool ran = at != ended.end() && at->second == row_done;
+            const bool asked = plan_.rows[tasks_.tasks[k].row].variant == Variant::as_asked;
+            const std::string fault = ran && asked ? kept.fault_of(identity, plan_.keep) : "";
+            if (!fault.empty() && kept.name(identity)) say(fault);
+            const bool done = ran && fault.empty();
+            const bool wrong = at != ended.end() && kind_of_row(at->second) == RowKind::verdict && !options_.retry;
+            outcome_.progress.done += done ? 1 : 0;
+            outcome_.progress.gone_wrong += wrong ? 1 : 0;
+            if (!done && !wrong) open.push_back(k);
+        }
+        return open;
+    }
+
+    CrewWork crew(TaskQueue& queue, RowWorker& worker) {
+        CrewWork crew;
+        crew.time_limit = plan_.time_limit;
+        crew.work = [&](std::size_t piece) {
+            if (queue.is_packing(piece)) return worker.packing(tasks_.tasks[queue.task_of_packing(piece)]);
+            return worker.test(tasks_.tasks[piece]);
+        };
+        crew.next = [&](std::optional<std::size_t> before) { return queue.next(before); };
+        crew.ended = [&](std::size_t piece, const PieceEnd& end) { take_end(queue, piece, end); };
+        crew.interrupted = [&] {
+            return !stop_.empty() || !stop_by_system_.empty() || (hooks_.interrupted && hooks_.interrupted());
+        };
+        return crew;
+    }
+
+    void take_end(TaskQueue& queue, std::size_t piece, const PieceEnd& end) {
         if (end.how == PieceEnd::How::answered) {
             const Json json = end.answer.empty() ? Json::object() : Json::from_cbor(end.answer);
             if (json.contains("stop")) {
-                stop = json["stop"];
+                stop_ = json["stop"];
                 return;
             }
             if (!queue.is_packing(piece)) take(piece, unpacked(json));
         } else if (!queue.is_packing(piece)) {
-            if (end.how == PieceEnd::How::killed && ++killed[{piece, end.code}] < most_tries(end.code))
+            if (end.how == PieceEnd::How::killed && ++killed_[{piece, end.code}] < most_tries(end.code))
                 queue.again(piece);
             else
-                take(piece, result_of(tasks.tasks[piece].identity, end, plan.time_limit));
+                take(piece, result_of(tasks_.tasks[piece].identity, end, plan_.time_limit));
         }
         if (queue.is_packing(piece)) queue.packing_ended(piece);
-    };
-    crew.interrupted = [&] {
-        return !stop.empty() || !stop_by_system.empty() || (hooks.interrupted && hooks.interrupted());
-    };
-    if (hooks.progress) hooks.progress(progress);
-    if (!open.empty()) outcome.interrupted = !run_crew(workers, crew) && stop_by_system.empty();
-    if (!stop.empty()) throw OutputError(stop + "; the same command resumes");
-    if (!stop_by_system.empty() && progress.left > 0)
-        throw SystemFailure(stop_by_system + "; the same command resumes");
-    if (!outcome.interrupted && progress.left > 0)
-        throw std::logic_error(fmt::format("campaign: {} tests were never given to a worker", progress.left));
-    outcome.wall_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-    return outcome;
+    }
+
+    /// Records the result of a test.
+    void take(std::size_t task, const RowResult& result) {
+        CampaignProgress& progress = outcome_.progress;
+        ledger_.record(result, host_);
+        ++outcome_.run;
+        outcome_.processor_seconds += result.processor_seconds;
+        --progress.left;
+        const RowKind kind = kind_of_row(result.state);
+        ++(kind == RowKind::result ? progress.done : progress.gone_wrong);
+        progress.failures += kind == RowKind::failure ? 1 : 0;
+        if (kind == RowKind::failure) outcome_.failure = told(task, result);
+        failures_in_a_row_ = kind == RowKind::failure ? failures_in_a_row_ + 1 : 0;
+        if (failures_in_a_row_ >= workers_ + most_failures_in_a_row)
+            stop_by_system_ = fmt::format("{} tests one after the other failed by the system, the last one: {}",
+                                          failures_in_a_row_, result.message);
+        const double seconds = std::chrono::duration<double>(Clock::now() - loading_).count();
+        progress.tests_per_second = static_cast<double>(outcome_.run) / seconds;
+        progress.seconds_left = static_cast<double>(progress.left) / progress.tests_per_second;
+        if (kind != RowKind::result) say(told(task, result));
+        if (hooks_.progress) hooks_.progress(progress);
+    }
+
+    /// A sentence about a test without results.
+    std::string told(std::size_t task, const RowResult& result) const {
+        const PlanRow& row = plan_.rows[tasks_.tasks[task].row];
+        std::string at;
+        for (const CaseSetting& setting : plan_.points[row.point].settings)
+            at += fmt::format(", {} = {}", setting.key, value_text(setting.value));
+        return fmt::format("{}{}, seed {}: {}: {}", plan_.kind_of(row).name, at, row.seed, result.state,
+                           result.message);
+    }
+
+    void refuse_unfinished() const {
+        if (!stop_.empty()) throw OutputError(stop_ + "; the same command resumes");
+        const std::int64_t left = outcome_.progress.left;
+        if (!stop_by_system_.empty() && left > 0) throw SystemFailure(stop_by_system_ + "; the same command resumes");
+        if (!outcome_.interrupted && left > 0)
+            throw std::logic_error(fmt::format("campaign: {} tests were never given to a worker", left));
+    }
+
+    const Plan& plan_;
+    const CampaignOptions& options_;
+    const CampaignHooks& hooks_;
+    const Clock::time_point begun_ = Clock::now();
+    Tasks tasks_;
+    fs::path file_;
+    CampaignLedger ledger_;
+    CampaignOutcome outcome_;
+    std::string host_ = host_name();
+    Clock::time_point loading_;
+    std::map<std::pair<std::size_t, int>, int> killed_;  // number of kills, by piece and signal
+    std::string stop_, stop_by_system_;                  // why the campaign stops
+    std::int64_t failures_in_a_row_ = 0;
+    int workers_ = 1;
+};
+
+}  // namespace
+
+CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, const CampaignHooks& hooks) {
+    check_campaign_folder(options.folder, plan);
+    const fs::path held = folder_to_lock(options);
+    make_folder(held);
+    const FolderLock lock(held);
+    return CampaignRun(plan, options, hooks).run();
 }
 
 Gathered gather_shards(const fs::path& folder) {

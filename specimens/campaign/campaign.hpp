@@ -18,15 +18,9 @@
 #include "specimens/campaign/kept_tests.hpp"
 #include "specimens/campaign/ledger.hpp"
 #include "specimens/campaign/plan.hpp"
+#include "specimens/campaign/tasks.hpp"
 
 namespace crackle {
-
-/// Shard `number` of `of` shards of a plan's tests. Packings are dealt out to the shards in turn, or single tests if
-/// there are too few packings. Even a single shard, 1 of 1, has its own ledger.
-struct Shard {
-    int number = 0, of = 0;
-    bool whole() const { return of == 0; }  ///< whether this is the whole plan rather than a shard
-};
 
 /// Options of a campaign.
 struct CampaignOptions {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "solver/base/version.hpp"
@@ -97,6 +98,30 @@ std::string packing_identity(const TestCase& test, FileHashes& files) {
     return hash_of(listed(test, files, [&](const ResolvedKey& key) {
         return key.parameter->table == "packing" || (for_cells && key.parameter->table == "mesh");
     }));
+}
+
+std::string rows_mark(const Plan& plan, const std::vector<std::string>& identities) {
+    std::string text;
+    for (std::size_t k = 0; k < identities.size(); ++k)
+        text += fmt::format("{} {} {} {}\n", plan.rows[k].point, plan.rows[k].seed, name_of(plan.rows[k].variant),
+                            identities[k]);
+    const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::string rocks_text(const Plan& plan) {
+    nlohmann::ordered_json rocks = nlohmann::ordered_json::object();
+    FileHashes files;
+    for (std::size_t k = 0; k < plan.points.size(); ++k) {
+        const PlanPoint& point = plan.points[k];
+        const std::string& name = plan.tests[point.test].name;
+        if (rocks.contains(name)) continue;
+        std::map<std::string, std::string> keys =
+            keys_of_rock(plan.test_of({k, point.own_seed, Variant::as_asked}), files);
+        for (const CaseSetting& setting : point.settings) keys.erase(setting.key);
+        rocks[name] = keys;
+    }
+    return rocks.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace crackle

@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
+#include "specimens/campaign/plan.hpp"
 #include "specimens/case/case_file.hpp"
 
 namespace crackle {
@@ -36,5 +38,11 @@ bool differs_within_a_rock(const std::string& key);
 /// are represented by their contents. A particle file is excluded, like a seed, if the case states the material;
 /// otherwise, the file provides the material and is included.
 std::map<std::string, std::string> keys_of_rock(const TestCase& test, FileHashes& files);
+
+/// Text that is equal for plans with the same rows, no matter how the plans are written.
+std::string rows_mark(const Plan& plan, const std::vector<std::string>& identities);
+
+/// Keys and values of the rock in each test, by name of the test, as JSON.
+std::string rocks_text(const Plan& plan);
 
 }  // namespace crackle

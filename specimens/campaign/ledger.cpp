@@ -5,16 +5,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sqlite3.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <nlohmann/json.hpp>
-#include <set>
 #include <utility>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/system_failure.hpp"
 #include "solver/base/version.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/campaign/identity.hpp"
@@ -28,6 +24,9 @@ constexpr int application_id = 0x43524b4c;  // "CRKL"; marks an SQLite file as a
 constexpr int layout_version = 2;
 constexpr int layout_without_hashes = 1;           // layout that can be read, and is converted when opened for writing
 constexpr std::size_t most_columns_of_long = 480;  // SQLite allows 500 terms in a compound query
+constexpr const char* plan_table =
+    "CREATE TABLE plan(row INTEGER PRIMARY KEY, point INTEGER NOT NULL REFERENCES point(number), seed INTEGER NOT "
+    "NULL, variant TEXT NOT NULL, identity TEXT NOT NULL) STRICT";
 
 /// Encloses a text in quotation marks for SQL; marks inside it are doubled.
 std::string between(char mark, const std::string& text) {
@@ -42,46 +41,20 @@ std::string quoted(const std::string& name) { return between('"', name); }
 std::string literal(const std::string& text) { return between('\'', text); }
 
 void bind_value(SQLite::Statement& statement, int place, const CaseValue& value) {
-    if (const auto* number = std::get_if<double>(&value))
-        statement.bind(place, *number);
-    else if (const auto* whole = std::get_if<std::int64_t>(&value))
-        statement.bind(place, *whole);
-    else if (const auto* flag = std::get_if<bool>(&value))
-        statement.bind(place, *flag ? 1 : 0);
-    else
-        statement.bind(place, value_text(value));
+    std::visit(
+        [&]<class T>(const T& own) {
+            if constexpr (std::is_arithmetic_v<T>)
+                statement.bind(place, own);
+            else
+                statement.bind(place, value_text(value));
+        },
+        value);
 }
 
 LedgerCell cell_of(const SQLite::Column& column) {
     if (column.isNull()) return {};
     if (column.isText() || column.isBlob()) return column.getString();
     return column.getDouble();
-}
-
-/// Text that is equal for plans with the same rows, no matter how the plans are written.
-std::string rows_mark(const Plan& plan, const std::vector<std::string>& identities) {
-    std::string text;
-    for (std::size_t k = 0; k < identities.size(); ++k)
-        text += fmt::format("{} {} {} {}\n", plan.rows[k].point, plan.rows[k].seed, name_of(plan.rows[k].variant),
-                            identities[k]);
-    const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
-}
-
-/// Keys and values of the rock in each test, by name of the test, as JSON.
-std::string rocks_text(const Plan& plan) {
-    nlohmann::ordered_json rocks = nlohmann::ordered_json::object();
-    FileHashes files;
-    for (std::size_t k = 0; k < plan.points.size(); ++k) {
-        const PlanPoint& point = plan.points[k];
-        const std::string& name = plan.tests[point.test].name;
-        if (rocks.contains(name)) continue;
-        std::map<std::string, std::string> keys =
-            keys_of_rock(plan.test_of({k, point.own_seed, Variant::as_asked}), files);
-        for (const CaseSetting& setting : point.settings) keys.erase(setting.key);
-        rocks[name] = keys;
-    }
-    return rocks.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void run(SQLite::Statement& statement) {
@@ -163,9 +136,7 @@ void CampaignLedger::make_tables(Journal journal) {
                             "curve_sha256 TEXT, summary_sha256 TEXT, sha256 TEXT"));
         db.exec("CREATE TABLE figures(identity TEXT PRIMARY KEY REFERENCES test(identity)) STRICT");
         db.exec("CREATE TABLE point(number INTEGER PRIMARY KEY, test TEXT NOT NULL) STRICT");
-        db.exec(
-            "CREATE TABLE plan(row INTEGER PRIMARY KEY, point INTEGER NOT NULL REFERENCES point(number), "
-            "seed INTEGER NOT NULL, variant TEXT NOT NULL, identity TEXT NOT NULL) STRICT");
+        db.exec(plan_table);
         make_views();
         change.commit();
     } else if (version == layout_without_hashes) {
@@ -175,8 +146,7 @@ void CampaignLedger::make_tables(Journal journal) {
         db.exec(fmt::format("PRAGMA user_version = {}", layout_version));
         change.commit();
     }
-    SQLite::Statement columns(db, "SELECT name FROM pragma_table_info('figures')");
-    while (columns.executeStep()) figure_columns_.insert(columns.getColumn(0).getString());
+    for (const std::string& name : columns_of("figures")) figure_columns_.insert(name);
 }
 
 std::vector<std::string> CampaignLedger::columns_of(const char* table) const {
@@ -245,9 +215,7 @@ void CampaignLedger::set_plan(const Plan& plan, const std::vector<std::string>& 
             places += ", ?";
         }
         db.exec(fmt::format("CREATE TABLE point(number INTEGER PRIMARY KEY, test TEXT NOT NULL{}) STRICT", columns));
-        db.exec(
-            "CREATE TABLE plan(row INTEGER PRIMARY KEY, point INTEGER NOT NULL REFERENCES point(number), "
-            "seed INTEGER NOT NULL, variant TEXT NOT NULL, identity TEXT NOT NULL) STRICT");
+        db.exec(plan_table);
         SQLite::Statement add_point(db, fmt::format("INSERT INTO point VALUES(?, ?{})", places));
         for (std::size_t k = 0; k < plan.points.size(); ++k) {
             const PlanPoint& point = plan.points[k];
@@ -346,10 +314,7 @@ void CampaignLedger::put_figures(const std::string& identity, const Figures& all
     figures.bind(place, identity);
     for (const auto& [name, value] : all) {
         ++place;
-        if (const auto* word = std::get_if<std::string>(&value))
-            figures.bind(place, *word);
-        else
-            figures.bind(place, std::get<double>(value));
+        std::visit([&](const auto& known) { figures.bind(place, known); }, value);
     }
     run(figures);
 }
@@ -406,7 +371,7 @@ std::vector<std::string> CampaignLedger::drop_damaged() {
         SQLite::Transaction change(db);
         for (const CheckedRow& row : checked_rows(db)) {
             if (row.whole) continue;
-            dropped.push_back(called(row.identity));
+            dropped.push_back(called(db, row.identity));
             for (const char* table : {"figures", "test"}) {
                 SQLite::Statement drop(db, fmt::format("DELETE FROM {} WHERE identity = ?", table));
                 drop.bind(1, row.identity);
@@ -451,24 +416,6 @@ std::map<std::string, KeptHashes> CampaignLedger::kept_hashes() const {
     });
 }
 
-/// Text for a test: "row 5 (tension, material.friction_angle = 20, seed 3)"; its identity if the plan does not include
-/// it.
-std::string CampaignLedger::called(const std::string& identity) const {
-    SQLite::Statement row(*database_,
-                          "SELECT plan.row, plan.variant, plan.seed, point.* FROM plan JOIN point ON point.number = "
-                          "plan.point WHERE plan.identity = ? ORDER BY plan.row");
-    row.bind(1, identity);
-    if (!row.executeStep()) return fmt::format("the test {}", identity);
-    constexpr int axes_begin = 5;  // the columns before the axes are row, variant, seed, number and test
-    std::string at = row.getColumn(axes_begin - 1).getString();
-    for (int k = axes_begin; k < row.getColumnCount(); ++k)
-        if (!row.getColumn(k).isNull())
-            at += fmt::format(", {} = {}", row.getColumnName(k), row.getColumn(k).getString());
-    const std::string variant = row.getColumn(1).getString();
-    return fmt::format("row {} ({}, seed {}{})", row.getColumn(0).getInt64(), at, row.getColumn(2).getInt64(),
-                       variant == name_of(Variant::as_asked) ? "" : ", " + variant);
-}
-
 void CampaignLedger::require_whole_plan() const {
     guarded([&] {
         const std::string recorded = meta(plan_hash_key);
@@ -485,7 +432,7 @@ void CampaignLedger::require_whole() const {
         require_whole_plan();
         std::vector<std::string> damaged;
         for (const CheckedRow& row : checked_rows(*database_))
-            if (!row.whole) damaged.push_back(called(row.identity));
+            if (!row.whole) damaged.push_back(called(*database_, row.identity));
         if (damaged.empty()) return;
         throw InputError(
             fmt::format("{}: {}: found other values than were recorded, expected values that match its hash{}; run the "

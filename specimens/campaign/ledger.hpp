@@ -125,7 +125,6 @@ class CampaignLedger {
     void add_columns(const Figures& figures);
     void put_figures(const std::string& identity, const Figures& all);
     void note(const std::string& key, const std::string& value);
-    std::string called(const std::string& identity) const;
 
     std::filesystem::path file_;
     std::unique_ptr<SQLite::Database> database_;

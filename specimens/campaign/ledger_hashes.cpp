@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "specimens/campaign/plan.hpp"
 #include "specimens/results/sha256.hpp"
 
 namespace crackle {
@@ -106,6 +107,22 @@ std::string hash_of_plan(const SQLite::Database& database) {
         while (row.executeStep()) hash.add(cells.text_of_row(row) + '\n');
     }
     return hash.digits();
+}
+
+std::string called(const SQLite::Database& database, const std::string& identity) {
+    SQLite::Statement row(database,
+                          "SELECT plan.row, plan.variant, plan.seed, point.* FROM plan JOIN point ON point.number = "
+                          "plan.point WHERE plan.identity = ? ORDER BY plan.row");
+    row.bind(1, identity);
+    if (!row.executeStep()) return fmt::format("the test {}", identity);
+    constexpr int axes_begin = 5;  // the columns before the axes are row, variant, seed, number and test
+    std::string at = row.getColumn(axes_begin - 1).getString();
+    for (int k = axes_begin; k < row.getColumnCount(); ++k)
+        if (!row.getColumn(k).isNull())
+            at += fmt::format(", {} = {}", row.getColumnName(k), row.getColumn(k).getString());
+    const std::string variant = row.getColumn(1).getString();
+    return fmt::format("row {} ({}, seed {}{})", row.getColumn(0).getInt64(), at, row.getColumn(2).getInt64(),
+                       variant == name_of(Variant::as_asked) ? "" : ", " + variant);
 }
 
 }  // namespace crackle

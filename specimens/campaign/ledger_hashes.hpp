@@ -28,6 +28,10 @@ std::string hash_of_test(const SQLite::Database& database, const std::string& id
 /// All rows of table `test`, each compared with its hash.
 std::vector<CheckedRow> checked_rows(const SQLite::Database& database);
 
+/// Text for a test: "row 5 (tension, material.friction_angle = 20, seed 3)"; its identity if the plan does not include
+/// it.
+std::string called(const SQLite::Database& database, const std::string& identity);
+
 /// Hash of the present plan: of the tables `point`, `plan` and `meta`, without the hash itself.
 std::string hash_of_plan(const SQLite::Database& database);
 

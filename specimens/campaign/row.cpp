@@ -71,8 +71,8 @@ struct FigureLister {
 };
 
 std::string curve_text(const VirtualTest& test) {
-    std::string text = curve_header(test.setup.pressed());
-    for (const CurveRow& row : written_rows(test)) text += curve_line(row, test.setup.pressed());
+    std::string text = curve_header(test.setup.apparatus.pressed());
+    for (const CurveRow& row : written_rows(test)) text += curve_line(row, test.setup.apparatus.pressed());
     return text;
 }
 

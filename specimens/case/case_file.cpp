@@ -313,11 +313,10 @@ void fill_defaults(TestCase& test) {
         for (std::size_t entry = 0; entry < entries; ++entry) fill_default(test, p, entry);
     }
     // Glued by default, since a real grip is stronger than the rock, and pads, jaws and boxes are not made of rock.
-    const bool tension = test.loading.kind == LoadingKind::tension;
-    if ((tension || !test.uniaxial()) && !test.position.contains("loading.platens"))
-        test.loading.platens = PlatenKind::glued;
+    const TestKind& kind = test_kind(test.loading.kind);
+    if (!kind.presses() && !test.position.contains("loading.platens")) test.loading.platens = PlatenKind::glued;
     if (test.loading.platens == PlatenKind::glued && !test.loading.grip)
-        test.loading.grip = tension ? default_grip : 0.0;
+        test.loading.grip = kind.pulls() ? default_grip : 0.0;
     if (test.title.empty()) test.title = test.source.stem().string();
 }
 

@@ -277,10 +277,9 @@ class ConsistencyCheck {
                    "remove axial_strain_rate to have the rate chosen, or rate_tolerance");
         }
         if (test_.loading.platens == PlatenKind::frictional) {
-            if (test_.loading.kind == LoadingKind::tension) {
-                refuse("loading.platens", "\"frictional\"", "\"bonded\" in tension",
-                       "a platen that is not bonded cannot pull");
-            }
+            if (kind_.bonded_because != nullptr)
+                refuse("loading.platens", "\"frictional\"", "\"glued\" or \"bonded\" " + with_kind(),
+                       kind_.bonded_because);
             need("loading.platen_friction_angle", "frictional platens need it");
             if (test_.numerics.intact)
                 refuse("numerics.intact", "true", "false with frictional platens",
@@ -291,7 +290,6 @@ class ConsistencyCheck {
         }
         keys_of_kinds();
         turning_round();
-        if (test_.confined()) need("confinement.pressure", "kind = \"biaxial\" needs it");
         if (test_.confinement.by_walls() && test_.numerics.intact)
             refuse("numerics.intact", "true", "false with confinement.side = \"walls\"",
                    "walls act through contacts without bonds");
@@ -303,9 +301,8 @@ class ConsistencyCheck {
     void turning_round() const {
         const TestCase::Loading& loading = test_.loading;
         if (loading.by_lateral_strain()) {
-            if (loading.kind != LoadingKind::compression && loading.kind != LoadingKind::biaxial)
-                refuse("loading.control", "\"lateral\"",
-                       fmt::format("\"axial\" with kind = \"{}\"", name_of(loading.kind)),
+            if (!kind_.presses())
+                refuse("loading.control", "\"lateral\"", "\"axial\" " + with_kind(),
                        "only a specimen that is compressed between platens widens");
             if (loading.unloads())
                 refuse("loading.control", "\"lateral\"", "\"axial\" with unloading",
@@ -337,44 +334,25 @@ class ConsistencyCheck {
 
     /// Checks the keys that belong to certain kinds of test, and the other keys that a kind requires.
     void keys_of_kinds() const {
-        struct KindKey {
-            const char* key;
-            std::vector<LoadingKind> kinds;
-        };
-        using enum LoadingKind;
-        static const std::vector<KindKey> keys{
-            {"confinement.pressure", {biaxial}},   {"shape.diameter", {brazilian, scb}},
-            {"shape.notch", {bending, scb}},       {"loading.half_angle", {brazilian}},
-            {"loading.jaws", {brazilian}},         {"loading.span", {bending, scb}},
-            {"loading.pad_width", {bending, scb}}, {"loading.normal_stress", {direct_shear}},
-            {"loading.box_gap", {direct_shear}},   {"loading.normal_stiffness", {direct_shear}},
-            {"confinement.side", {biaxial}},
-        };
-        const LoadingKind kind = test_.loading.kind;
-        for (const KindKey& one : keys) {
-            if (std::ranges::find(one.kinds, kind) != one.kinds.end()) continue;
-            std::vector<std::string> names(one.kinds.size());
-            std::ranges::transform(one.kinds, names.begin(), name_of<LoadingKind>);
-            expect_beside(one.key, fmt::format("loading.kind = \"{}\"", fmt::join(names, "\" or \"")));
-        }
-        if (test_.uniaxial()) return;
-        const std::string of_kind = fmt::format("with kind = \"{}\"", name_of(kind));
+        for (const std::string& other : names_of<LoadingKind>())
+            for (const KindKey& one : test_kind(*from_name<LoadingKind>(other)).keys)
+                if (!kind_.has(one.key))
+                    expect_beside(one.key, "loading.kind = " +
+                                               kinds_with([&](const TestKind& kind) { return kind.has(one.key); }));
+        for (const KindKey& one : kind_.keys)
+            if (one.needed != nullptr) need(one.key, one.needed);
+        if (kind_.uniaxial) return;
         const bool frictional = test_.loading.platens == PlatenKind::frictional;
-        if (frictional && kind != brazilian)
-            refuse("loading.platens", "\"frictional\"", "\"glued\" or \"bonded\" " + of_kind,
-                   "pads and boxes are bonded to the specimen");
         if (!frictional && test_.loading.jaws.value_or(JawShape::arc) != JawShape::arc)
             refuse("loading.jaws", fmt::format("\"{}\"", name_of(*test_.loading.jaws)),
                    fmt::format("\"arc\" with platens = \"{}\"", name_of(test_.loading.platens)),
                    "a bonded face lies against the disc; use platens = \"frictional\"");
         if (test_.loading.grip.value_or(0.0) > 0.0)
-            refuse("loading.grip", fmt::format("{}", *test_.loading.grip), "0 or no value " + of_kind,
+            refuse("loading.grip", fmt::format("{}", *test_.loading.grip), "0 or no value " + with_kind(),
                    "such a specimen has no ends to be gripped");
-        if (kind == direct_shear)
-            need("loading.normal_stress", "kind = \"direct_shear\" needs it; 0 means no normal stress");
         if (test_.has_table("mesh") && test_.mesh.boundary == Boundary::centres)
-            refuse("mesh.boundary", "\"seeds\"", "\"domain\" " + of_kind, "pads and jaws need flat faces");
-        if (test_.shape.notch || kind == scb) {
+            refuse("mesh.boundary", "\"seeds\"", "\"domain\" " + with_kind(), "pads and jaws need flat faces");
+        if (test_.shape.notch || kind_.notched) {
             if (test_.has_table("mesh") && !test_.bond_facts().bonds_across_gaps)
                 refuse("bond.law", fmt::format("\"{}\"", name_of(test_.bond.law)),
                        laws_with(&BondLawFacts::bonds_across_gaps) + " with a notch in polygons",
@@ -382,7 +360,10 @@ class ConsistencyCheck {
         }
     }
 
+    std::string with_kind() const { return fmt::format("with kind = \"{}\"", name_of(test_.loading.kind)); }
+
     const TestCase& test_;
+    const TestKind& kind_ = test_kind(test_.loading.kind);
 };
 
 }  // namespace

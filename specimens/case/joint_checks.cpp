@@ -330,9 +330,9 @@ void check_jointed_specimen(const TestCase& test) {
         refuse("mesh.boundary", fmt::format("\"{}\"", name_of(test.mesh.boundary)), "\"domain\"");
     if (test.has_table("mesh") && test.mesh.merge_destroyed && test.mesh.kind == MeshKind::voronoi)
         refuse("mesh.merge_destroyed", "true", "false with kind = \"voronoi\"");
-    if (!test.uniaxial() && test.loading.kind != LoadingKind::direct_shear)
-        refuse("loading.kind", fmt::format("\"{}\"", name_of(test.loading.kind)),
-               "\"compression\", \"tension\", \"biaxial\" or \"direct_shear\"");
+    const auto may_be_jointed = [](const TestKind& kind) { return kind.uniaxial || kind.shear_box; };
+    if (!may_be_jointed(test_kind(test.loading.kind)))
+        refuse("loading.kind", fmt::format("\"{}\"", name_of(test.loading.kind)), kinds_with(may_be_jointed));
     for (const JointTable& table : joint_tables(test))
         if (!table.keys->as_rock()) JointAgainstRock(test, table).run();
 }

@@ -21,6 +21,7 @@
 #include "solver/base/names.hpp"
 #include "solver/scene/bond_strength.hpp"
 #include "solver/scene/scene.hpp"
+#include "specimens/case/kinds/test_kind.hpp"
 
 namespace crackle {
 
@@ -56,12 +57,6 @@ constexpr auto list_names(JointLength) {
 /// Distribution of the spacing between the lines of a joint set.
 enum class JointSpacing : std::uint8_t { fixed, uniform, exponential, lognormal };
 constexpr auto list_names(JointSpacing) { return in_order("fixed", "uniform", "exponential", "lognormal"); }
-
-/// Kind of test; test_kind() in specimens/kinds returns its description.
-enum class LoadingKind : std::uint8_t { compression, tension, biaxial, brazilian, bending, scb, direct_shear };
-constexpr auto list_names(LoadingKind) {
-    return in_order("compression", "tension", "biaxial", "brazilian", "bending", "scb", "direct_shear");
-}
 
 /// How platens hold the specimen.
 enum class PlatenKind : std::uint8_t { bonded, glued, frictional };
@@ -329,13 +324,11 @@ struct TestCase {
     /// Whether a file has this table. @param table  the name of the table, without brackets
     bool has_table(const std::string& table) const { return table_present.contains(table); }
     /// Whether a pressure acts on the sides.
-    bool confined() const { return loading.kind == LoadingKind::biaxial; }
+    bool confined() const { return test_kind(loading.kind).confined; }
     /// Whether a force other than that of the driving part does work; the curve then has a column for this work.
-    bool pressed() const { return confined() || loading.kind == LoadingKind::direct_shear; }
+    bool pressed() const { return test_kind(loading.kind).pressed(); }
     /// Whether the whole packing lies between platens, so that stress and strain are those of the rock.
-    bool uniaxial() const {
-        return loading.kind == LoadingKind::compression || loading.kind == LoadingKind::tension || confined();
-    }
+    bool uniaxial() const { return test_kind(loading.kind).uniaxial; }
     /// What is true of its bonds by their law.
     const BondLawFacts& bond_facts() const { return facts_of(bond.law); }
     /// Whether stiffness and strengths are given per area, in Pa.

@@ -77,8 +77,8 @@ std::optional<FirstEvent> first_of(const std::vector<LinearBond>& bonds, double 
 
 /// Rates at all points for unit strain in the direction of loading. The solution is for tension; its sign is reversed
 /// for compression.
-std::vector<PointRates> rates_of_test(const World& world, const TestSetup& setup, const Moduli& moduli) {
-    const double sense = setup.compression ? -1.0 : 1.0;
+std::vector<PointRates> rates_of_test(const World& world, const PlacedApparatus& apparatus, const Moduli& moduli) {
+    const double sense = apparatus.compression ? -1.0 : 1.0;
     std::vector<PointRates> rates = rates_of(world, moduli.solution);
     for (auto& [closing, slipping] : rates) {
         closing.value *= sense;
@@ -87,8 +87,9 @@ std::vector<PointRates> rates_of_test(const World& world, const TestSetup& setup
     return rates;
 }
 
-std::vector<LinearBond> linear_bonds(const World& world, const TestSetup& setup, const Moduli& moduli, double strain) {
-    const std::vector<PointRates> rates = rates_of_test(world, setup, moduli);
+std::vector<LinearBond> linear_bonds(const World& world, const PlacedApparatus& apparatus, const Moduli& moduli,
+                                     double strain) {
+    const std::vector<PointRates> rates = rates_of_test(world, apparatus, moduli);
     std::vector<LinearBond> bonds;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if ((world.points.state[k].flags & point_bonded) == 0) continue;
@@ -99,9 +100,9 @@ std::vector<LinearBond> linear_bonds(const World& world, const TestSetup& setup,
 
 }  // namespace
 
-double yield_strain(const World& world, const TestSetup& setup, const Moduli& moduli, double share) {
+double yield_strain(const World& world, const PlacedApparatus& apparatus, const Moduli& moduli, double share) {
     std::vector<double> strains;
-    for (const LinearBond& bond : linear_bonds(world, setup, moduli, 0.0))
+    for (const LinearBond& bond : linear_bonds(world, apparatus, moduli, 0.0))
         strains.push_back(std::min(bond.slip_strain, bond.break_strain));
     if (strains.empty()) return infinite;
     const auto nth = strains.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(strains.size()));
@@ -109,8 +110,8 @@ double yield_strain(const World& world, const TestSetup& setup, const Moduli& mo
     return *nth;
 }
 
-double joint_slip_strain(const World& world, const TestSetup& setup, const Moduli& moduli) {
-    const std::vector<PointRates> rates = rates_of_test(world, setup, moduli);
+double joint_slip_strain(const World& world, const PlacedApparatus& apparatus, const Moduli& moduli) {
+    const std::vector<PointRates> rates = rates_of_test(world, apparatus, moduli);
     std::vector<double> strains;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const PointView view = view_point(world, k);
@@ -138,18 +139,19 @@ ElasticAnalysis analyse_elastic(const World& world, const TestSetup& setup, cons
     result.residual = moduli.solution.residual;
     result.unknowns = moduli.solution.unknowns;
     result.strain = strain;
-    result.bonds = linear_bonds(world, setup, moduli, strain);
+    result.bonds = linear_bonds(world, setup.apparatus, moduli, strain);
     result.first_break = first_of<&LinearBond::break_strain>(result.bonds, result.youngs_modulus);
     result.first_slip = first_of<&LinearBond::slip_strain>(result.bonds, result.youngs_modulus);
     result.stable_time_step = setup.stable_time_step;
     result.stable_time_step_proved = setup.stable_time_step_proved;
     result.time_step_bound = setup.time_step_bound;
     result.time_step = world.stepping.time_step;
-    result.free = find_free_motions(world, bodies_of_parts(setup));
+    result.free = find_free_motions(world, bodies_of_parts(setup.apparatus));
     const std::int64_t all_free = result.free.count;
     // A wall is not part of the specimen and no bond holds it along x, so it would count as a free motion.
     result.free.count -= static_cast<std::int64_t>(std::erase_if(result.free.bodies, [&](BodyIndex b) {
-        return std::ranges::any_of(setup.parts, [&](const SetupPart& part) { return part.wall && part.body == b; });
+        return std::ranges::any_of(setup.apparatus.parts,
+                                   [&](const SetupPart& part) { return part.wall && part.body == b; });
     }));
     for (const BodyIndex b : result.free.bodies) result.free_ids.push_back(world.bodies.info(b).id);
     if (modes > 0) {

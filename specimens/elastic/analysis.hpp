@@ -66,11 +66,11 @@ struct ElasticAnalysis {
 /// Axial strain at which a given fraction of the bonded points (at least one) fail in the linear solution: they slide
 /// or, if they do not slide, break. Infinite if fewer ever fail.
 /// @param moduli  solution for a world with bonded platens, either `world` itself or one with the same bodies
-double yield_strain(const World& world, const TestSetup& setup, const Moduli& moduli, double share);
+double yield_strain(const World& world, const PlacedApparatus& apparatus, const Moduli& moduli, double share);
 
 /// Axial strain at which half of the closed points of open joints slide in the linear solution, starting from their
 /// present forces. Infinite if they never do, or if no such point carries a force.
-double joint_slip_strain(const World& world, const TestSetup& setup, const Moduli& moduli);
+double joint_slip_strain(const World& world, const PlacedApparatus& apparatus, const Moduli& moduli);
 
 /// Linear results of a specimen that is bonded but not yet loaded.
 /// @param world  world with the platens and side particles of `setup`

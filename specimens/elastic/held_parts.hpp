@@ -12,39 +12,39 @@ namespace crackle {
 
 /// Prescribed motions of the parts: the supports are at rest; the driving part is displaced along its axis.
 /// @param way  displacement of the driving part, m
-inline std::vector<Prescribed> prescribed_parts(const TestSetup& setup, double way) {
+inline std::vector<Prescribed> prescribed_parts(const PlacedApparatus& apparatus, double way) {
     std::vector<Prescribed> prescribed;
-    prescribed.reserve(setup.parts.size());
-    for (const SetupPart& part : setup.parts) {
-        const double own = part.body == setup.top ? way : 0.0;
-        prescribed.push_back({part.body, setup.axis == 1 ? BodyMotion{0.0, own, 0.0} : BodyMotion{own, 0.0, 0.0}});
+    prescribed.reserve(apparatus.parts.size());
+    for (const SetupPart& part : apparatus.parts) {
+        const double own = part.body == apparatus.top ? way : 0.0;
+        prescribed.push_back({part.body, apparatus.axis == 1 ? BodyMotion{0.0, own, 0.0} : BodyMotion{own, 0.0, 0.0}});
     }
     return prescribed;
 }
 
 /// Points included in a linear solution: bonds and, if walls press on the specimen, also points in contact.
-inline ClosedPoints closed_points(const TestSetup& setup) {
-    return setup.has_walls() ? ClosedPoints::touching : ClosedPoints::bonded;
+inline ClosedPoints closed_points(const PlacedApparatus& apparatus) {
+    return apparatus.has_walls() ? ClosedPoints::touching : ClosedPoints::bonded;
 }
 
 /// Nominal stress, N/m: half the difference between the axial force on the driving part and that on the supports,
 /// divided by the section.
 /// @param reaction  reactions of prescribed_parts(), in the same order
-inline double nominal_stress(const TestSetup& setup, const std::vector<BodyMotion>& reaction) {
+inline double nominal_stress(const PlacedApparatus& apparatus, const std::vector<BodyMotion>& reaction) {
     double sum = 0.0;
-    for (std::size_t k = 0; k < setup.parts.size(); ++k) {
-        if (setup.parts[k].wall) continue;
-        const double along = setup.axis == 1 ? reaction[k].y : reaction[k].x;
-        sum += setup.parts[k].body == setup.top ? along : -along;
+    for (std::size_t k = 0; k < apparatus.parts.size(); ++k) {
+        if (apparatus.parts[k].wall) continue;
+        const double along = apparatus.axis == 1 ? reaction[k].y : reaction[k].x;
+        sum += apparatus.parts[k].body == apparatus.top ? along : -along;
     }
-    return 0.5 * sum / setup.section;
+    return 0.5 * sum / apparatus.section;
 }
 
 /// The bodies of all parts.
-inline std::vector<BodyIndex> bodies_of_parts(const TestSetup& setup) {
+inline std::vector<BodyIndex> bodies_of_parts(const PlacedApparatus& apparatus) {
     std::vector<BodyIndex> bodies;
-    bodies.reserve(setup.parts.size());
-    for (const SetupPart& part : setup.parts) bodies.push_back(part.body);
+    bodies.reserve(apparatus.parts.size());
+    for (const SetupPart& part : apparatus.parts) bodies.push_back(part.body);
     return bodies;
 }
 

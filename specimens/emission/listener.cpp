@@ -45,13 +45,13 @@ Vec2 force_of_break(const BreakEvent& one, Vec2 normal) {
     return one.shear_force * perpendicular(normal) - one.normal_force * normal;
 }
 
-double mean_damping_ratio(const World& world, const TestSetup& setup) {
+double mean_damping_ratio(const World& world, const PlacedApparatus& apparatus) {
     double sum = 0.0;
     std::int64_t count = 0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const ContactPoint point = world.points.contact[k];
-        if ((world.points.state[k].flags & point_bonded) == 0 || setup.is_platen(point.body_i) ||
-            setup.is_platen(point.body_j))
+        if ((world.points.state[k].flags & point_bonded) == 0 || apparatus.is_platen(point.body_i) ||
+            apparatus.is_platen(point.body_j))
             continue;
         // Damping ratios are stored relative to the root mass m: the critical dashpot is 2 sqrt(k_n) m.
         const ContactLaw& law = world.settings.laws[world.points.state[k].law];
@@ -71,16 +71,16 @@ double mean_field_shear_modulus(const World& world, const TestSetup& setup) {
         shear[b] = {0.5 * world.bodies.state[b].y, 0.5 * world.bodies.state[b].x, 0.0};
     double twice_energy = 0.0;
     for (const Spring& spring : springs_of(world, ClosedPoints::bonded)) {
-        if (setup.is_platen(spring.i) || setup.is_platen(spring.j)) continue;
+        if (setup.apparatus.is_platen(spring.i) || setup.apparatus.is_platen(spring.j)) continue;
         twice_energy += spring.stiffness * times(spring, spring.push, shear) * times(spring, spring.gradient, shear);
     }
-    return twice_energy / setup.area;
+    return twice_energy / setup.specimen.area;
 }
 
 EmissionRule emission_rule(const World& world, const TestSetup& setup, double youngs_modulus, double poissons_ratio,
                            double thickness) {
     EmissionRule rule;
-    rule.mean_field = !setup.uniaxial || std::isnan(youngs_modulus) || std::isnan(poissons_ratio);
+    rule.mean_field = !setup.apparatus.uniaxial || std::isnan(youngs_modulus) || std::isnan(poissons_ratio);
     const double shear_modulus =
         rule.mean_field ? mean_field_shear_modulus(world, setup) : youngs_modulus / (2.0 * (1.0 + poissons_ratio));
     if (!(shear_modulus > 0.0)) {
@@ -92,7 +92,7 @@ EmissionRule emission_rule(const World& world, const TestSetup& setup, double yo
     double mass = 0.0, diameters = 0.0;
     std::int64_t particles = 0;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        if (setup.is_platen(static_cast<BodyIndex>(b))) continue;
+        if (setup.apparatus.is_platen(static_cast<BodyIndex>(b))) continue;
         const double own = world.bodies.inertia[b].mass;
         const double area = own / world.settings.materials[world.bodies.info(b).material].density;
         mass += own;
@@ -100,9 +100,10 @@ EmissionRule emission_rule(const World& world, const TestSetup& setup, double yo
         ++particles;
     }
     rule.diameter = diameters / static_cast<double>(particles);
-    rule.density = mass / (setup.uniaxial ? setup.width * setup.height : setup.area);
+    rule.density =
+        mass / (setup.apparatus.uniaxial ? setup.specimen.width * setup.specimen.height : setup.specimen.area);
     rule.shear_wave_speed = std::sqrt(shear_modulus / rule.density);
-    rule.damping_ratio = mean_damping_ratio(world, setup);
+    rule.damping_ratio = mean_damping_ratio(world, setup.apparatus);
     rule.thickness = world.settings.units == StiffnessUnits::area ? thickness : 1.0;
     return rule;
 }
@@ -174,7 +175,7 @@ void EmissionListener::add_break(std::size_t number, const BreakEvent& one, std:
     event.radius = emission_.rule.diameter + farthest;
     event.duration = one.time - event.time + emission_.rule.window(event.radius);
     for (const BodyIndex body : {one.point.body_i, one.point.body_j}) {
-        if (setup_.is_platen(body) || is_source(open, body)) continue;
+        if (setup_.apparatus.is_platen(body) || is_source(open, body)) continue;
         add_body(open, body, breaks);
         surfaces_[number].found = false;
     }

@@ -74,13 +74,13 @@ class Collection {
     void add(const StrengthTest& test) {
         const Summary& figures = test.figures;
         const Stated<LoadingKind>& kind = figures.about.kind;
-        const bool pulled = kind == LoadingKind::tension;
-        if (!pulled && kind != LoadingKind::compression && kind != LoadingKind::biaxial) {
+        if (!kind || !test_kind(*kind).uniaxial) {
             leave_out(test.where,
                       fmt::format("is a test of another kind, {}: its peak is not a strength under confinement",
                                   kind.name()));
             return;
         }
+        const bool pulled = test_kind(*kind).pulls();
         const std::string unit = figures.about.material_units == StiffnessUnits::area ? "Pa" : "N/m";
         if (all_.unit.empty()) {
             all_.unit = unit;

@@ -36,17 +36,18 @@ Vec2 farthest(const std::vector<Vec2>& places, Vec2 from) {
 /// bonds.
 template <PointKind K>
 Stretch interface_share(const World& world, const TestSetup& setup, PointIndex bond, const Facing& held) {
-    const auto belongs = [&](PointIndex k) { return same_pair(setup.bonds[k], setup.bonds[bond]); };
+    const BondRecord& bonds = setup.bonds;
+    const auto belongs = [&](PointIndex k) { return same_pair(bonds.points[k], bonds.points[bond]); };
     const auto number = static_cast<std::size_t>(K);
     PointIndex first = bond, last = bond + 1;
-    while (first > setup.bond_kind_begin[number] && belongs(first - 1)) --first;
-    while (last < setup.bond_kind_begin[number + 1] && belongs(last)) ++last;
+    while (first > bonds.kind_begin[number] && belongs(first - 1)) --first;
+    while (last < bonds.kind_begin[number + 1] && belongs(last)) ++last;
     std::vector<Vec2> places;
     for (PointIndex k = first; k < last; ++k)
-        places.push_back(middle_of(facing_at_start<K>(world, setup, setup.bonds.at<K>(k))));
+        places.push_back(middle_of(facing_at_start<K>(world, setup, bonds.points.at<K>(k))));
     const Vec2 from = middle_of(held), one = farthest(places, from), other = farthest(places, one);
     // If two corners face each other, the contact normal differs from that of the face.
-    const double length = norm(other - one), least = setup.bond_thick;
+    const double length = norm(other - one), least = bonds.thick;
     const Vec2 along = length > least ? (1.0 / length) * (other - one) : perpendicular(held.normal);
     double begin = 0.0, end = 0.0;
     int before = 0;
@@ -62,10 +63,10 @@ Stretch interface_share(const World& world, const TestSetup& setup, PointIndex b
     return {along, begin + before * share, begin + (before + 1) * share};
 }
 
-double flat_face_lap_at_start(const World& world, const TestSetup& setup, const ContactPoint& point) {
+double flat_face_lap_at_start(const World& world, const BondRecord& bonds, const ContactPoint& point) {
     const auto body = [&](BodyIndex b) {
-        const StartPlace& start = setup.start[b];
-        return placed_body(world, setup, b, start.x, start.y, start.angle);
+        const StartPlace& start = bonds.start[b];
+        return placed_body(world, bonds, b, start.x, start.y, start.angle);
     };
     return flat_face_contact(world.bodies.flat_faces[point.element_i], world.bodies.flat_faces[point.feature_j],
                              body(point.body_i), body(point.body_j))
@@ -75,9 +76,9 @@ double flat_face_lap_at_start(const World& world, const TestSetup& setup, const 
 /// Part of the face that belongs to a bond. @param held  where the bond is attached at the start of loading
 template <PointKind K>
 Stretch share_of(const World& world, const TestSetup& setup, PointIndex bond, const Facing& held) {
-    const ContactPoint point = setup.bonds.at<K>(bond);
+    const ContactPoint point = setup.bonds.points.at<K>(bond);
     if constexpr (K == PointKind::face_face) {
-        const double half = 0.5 * flat_face_lap_at_start(world, setup, point);
+        const double half = 0.5 * flat_face_lap_at_start(world, setup.bonds, point);
         return {perpendicular(held.normal), -half, half};
     }
     if (!is_circles(world, point.body_i)) return interface_share<K>(world, setup, bond, held);
@@ -88,7 +89,7 @@ Stretch share_of(const World& world, const TestSetup& setup, PointIndex bond, co
 template <PointKind K>
 CrackFace face_of(const PlacedFrame& placed, PointIndex bond) {
     const TestSetup& setup = placed.setup();
-    const ContactPoint point = setup.bonds.at<K>(bond);
+    const ContactPoint point = setup.bonds.points.at<K>(bond);
     const Facing held = facing_at_start<K>(placed.world(), setup, point);
     const Stretch part = share_of<K>(placed.world(), setup, bond, held);
     const auto carried = [&](double place) {
@@ -100,16 +101,16 @@ CrackFace face_of(const PlacedFrame& placed, PointIndex bond) {
     const Vec2 apart = placed.carried(point.body_j, held.on_j) - placed.carried(point.body_i, held.on_i);
     const double length = norm(normal);
     const double now = length > 0.0 ? dot(apart, normal) / length : norm(apart);
-    const double touching = setup.polygons
-                                ? setup.bond_thick
-                                : setup.bond_overlaps[bond];  // m, value of `now` when the surfaces just touch
+    const double touching = setup.specimen.polygons
+                                ? setup.bonds.thick
+                                : setup.bonds.overlaps[bond];  // m, value of `now` when the surfaces just touch
     return {carried(part.begin), carried(part.end), now - touching};
 }
 
 /// Calls `visit<K>()` with the kind K of a bond. Walls have no bonds.
 template <class Visit>
-void with_kind_of(const TestSetup& setup, PointIndex bond, Visit&& visit) {
-    visit_kinds(setup.bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+void with_kind_of(const BondRecord& bonds, PointIndex bond, Visit&& visit) {
+    visit_kinds(bonds.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         if constexpr (K != PointKind::element_wall) {
             if (bond >= begin && bond < end) visit.template operator()<K>();
         }
@@ -120,14 +121,14 @@ void with_kind_of(const TestSetup& setup, PointIndex bond, Visit&& visit) {
 
 CrackFace find_crack_face(const PlacedFrame& placed, PointIndex bond) {
     CrackFace face{};
-    with_kind_of(placed.setup(), bond, [&]<PointKind K>() { face = face_of<K>(placed, bond); });
+    with_kind_of(placed.setup().bonds, bond, [&]<PointKind K>() { face = face_of<K>(placed, bond); });
     return face;
 }
 
 double length_of_face(const World& world, const TestSetup& setup, PointIndex bond) {
     double length = 0.0;
-    with_kind_of(setup, bond, [&]<PointKind K>() {
-        const Facing held = facing_at_start<K>(world, setup, setup.bonds.at<K>(bond));
+    with_kind_of(setup.bonds, bond, [&]<PointKind K>() {
+        const Facing held = facing_at_start<K>(world, setup, setup.bonds.points.at<K>(bond));
         const Stretch part = share_of<K>(world, setup, bond, held);
         length = part.end - part.begin;
     });

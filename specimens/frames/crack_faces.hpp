@@ -21,7 +21,7 @@ struct CrackFace {
     double opening;
 };
 
-/// Face of a broken bond in a frame. @param bond  index into TestSetup::bonds
+/// Face of a broken bond in a frame. @param bond  index into BondRecord::points
 CrackFace find_crack_face(const PlacedFrame& placed, PointIndex bond);
 
 /// Length of a bond's face at the start of loading, m.

@@ -15,9 +15,10 @@ std::vector<std::int32_t> find_fragments(const World& world, const TestSetup& se
     std::vector<BodyIndex> rank(bodies), parent(bodies);
     boost::disjoint_sets sets(rank.data(), parent.data());
     for (BodyIndex b = 0; b < bodies; ++b) sets.make_set(b);
-    for (std::size_t k = 0; k < setup.bonds.size(); ++k) {
-        const auto [i, j] = setup.bonds.pairs[k];
-        if (holds(frame.states[k]) && !setup.is_platen(i) && !setup.is_platen(j)) sets.union_set(i, j);
+    for (std::size_t k = 0; k < setup.bonds.points.size(); ++k) {
+        const auto [i, j] = setup.bonds.points.pairs[k];
+        if (holds(frame.states[k]) && !setup.apparatus.is_platen(i) && !setup.apparatus.is_platen(j))
+            sets.union_set(i, j);
     }
     struct Fragment {
         double area = 0.0;  // m²
@@ -28,7 +29,7 @@ std::vector<std::int32_t> find_fragments(const World& world, const TestSetup& se
     // For the root body of each disjoint set, index of its fragment in order of discovery; -1 for other bodies.
     std::vector<std::int32_t> number(bodies, -1);
     for (BodyIndex b = 0; b < bodies; ++b) {
-        if (setup.is_platen(b)) continue;
+        if (setup.apparatus.is_platen(b)) continue;
         const BodyIndex set = sets.find_set(b);
         if (number[set] < 0) {
             number[set] = static_cast<std::int32_t>(fragments.size());
@@ -44,7 +45,7 @@ std::vector<std::int32_t> find_fragments(const World& world, const TestSetup& se
     });
     for (std::size_t f = 0; f < fragments.size(); ++f) rank[fragments[f].set] = static_cast<BodyIndex>(f);
     for (BodyIndex b = 0; b < bodies; ++b) {
-        if (!setup.is_platen(b)) number[b] = static_cast<std::int32_t>(rank[sets.find_set(b)]);
+        if (!setup.apparatus.is_platen(b)) number[b] = static_cast<std::int32_t>(rank[sets.find_set(b)]);
     }
     return number;
 }

@@ -40,14 +40,14 @@ void generate(ScratchArray<T>& values, std::size_t count, const Value& value) {
 
 /// Stores the points that touch without a bond. Values of broken bonds go to the arrays of bonds, the others to
 /// Frame::loose.
-void take_loose(const TestSetup& setup, const LooseContacts& loose, const auto& target) {
+void take_loose(const BondRecord& bonds, const LooseContacts& loose, const auto& target) {
     Frame& frame = target.frame;
     frame.loose.contacts.clear();
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         for (PointIndex k = loose.kind_begin[kind]; k < loose.kind_begin[kind + 1]; ++k) {
             const LooseContact& contact = loose.contacts[k];
-            const PointIndex bond = bond_of(setup, static_cast<PointKind>(kind), contact.point);
-            if (bond == setup.bonds.size()) {
+            const PointIndex bond = bond_of(bonds, static_cast<PointKind>(kind), contact.point);
+            if (bond == bonds.points.size()) {
                 frame.loose.contacts.push_back(contact);
             } else {
                 target.shear_force[bond] = contact.shear_force;
@@ -64,7 +64,7 @@ constexpr std::array<const char*, 4> pictures{"particles_", "contacts_", "cracks
 
 std::string picture(std::size_t which, std::int64_t row) { return fmt::format("{}{:05}.vtp", pictures[which], row); }
 
-void take(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
+void take(const World& world, const BondRecord& bonds, const ContactHistory& history, const CurveRow& row,
           std::int64_t row_index, const auto& target) {
     Frame& frame = target.frame;
     frame.row = row_index;
@@ -77,13 +77,13 @@ void take(const World& world, const TestSetup& setup, const ContactHistory& hist
         return {body.x, body.y, body.angle, body.vx, body.vy, body.omega};
     });
     // Bonds never form again, so a bond that is missing from the list of points is broken.
-    const ContactList& bonds = setup.bonds;
-    target.shear_force.assign(bonds.size(), 0.0);
-    target.states.assign(bonds.size(), ContactState::broken);
+    const ContactList& points = bonds.points;
+    target.shear_force.assign(points.size(), 0.0);
+    target.states.assign(points.size(), ContactState::broken);
     frame.joint_forces.clear();
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
-        const PointIndex first = setup.bond_kind_begin[static_cast<std::size_t>(K)];
-        const PointIndex last = setup.bond_kind_begin[static_cast<std::size_t>(K) + 1];
+        const PointIndex first = bonds.kind_begin[static_cast<std::size_t>(K)];
+        const PointIndex last = bonds.kind_begin[static_cast<std::size_t>(K) + 1];
         PointIndex next = first;
         for (PointIndex k = begin; k < end; ++k) {
             // From this index on, the list starts again with the same kind.
@@ -91,7 +91,7 @@ void take(const World& world, const TestSetup& setup, const ContactHistory& hist
             const ContactPoint point = world.points.contact.at<K>(k);
             const auto flags = world.points.state[k].flags;
             if ((flags & point_bonded) == 0) continue;
-            while (next < last && !same_point(K, bonds.at<K>(next), point)) ++next;
+            while (next < last && !same_point(K, points.at<K>(next), point)) ++next;
             if (next == last)
                 throw std::logic_error(
                     "a bonded point is missing in the list made when loading began, or stands in another order there");
@@ -103,19 +103,19 @@ void take(const World& world, const TestSetup& setup, const ContactHistory& hist
                                (flat_face_contact(BodyView(world), point).overlap - world.points.bond_overlap[k])});
         }
     });
-    take_loose(setup, history.loose, target);
+    take_loose(bonds, history.loose, target);
 }
 
 }  // namespace
 
-void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
+void take_frame(const World& world, const BondRecord& bonds, const ContactHistory& history, const CurveRow& row,
                 std::int64_t row_index, Frame& frame) {
-    take(world, setup, history, row, row_index, Target{frame, frame.bodies, frame.shear_force, frame.states});
+    take(world, bonds, history, row, row_index, Target{frame, frame.bodies, frame.shear_force, frame.states});
 }
 
-void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
+void take_frame(const World& world, const BondRecord& bonds, const ContactHistory& history, const CurveRow& row,
                 std::int64_t row_index, FrameOnDisc& frame) {
-    take(world, setup, history, row, row_index, Target{frame.rest_, frame.bodies_, frame.shear_force_, frame.states_});
+    take(world, bonds, history, row, row_index, Target{frame.rest_, frame.bodies_, frame.shear_force_, frame.states_});
 }
 
 void FrameOnDisc::put(const Frame& frame) {

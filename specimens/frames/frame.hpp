@@ -49,9 +49,9 @@ struct Frame {
     std::int64_t row = -1;  ///< row of the curve; -1 if there is no frame
     double axial_strain = 0.0, axial_stress = 0.0, time = 0.0;
     std::vector<Body> bodies;  ///< in the order of World::bodies
-    /// Elastic shear force, N, in the order of TestSetup::bonds; 0 for broken bonds whose surfaces do not touch.
+    /// Elastic shear force, N, in the order of BondRecord::points; 0 for broken bonds whose surfaces do not touch.
     std::vector<double> shear_force;
-    std::vector<ContactState> states;  ///< states of the bonds, in the order of TestSetup::bonds
+    std::vector<ContactState> states;  ///< states of the bonds, in the order of BondRecord::points
     LooseContacts loose;               ///< contacts that were never bonded
     /// Number of cracks at this moment: the first ones in ContactHistory::cracks.
     std::uint64_t cracks = 0;
@@ -73,7 +73,7 @@ class FrameOnDisc {
     Frame whole();
 
   private:
-    friend void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history,
+    friend void take_frame(const World& world, const BondRecord& bonds, const ContactHistory& history,
                            const CurveRow& row, std::int64_t row_index, FrameOnDisc& frame);
 
     Frame rest_;  // the frame without the arrays below
@@ -86,10 +86,10 @@ class FrameOnDisc {
 /// numbers of bodies and listed points. The expensive part, the normal forces of contacts, is left to the painter:
 /// every row is a new peak while the stress rises, and few of these frames are kept.
 /// @param frame  receives the data; its memory is reused
-void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
+void take_frame(const World& world, const BondRecord& bonds, const ContactHistory& history, const CurveRow& row,
                 std::int64_t row_index, Frame& frame);
 /// Takes a frame while holding only part of it in memory.
-void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
+void take_frame(const World& world, const BondRecord& bonds, const ContactHistory& history, const CurveRow& row,
                 std::int64_t row_index, FrameOnDisc& frame);
 
 /// Default number of frames up to max_axial_strain. It is 100 for up to 2,000 bodies, and 200,000 divided by the number

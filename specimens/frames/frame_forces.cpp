@@ -32,7 +32,7 @@ FrameForces find_forces(const PlacedFrame& placed) {
     const TestSetup& setup = placed.setup();
     const Frame& frame = placed.frame();
     FrameForces forces;
-    forces.normal.reserve(setup.bonds.size() + frame.loose.contacts.size());
+    forces.normal.reserve(setup.bonds.points.size() + frame.loose.contacts.size());
     forces.stress.resize(frame.bodies.size());
     const BodyView bodies(world);
     const auto geometry = [&]<PointKind K>(const ContactPoint& point) {
@@ -49,21 +49,21 @@ FrameForces find_forces(const PlacedFrame& placed) {
         add_force(point, g, share * law.normal_stiffness * (g.overlap - rest_overlap), shear);
     };
     auto of_joint = frame.joint_forces.begin();
-    visit_kinds(setup.bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+    visit_kinds(setup.bonds.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
             if (frame.states[k] == ContactState::broken) {
                 forces.normal.push_back(0.0);
                 continue;
             }
             if (of_joint != frame.joint_forces.end() && of_joint->bond == k) {
-                const ContactPoint point = setup.bonds.at<K>(k);
+                const ContactPoint point = setup.bonds.points.at<K>(k);
                 add_force(point, geometry.template operator()<K>(point), of_joint->normal, frame.shear_force[k]);
                 ++of_joint;
                 continue;
             }
-            add.template operator()<K>(setup.bonds.at<K>(k),
-                                       holds(frame.states[k]) ? setup.bond_overlaps[k] : setup.rest_overlap(k),
-                                       setup.bond_shares.empty() ? 1.0 : setup.bond_shares[k], frame.shear_force[k]);
+            add.template operator()<K>(setup.bonds.points.at<K>(k),
+                                       holds(frame.states[k]) ? setup.bonds.overlaps[k] : setup.bonds.rest_overlap(k),
+                                       setup.bonds.shares.empty() ? 1.0 : setup.bonds.shares[k], frame.shear_force[k]);
         }
     });
     visit_kinds(frame.loose.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
@@ -82,7 +82,7 @@ FrameForces find_forces(const PlacedFrame& placed) {
     });
     for (BodyIndex b = 0; b < forces.stress.size(); ++b) {
         ParticleStress& stress = forces.stress[b];
-        if (setup.is_platen(b)) {
+        if (setup.apparatus.is_platen(b)) {
             stress = {};
             continue;
         }

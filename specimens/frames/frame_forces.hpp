@@ -21,7 +21,7 @@ struct ParticleStress {
 
 /// Forces and stresses in a frame.
 struct FrameForces {
-    /// Elastic normal forces, N, compression positive: first those of TestSetup::bonds (0 for broken bonds whose
+    /// Elastic normal forces, N, compression positive: first those of BondRecord::points (0 for broken bonds whose
     /// surfaces do not touch), then those of Frame::loose.
     std::vector<double> normal;
     std::vector<ParticleStress> stress;  ///< by body; 0 for platens

@@ -85,17 +85,17 @@ constexpr Quantity arrays_of_joints[]{
 };
 
 /// Number of corners of the face if the body is a part that holds or drives the specimen; otherwise empty.
-std::optional<std::size_t> face_of_part(const TestSetup& setup, BodyIndex b) {
-    for (const SetupPart& part : setup.parts)
+std::optional<std::size_t> face_of_part(const PlacedApparatus& apparatus, BodyIndex b) {
+    for (const SetupPart& part : apparatus.parts)
         if (part.body == b) return part.face;
     return std::nullopt;
 }
 
 /// Order of the bodies in files: platens first, because VTK numbers lines before polygons; then other bodies by id.
-std::vector<BodyIndex> drawing_order(const World& world, const TestSetup& setup) {
+std::vector<BodyIndex> drawing_order(const World& world, const PlacedApparatus& apparatus) {
     std::vector<BodyIndex> order(world.bodies.size());
     std::iota(order.begin(), order.end(), BodyIndex{0});
-    const auto rank = [&](BodyIndex b) { return std::pair(!setup.is_platen(b), world.bodies.info(b).id); };
+    const auto rank = [&](BodyIndex b) { return std::pair(!apparatus.is_platen(b), world.bodies.info(b).id); };
     std::sort(order.begin(), order.end(), [&](BodyIndex a, BodyIndex b) { return rank(a) < rank(b); });
     return order;
 }
@@ -168,14 +168,14 @@ FramePainter::FramePainter(const World& world, const TestSetup& setup, FramePrec
     : world_(world),
       setup_(setup),
       precision_(precision),
-      order_(drawing_order(world, setup)),
-      outline_(unit_circle_outline(circle_corners(setup.particles))) {
+      order_(drawing_order(world, setup.apparatus)),
+      outline_(unit_circle_outline(circle_corners(setup.specimen.particles))) {
     visit_cells([&](BodyIndex b, std::uint32_t, std::size_t corners, double) {
         particle_counts_.points += corners;
-        ++(setup.is_platen(b) ? particle_counts_.lines : particle_counts_.polygons);
+        ++(setup.apparatus.is_platen(b) ? particle_counts_.lines : particle_counts_.polygons);
     });
-    for (BodyIndex b = 0; b < world.bodies.size() && !setup.polygons; ++b) centres_ += is_circles(world, b);
-    if (setup.particles > most_kept) return;
+    for (BodyIndex b = 0; b < world.bodies.size() && !setup.specimen.polygons; ++b) centres_ += is_circles(world, b);
+    if (setup.specimen.particles > most_kept) return;
     std::ostringstream particles, bonds;
     write_particle_cells(particles);
     write_contact_cells(bonds, LooseContacts{});
@@ -191,7 +191,7 @@ void FramePainter::visit_cells(const Visit& visit) const {
     for (const BodyIndex b : order_) {
         const BodyInfo info = world_.bodies.info(b);
         if (!is_circles(world_, b)) {
-            visit(b, info.first_element, face_of_part(setup_, b).value_or(info.element_count), 0.0);
+            visit(b, info.first_element, face_of_part(setup_.apparatus, b).value_or(info.element_count), 0.0);
             continue;
         }
         for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e)
@@ -205,7 +205,7 @@ void FramePainter::write_particle_cells(std::ostream& out) const {
     const std::size_t cells = counts.lines + counts.polygons;
     std::size_t line_points = 0;
     visit_cells([&](BodyIndex b, std::uint32_t, std::size_t corners, double) {
-        if (setup_.is_platen(b)) line_points += corners;
+        if (setup_.apparatus.is_platen(b)) line_points += corners;
     });
     // Corners are numbered consecutively; those of lines come first.
     const auto write_cells = [&](const char* name, bool lines) {
@@ -217,7 +217,7 @@ void FramePainter::write_particle_cells(std::ostream& out) const {
         write_indices(out, "offsets", lines ? counts.lines : counts.polygons, counts.points, [&](const auto& add) {
             std::size_t offset = 0;
             visit_cells([&](BodyIndex b, std::uint32_t, std::size_t corners, double) {
-                if (setup_.is_platen(b) == lines) add(offset += corners);
+                if (setup_.apparatus.is_platen(b) == lines) add(offset += corners);
             });
         });
         end_element(out, name);
@@ -273,7 +273,7 @@ void FramePainter::write_particles(std::ostream& out, const PlacedFrame& placed,
         array.finish();
     };
     const auto& bodies = frame.bodies;
-    const auto& start = setup_.start;
+    const auto& start = setup_.bonds.start;
     write_scalars("angle", [&](BodyIndex b) { return bodies[b].angle - start[b].angle; });
     write_vectors("displacement", [&](BodyIndex b) {
         return Vec2{bodies[b].x - start[b].x, bodies[b].y - start[b].y};
@@ -294,33 +294,33 @@ void FramePainter::write_particles(std::ostream& out, const PlacedFrame& placed,
 /// Calls visit(contact point) for each contact: first for the bonds, then for the loose contacts.
 template <class Visit>
 void FramePainter::visit_contacts(const LooseContacts& loose, const Visit& visit) const {
-    for (const BodyPair& bond : setup_.bonds.pairs) visit(bond);
+    for (const BodyPair& bond : setup_.bonds.points.pairs) visit(bond);
     for (const LooseContact& contact : loose.contacts) visit(BodyPair{contact.point.body_i, contact.point.body_j});
 }
 
 /// Writes the cells of contacts, as write_particle_cells() does for particles. Without loose contacts, they never
 /// change.
 void FramePainter::write_contact_cells(std::ostream& out, const LooseContacts& loose) const {
-    std::vector<std::uint32_t> centre(setup_.polygons ? 0 : world_.bodies.size());
+    std::vector<std::uint32_t> centre(setup_.specimen.polygons ? 0 : world_.bodies.size());
     std::size_t centres = 0;
     for (BodyIndex b = 0; b < centre.size(); ++b) {
         if (is_circles(world_, b)) centre[b] = static_cast<std::uint32_t>(centres++);
     }
     const auto corners = [&](const BodyPair& point) {
-        if (setup_.polygons) return std::size_t{2};
+        if (setup_.specimen.polygons) return std::size_t{2};
         return std::size_t{1} + is_circles(world_, point.body_i) + is_circles(world_, point.body_j);
     };
     std::size_t all_corners = 0;
     visit_contacts(loose, [&](const BodyPair& point) { all_corners += corners(point); });
-    const std::size_t contacts = setup_.bonds.size() + loose.contacts.size();
+    const std::size_t contacts = setup_.bonds.points.size() + loose.contacts.size();
     begin_element(out, "Lines");
     write_indices(out, "connectivity", all_corners, all_corners, [&](const auto& add) {
         std::size_t next = centres;
         visit_contacts(loose, [&](const BodyPair& point) {
-            if (!setup_.polygons && is_circles(world_, point.body_i)) add(centre[point.body_i]);
+            if (!setup_.specimen.polygons && is_circles(world_, point.body_i)) add(centre[point.body_i]);
             add(next++);
-            if (setup_.polygons) add(next++);
-            if (!setup_.polygons && is_circles(world_, point.body_j)) add(centre[point.body_j]);
+            if (setup_.specimen.polygons) add(next++);
+            if (!setup_.specimen.polygons && is_circles(world_, point.body_j)) add(centre[point.body_j]);
         });
     });
     write_indices(out, "offsets", contacts, all_corners, [&](const auto& add) {
@@ -341,26 +341,26 @@ void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, 
                                   std::span<const Crack> cracks) const {
     const Frame& frame = placed.frame();
     const auto& loose = frame.loose.contacts;
-    const std::size_t contacts = setup_.bonds.size() + loose.size();
+    const std::size_t contacts = setup_.bonds.points.size() + loose.size();
     // With circles, the points are all centres, followed by one point per contact. With polygons, they are two points
     // per contact.
-    const VtpCounts counts{setup_.polygons ? 2 * contacts : centres_ + contacts, contacts, 0};
+    const VtpCounts counts{setup_.specimen.polygons ? 2 * contacts : centres_ + contacts, contacts, 0};
     write_head(out, frame, counts);
     write_points(out, precision_, counts.points, [&](const auto& add) {
-        for (BodyIndex b = 0; b < frame.bodies.size() && !setup_.polygons; ++b) {
+        for (BodyIndex b = 0; b < frame.bodies.size() && !setup_.specimen.polygons; ++b) {
             if (is_circles(world_, b)) add({frame.bodies[b].x, frame.bodies[b].y});
         }
         const auto add_places = [&](Vec2 on_i, Vec2 on_j) {
-            if (setup_.polygons) {
+            if (setup_.specimen.polygons) {
                 add(on_i);
                 add(on_j);
             } else {
                 add(0.5 * (on_i + on_j));
             }
         };
-        visit_kinds(setup_.bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        visit_kinds(setup_.bonds.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
             for (PointIndex k = begin; k < end; ++k) {
-                const ContactPoint point = setup_.bonds.at<K>(k);
+                const ContactPoint point = setup_.bonds.points.at<K>(k);
                 const Facing held = facing_at_start<K>(world_, setup_, point);
                 add_places(placed.carried(point.body_i, held.on_i), placed.carried(point.body_j, held.on_j));
             }
@@ -394,7 +394,7 @@ void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, 
         for (const Crack& crack : cracks) breaks.emplace_back(crack.bond, crack.time);
         std::sort(breaks.begin(), breaks.end());
         auto broken = breaks.begin();
-        for (PointIndex bond = 0; bond < setup_.bonds.size(); ++bond) {
+        for (PointIndex bond = 0; bond < setup_.bonds.points.size(); ++bond) {
             const bool breaks_here = broken != breaks.end() && broken->first == bond;
             add(breaks_here ? frame.time - (broken++)->second : frame.time);
         }
@@ -423,7 +423,7 @@ void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, st
             for (const Crack& crack : cracks) add(value_of(crack));
         });
     };
-    const auto point_of = [&](const Crack& crack) { return setup_.bonds[crack.bond]; };
+    const auto point_of = [&](const Crack& crack) { return setup_.bonds.points[crack.bond]; };
     write_values("body_i", std::int32_t{},
                  [&](const Crack& crack) { return world_.bodies.info(point_of(crack).body_i).id; });
     write_values("body_j", std::int32_t{},
@@ -436,18 +436,18 @@ void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, st
     write_array<double>(out, of_cracks("opening"), cracks.size(), [&](const auto& add) {
         for (const double opening : openings) add(opening);
     });
-    if (!setup_.traces.empty())
-        write_values("trace", std::int32_t{}, [&](const Crack& crack) { return setup_.trace_of(crack.bond); });
+    if (!setup_.bonds.traces.empty())
+        write_values("trace", std::int32_t{}, [&](const Crack& crack) { return setup_.bonds.trace_of(crack.bond); });
     end_element(out, "CellData");
     write_vtp_end(out);
 }
 
 void FramePainter::write_joints(std::ostream& out, const PlacedFrame& placed) const {
     const Frame& frame = placed.frame();
-    std::vector<std::int32_t> holding(setup_.trace_faces.size(), 0);  // number of intact bonds on each face
-    for (std::size_t bond = 0; bond < setup_.bond_faces.size(); ++bond)
-        if (setup_.bond_faces[bond] >= 0 && holds(frame.states[bond]))
-            ++holding[static_cast<std::size_t>(setup_.bond_faces[bond])];
+    std::vector<std::int32_t> holding(setup_.bonds.trace_faces.size(), 0);  // number of intact bonds on each face
+    for (std::size_t bond = 0; bond < setup_.bonds.face_of_bond.size(); ++bond)
+        if (setup_.bonds.face_of_bond[bond] >= 0 && holds(frame.states[bond]))
+            ++holding[static_cast<std::size_t>(setup_.bonds.face_of_bond[bond])];
     struct Drawn {
         const TraceFace* face;
         FaceMotion motion;
@@ -458,13 +458,13 @@ void FramePainter::write_joints(std::ostream& out, const PlacedFrame& placed) co
         const Frame::Body& body = frame.bodies[b];
         return StartPlace{body.x, body.y, body.angle};
     };
-    for (std::size_t k = 0; k < setup_.trace_faces.size(); ++k) {
-        const TraceFace& face = setup_.trace_faces[k];
+    for (std::size_t k = 0; k < setup_.bonds.trace_faces.size(); ++k) {
+        const TraceFace& face = setup_.bonds.trace_faces[k];
         if (face.length == 0.0) continue;
         const ContactState state = face.bonds == 0   ? ContactState::loose
                                    : holding[k] == 0 ? ContactState::broken
                                                      : ContactState::bonded;
-        drawn.push_back({&face, motion_of(face, setup_.start_of(face), {place(face.i), place(face.j)}), state});
+        drawn.push_back({&face, motion_of(face, setup_.bonds.start_of(face), {place(face.i), place(face.j)}), state});
     }
     const std::size_t count = drawn.size();
     write_head(out, frame, {2 * count, count, 0});

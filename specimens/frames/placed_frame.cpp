@@ -10,7 +10,7 @@ namespace crackle {
 PlacedFrame::PlacedFrame(const World& world, const TestSetup& setup, const Frame& frame)
     : world_(world), setup_(setup), frame_(frame), turns_(frame.bodies.size()) {
     for (std::size_t b = 0; b < turns_.size(); ++b) {
-        const double turn = frame.bodies[b].angle - setup.start[b].angle;
+        const double turn = frame.bodies[b].angle - setup.bonds.start[b].angle;
         turns_[b] = {correctly_rounded::cos(turn), correctly_rounded::sin(turn)};
     }
 }
@@ -29,7 +29,7 @@ BodyState PlacedFrame::body(BodyIndex b) const {
 
 Vec2 PlacedFrame::carried(BodyIndex b, Vec2 place) const {
     const Frame::Body& body = frame_.bodies[b];
-    return Vec2{body.x, body.y} + rotated(turns_[b], place - Vec2{setup_.start[b].x, setup_.start[b].y});
+    return Vec2{body.x, body.y} + rotated(turns_[b], place - Vec2{setup_.bonds.start[b].x, setup_.bonds.start[b].y});
 }
 
 }  // namespace crackle

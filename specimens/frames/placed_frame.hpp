@@ -52,9 +52,9 @@ struct Facing {
 /// @param g  geometry computed for this state
 inline Facing facing_at(const TestSetup& setup, PointKind kind, const BodyState& i, const ContactGeometry& g) {
     // The overlap of a pair of segments is a sum of several overlaps, so the gap of the mesh is used instead.
-    const bool outline = kind == PointKind::element_outline && setup.polygons;
-    const double gap = outline                              ? setup.bond_thick - g.overlap
-                       : kind == PointKind::segment_segment ? setup.mesh_gap
+    const bool outline = kind == PointKind::element_outline && setup.specimen.polygons;
+    const double gap = outline                              ? setup.bonds.thick - g.overlap
+                       : kind == PointKind::segment_segment ? setup.specimen.mesh_gap
                                                             : 0.0;
     const Vec2 middle{i.x + g.aix, i.y + g.aiy}, normal{g.nx, g.ny}, half_gap = 0.5 * gap * normal;
     return {middle - half_gap, middle + half_gap, normal, gap};
@@ -64,8 +64,8 @@ inline Facing facing_at(const TestSetup& setup, PointKind kind, const BodyState&
 template <PointKind K>
 Facing facing_at_start(const World& world, const TestSetup& setup, const ContactPoint& point) {
     const auto body = [&](BodyIndex b) {
-        const StartPlace& start = setup.start[b];
-        return placed_body(world, setup, b, start.x, start.y, start.angle);
+        const StartPlace& start = setup.bonds.start[b];
+        return placed_body(world, setup.bonds, b, start.x, start.y, start.angle);
     };
     const BodyState i = body(point.body_i);
     std::uint32_t feature = point.feature_j;

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "specimens/kinds/test_kind.hpp"
@@ -33,6 +34,8 @@ double notched_beam_factor(double ratio) {
     return 3.0 * std::sqrt(a) * (1.99 - a * rest * (2.15 - 3.93 * a + 2.7 * a * a)) /
            (2.0 * (1.0 + 2.0 * a) * rest * std::sqrt(rest));
 }
+
+namespace {
 
 Shape bending_shape(const KindRequest& request) {
     Shape shape = whole_packing(request);
@@ -93,5 +96,18 @@ Apparatus bending_apparatus(const KindRequest& request, const Shape& shape) {
     }
     return apparatus;
 }
+
+constexpr std::array bending_keys{KindKey{"shape.notch"}, KindKey{"loading.span"}, KindKey{"loading.pad_width"}};
+
+}  // namespace
+
+extern constexpr TestKind bending_kind{.curve = {"fibre stress", "fibre strain"},
+                                       .keys = bending_keys,
+                                       .bonded_because = bonded_parts,
+                                       .valid_failure = ValidFailure::from_midspan,
+                                       .driver = "pad that presses",
+                                       .support = "support",
+                                       .shape = bending_shape,
+                                       .apparatus = bending_apparatus};
 
 }  // namespace crackle

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -117,6 +118,8 @@ double disc_diameter(const KindRequest& request, double room) {
     return diameter;
 }
 
+namespace {
+
 Shape brazilian_shape(const KindRequest& request) {
     const Domain& box = request.packing;
     const double diameter = disc_diameter(request, std::min(box.x2 - box.x1, box.y2 - box.y1));
@@ -160,5 +163,17 @@ Apparatus brazilian_apparatus(const KindRequest& request, const Shape& shape) {
     apparatus.length = diameter;
     return apparatus;
 }
+
+constexpr std::array brazilian_keys{KindKey{"shape.diameter"}, KindKey{"loading.half_angle"}, KindKey{"loading.jaws"}};
+
+}  // namespace
+
+extern constexpr TestKind brazilian_kind{.curve = {"tensile stress at the centre", "shortening of the diameter"},
+                                         .keys = brazilian_keys,
+                                         .valid_failure = ValidFailure::splits_disc,
+                                         .driver = "upper jaw",
+                                         .support = "lower jaw",
+                                         .shape = brazilian_shape,
+                                         .apparatus = brazilian_apparatus};
 
 }  // namespace crackle

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "specimens/kinds/test_kind.hpp"
 
@@ -36,8 +37,6 @@ LoadingPart half_box(const Domain& box, double offset, double rim, double wall, 
     part.face = 8;
     return part;
 }
-
-}  // namespace
 
 Apparatus direct_shear_apparatus(const KindRequest& request, const Shape& shape) {
     const Domain& box = request.packing;
@@ -62,5 +61,22 @@ Apparatus direct_shear_apparatus(const KindRequest& request, const Shape& shape)
     apparatus.section = apparatus.length = shape.width;
     return apparatus;
 }
+
+constexpr std::array direct_shear_keys{
+    KindKey{"loading.normal_stress", "kind = \"direct_shear\" needs it; 0 means no normal stress"},
+    KindKey{"loading.box_gap"}, KindKey{"loading.normal_stiffness"}};
+
+}  // namespace
+
+extern constexpr TestKind direct_shear_kind{.curve = {"shear stress", "displacement over length"},
+                                            .compression = false,
+                                            .shear_box = true,
+                                            .keys = direct_shear_keys,
+                                            .bonded_because = bonded_parts,
+                                            .valid_failure = ValidFailure::along_gap,
+                                            .driver = "upper box",
+                                            .support = "lower box",
+                                            .shape = whole_packing,
+                                            .apparatus = direct_shear_apparatus};
 
 }  // namespace crackle

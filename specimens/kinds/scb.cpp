@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -46,6 +47,8 @@ double semicircle_factor(double ratio, double half_span) {
     return -1.297 + 9.516 * half_span - (0.47 + 16.457 * half_span) * ratio +
            (1.071 + 34.401 * half_span) * ratio * ratio;
 }
+
+namespace {
 
 Shape scb_shape(const KindRequest& request) {
     const Domain& box = request.packing;
@@ -106,5 +109,20 @@ Apparatus scb_apparatus(const KindRequest& request, const Shape& shape) {
         semicircle_factor(notch / radius, span / shape.width) * std::sqrt(std::numbers::pi * notch);
     return apparatus;
 }
+
+constexpr std::array scb_keys{KindKey{"shape.diameter"}, KindKey{"shape.notch"}, KindKey{"loading.span"},
+                              KindKey{"loading.pad_width"}};
+
+}  // namespace
+
+extern constexpr TestKind scb_kind{.curve = {"P/2R", "displacement over R"},
+                                   .notched = true,
+                                   .keys = scb_keys,
+                                   .bonded_because = bonded_parts,
+                                   .valid_failure = ValidFailure::from_midspan,
+                                   .driver = "pad that presses",
+                                   .support = "support",
+                                   .shape = scb_shape,
+                                   .apparatus = scb_apparatus};
 
 }  // namespace crackle

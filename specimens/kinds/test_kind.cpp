@@ -2,6 +2,7 @@
 #include "specimens/kinds/test_kind.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -43,19 +44,22 @@ void KindRequest::refuse(const std::string& key, const std::string& found, const
     throw InputError(fmt::format("{}: found {}, expected {}; {}", test.at(key), found, expected, remedy));
 }
 
+#define CRACKLE_DECLARED(name) extern const TestKind name##_kind;
+#define CRACKLE_ADDRESS(name) &name##_kind,
+CRACKLE_TEST_KINDS(CRACKLE_DECLARED)
+
 const TestKind& test_kind(LoadingKind kind) {
-    using enum LoadingKind;
-    using enum ValidFailure;
-    static constexpr std::array<TestKind, table_of_names<LoadingKind>.size()> all{{
-        {compression, true, true, false, between_platens, "platen", "platen", whole_packing, nullptr},
-        {tension, false, true, false, between_platens, "platen", "platen", whole_packing, nullptr},
-        {biaxial, true, true, false, between_platens, "platen", "platen", whole_packing, nullptr},
-        {brazilian, true, false, false, splits_disc, "upper jaw", "lower jaw", brazilian_shape, brazilian_apparatus},
-        {bending, true, false, false, from_midspan, "pad that presses", "support", bending_shape, bending_apparatus},
-        {scb, true, false, false, from_midspan, "pad that presses", "support", scb_shape, scb_apparatus},
-        {direct_shear, false, false, true, along_gap, "upper box", "lower box", whole_packing, direct_shear_apparatus},
-    }};
-    return *std::ranges::find(all, kind, &TestKind::kind);
+    static constexpr std::array all{CRACKLE_TEST_KINDS(CRACKLE_ADDRESS)};
+    return *all[static_cast<std::size_t>(kind)];
+}
+
+std::string kinds_with(const std::function<bool(const TestKind&)>& is) {
+    std::vector<std::string> names;
+    for (const std::string& name : names_of<LoadingKind>())
+        if (is(test_kind(*from_name<LoadingKind>(name)))) names.push_back(fmt::format("\"{}\"", name));
+    const std::string last = names.back();
+    names.pop_back();
+    return names.empty() ? last : fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
 double half_angle(const KindRequest& request) {

@@ -2,7 +2,7 @@
 // The kinds of test. A kind defines the tested part of the packing, the parts that hold and drive it, and how force and
 // displacement become stress and strain.
 //
-//   compression, tension, biaxial   the whole packing between two platens (specimens/setup/platen.hpp)
+//   compression, tension, biaxial   the whole packing between two platens (specimens/setup/platen.hpp)  platens.cpp
 //   brazilian                       a disc between two jaws                                              brazilian.cpp
 //   bending                         a beam on two supports, pressed at midspan, with or without a notch  bending.cpp
 //   scb                             half a disc with a notch on two supports (semi-circular bend)        scb.cpp
@@ -11,7 +11,7 @@
 // For every kind, stress is the force exerted by the specimen on the driving part in its direction of travel, divided
 // by `section`. Axial strain is the displacement of the driving part divided by `length`. Both are nominal values; the
 // formulas in the file of each kind convert them to the usual strengths. Each kind consists of one file and one row in
-// test_kind().
+// specimens/case/kinds/test_kind.hpp.
 // Tested by tests/specimens/kinds/test_kind_test.cpp.
 #pragma once
 
@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "solver/scene/scene.hpp"
+#include "specimens/case/kinds/test_kind.hpp"
 #include "specimens/case/test_case.hpp"
 
 namespace crackle {
@@ -98,29 +99,6 @@ struct KindRequest {
                              const std::string& remedy) const;
 };
 
-/// Failure mode expected in a valid test (specimens/measures/verdicts.hpp).
-enum class ValidFailure : std::uint8_t { between_platens, splits_disc, from_midspan, along_gap };
-
-/// A kind of test.
-struct TestKind {
-    LoadingKind kind;
-    bool compression;  ///< whether the driving part moves in the negative direction of its axis
-    /// Whether stress and strain are those of the rock, so that quantities such as moduli and crack thresholds are
-    /// defined.
-    bool uniaxial;
-    /// Whether the test is a direct shear test with a normal force, so that dilation and residual stress are defined.
-    bool shear_box;
-    ValidFailure valid_failure;
-    const char *driver, *support;  ///< names of the driving part and the supports in messages
-    /// Returns the shape to be cut out of the packing. Called before the bodies are known.
-    Shape (*shape)(const KindRequest&);
-    /// Returns the parts that hold and drive the specimen; nullptr for the uniaxial kinds, which have platens.
-    Apparatus (*apparatus)(const KindRequest&, const Shape&);
-};
-
-/// The kind of test that a case names.
-const TestKind& test_kind(LoadingKind kind);
-
 /// Diameter of the disc, m. @param room  default diameter, m: the largest disc that fits into the packing
 double disc_diameter(const KindRequest& request, double room);
 /// Half of the arc over which a jaw presses, rad.
@@ -133,23 +111,11 @@ double pad_width(const KindRequest& request, double size);
 /// @param up  whether the specimen lies above the pad
 LoadingPart flat_pad(double x, double y, double width, bool up);
 
-// The functions of each kind are defined in a file of its own.
-/// The shape that keeps the whole packing, for kinds of test between platens.
+/// Why pads and boxes may not be frictional.
+inline constexpr const char* bonded_parts = "pads and boxes are bonded to the specimen";
+
+/// The shape that keeps the whole packing.
 Shape whole_packing(const KindRequest& request);
-/// A disc.
-Shape brazilian_shape(const KindRequest& request);
-/// Two jaws that press a disc.
-Apparatus brazilian_apparatus(const KindRequest& request, const Shape& shape);
-/// A beam, with a notch if the case has one.
-Shape bending_shape(const KindRequest& request);
-/// Two supports and a pad that bends a beam.
-Apparatus bending_apparatus(const KindRequest& request, const Shape& shape);
-/// Half a disc with a notch.
-Shape scb_shape(const KindRequest& request);
-/// Two supports and a pad that bends half a disc.
-Apparatus scb_apparatus(const KindRequest& request, const Shape& shape);
-/// A box in two halves; the upper half moves under a normal stress.
-Apparatus direct_shear_apparatus(const KindRequest& request, const Shape& shape);
 
 /// f(a/W) of a beam with a notch of length a in three-point bending with S = 4W, for unit thickness: K_I = P S/W^1.5 f
 /// (ASTM E399).

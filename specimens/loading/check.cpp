@@ -80,13 +80,13 @@ void estimate_strength(TestCheck& check, const ElasticAnalysis& analysis, const 
 
 /// Finds the corner that comes closest to passing through a platen at the estimated strength.
 void find_deepest_corner(TestCheck& check, const ElasticAnalysis& analysis, const TestSetup& own) {
-    if (!own.compression || !own.polygons || !check.strength) return;
+    if (!own.apparatus.compression || !own.specimen.polygons || !check.strength) return;
     double deepest = 0.0;
     for (const LinearBond& bond : analysis.bonds) {
-        const auto is_platen = [&](int id) { return id == own.bottom_id || id == own.top_id; };
+        const auto is_platen = [&](int id) { return id == own.apparatus.bottom_id || id == own.apparatus.top_id; };
         if (!is_platen(bond.body_i) && !is_platen(bond.body_j)) continue;
         const double closing = bond.closing / analysis.strain * check.strength->strain;
-        const double distance = own.bond_thick - bond.overlap;
+        const double distance = own.bonds.thick - bond.overlap;
         if (!(closing / distance > deepest)) continue;
         deepest = closing / distance;
         check.corner_closing = closing;
@@ -122,7 +122,7 @@ std::optional<DiscOutlook> outlook_of(const TestCase& disc, const TestHooks& hoo
         outlook.friction_angle = bond_friction_angle(world);
         for (const bool compression : {true, false}) {
             TestSetup setup = squeezed;
-            setup.compression = compression;
+            setup.apparatus.compression = compression;
             const BreakShare rule = bond_break_share(setup);
             strains[compression ? 0 : 1] =
                 strain_of_share(analyse_elastic(world, setup, moduli, 1.0, 0).bonds, rule.share);
@@ -173,24 +173,24 @@ void warn_of_disc(TestCheck& check) {
 void warn(TestCheck& check) {
     const TestSetup& setup = check.test.setup;
     const TestCase& test = check.test.description;
-    check.warnings = setup.notices;
+    check.warnings = setup.origin.notices;
     warn_of_disc(check);
     if (test.confined()) {
         check.warnings.emplace_back(
             "first slip and break are estimated without the confining pressure; no strength is "
             "estimated under pressure");
     }
-    if (setup.polygons && setup.mean_bond_overlap > deep_overlap_share * setup.bond_thick) {
+    if (setup.specimen.polygons && setup.bonds.mean_overlap > deep_overlap_share * setup.bonds.thick) {
         check.warnings.push_back(
             fmt::format("bonds overlap by {:.3g} m on average, {:.2g} of the thickness {:.3g} m: corners lie close to "
                         "their neighbours' faces, and a small load may push them through; increase mesh.thick, or "
                         "reduce the excess of bond.thick over it",
-                        setup.mean_bond_overlap, setup.mean_bond_overlap / setup.bond_thick, setup.bond_thick));
+                        setup.bonds.mean_overlap, setup.bonds.mean_overlap / setup.bonds.thick, setup.bonds.thick));
     }
     // If strengths are out of proportion to the stiffness, other excessive values are consequences, so only that is
     // reported.
     const bool out_of_proportion =
-        check.strength && setup.bond_facts().strengths_are_given && check.strength->strain > largest_strain_of_a_rock;
+        check.strength && setup.bonds.facts().strengths_are_given && check.strength->strain > largest_strain_of_a_rock;
     if (!out_of_proportion && check.corner_distance > 0.0 &&
         check.corner_closing > noticed_closing_share * check.corner_distance) {
         check.warnings.push_back(fmt::format(
@@ -204,7 +204,8 @@ void warn(TestCheck& check) {
                         "and the boundary; use more grains, or average over several seeds",
                         spoken_below(check.grains_across, fewest_grains_across), fewest_grains_across));
     }
-    if (setup.polygons && setup.uniaxial && !setup.compression && test.loading.platens == PlatenKind::bonded) {
+    if (setup.specimen.polygons && setup.apparatus.uniaxial && !setup.apparatus.compression &&
+        test.loading.platens == PlatenKind::bonded) {
         check.warnings.push_back(fmt::format(
             "{}: polygons pulled by bonded platens separate at the platen, so the strength is not the rock's; "
             "use platens = \"glued\"",
@@ -244,10 +245,11 @@ std::optional<bool> DiscOutlook::can_be_valid() const {
 // polygons under compression. These interlock and carry load until a fifth of their bonds is broken. With back-tension,
 // the overlaps of circles vary, and many weak bonds break early.
 BreakShare bond_break_share(const TestSetup& setup) {
-    const bool circles = setup.specimen == SpecimenKind::circles, voronoi = setup.specimen == SpecimenKind::voronoi;
-    if (setup.bond_facts().strengths_are_given)
-        return setup.compression && voronoi ? BreakShare{0.2, 2.0} : BreakShare{0.01, 1.9};
-    if (!setup.compression)
+    const bool circles = setup.specimen.kind == SpecimenKind::circles,
+               voronoi = setup.specimen.kind == SpecimenKind::voronoi;
+    if (setup.bonds.facts().strengths_are_given)
+        return setup.apparatus.compression && voronoi ? BreakShare{0.2, 2.0} : BreakShare{0.01, 1.9};
+    if (!setup.apparatus.compression)
         return circles ? BreakShare{0.05, 1.5} : voronoi ? BreakShare{0.005, 1.3} : BreakShare{0.02, 1.3};
     return circles ? BreakShare{0.03, 1.5} : voronoi ? BreakShare{0.02, 1.5} : BreakShare{0.005, 2.0};
 }
@@ -281,9 +283,10 @@ TestCheck check_test(const TestCase& description, const TestHooks& hooks) {
         check.disc = outlook_of(description, hooks);
     const auto rests = refusal_of([&] { refuse_resting(check.test); });  // checked before steps are timed
     const TestSetup& setup = check.test.setup;
-    check.grains_across = setup.width / std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
+    check.grains_across = setup.specimen.width / std::sqrt(setup.specimen.width * setup.specimen.height /
+                                                           static_cast<double>(setup.specimen.particles));
     hooks.report_work("measuring steps per second");
-    check.steps_per_second = steps_per_second(check.test.world, check.test.setup.notices);
+    check.steps_per_second = steps_per_second(check.test.world, check.test.setup.origin.notices);
     estimate_run(check);
     check.memory = largest_memory();
     warn(check);

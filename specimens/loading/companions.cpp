@@ -103,7 +103,7 @@ std::optional<CompanionFigures> run_one(const CompanionPlan& plan, const Virtual
     } catch (const UnstableRun&) {
         CompanionFigures unstable = what_it_did(test, other);
         unstable.peak_stress = unstable.peak_strain = unstable.post_peak_difference = undefined;
-        if (test.setup.compression && test.setup.uniaxial)
+        if (test.setup.apparatus.compression && test.setup.apparatus.uniaxial)
             unstable.crack_initiation_stress = unstable.crack_damage_stress = undefined;
         unstable.ended_by = ended_by_instability;
         return unstable;
@@ -113,7 +113,7 @@ std::optional<CompanionFigures> run_one(const CompanionPlan& plan, const Virtual
     done.peak_stress = other.state.failure.peak_stress;
     done.peak_strain = other.state.failure.peak_strain;
     done.post_peak_difference = post_peak_difference(test, other);
-    if (const auto cracks = crack_thresholds_of(other.description, other.setup, other.state)) {
+    if (const auto cracks = crack_thresholds_of(other.description, other.setup.apparatus, other.state)) {
         done.crack_initiation_stress = cracks->count_break;
         done.crack_damage_stress = cracks->damage;
     }
@@ -210,7 +210,8 @@ std::optional<NumericalErrors> run_companions(const VirtualTest& test, const Tes
     const FailureTracker& f = test.state.failure;
     figures.peak_stress = error_of(f.peak_stress, resolved_stress(test), companions, &CompanionFigures::peak_stress);
     figures.peak_strain = error_of(f.peak_strain, resolved_strain(test), companions, &CompanionFigures::peak_strain);
-    if (const std::optional<CrackThresholds> own = crack_thresholds_of(test.description, test.setup, test.state)) {
+    if (const std::optional<CrackThresholds> own =
+            crack_thresholds_of(test.description, test.setup.apparatus, test.state)) {
         const auto error = [&](double stress, Number CompanionFigures::*value) {
             return error_of(stress, resolved_before_peak(test, stress), companions, value);
         };

@@ -59,7 +59,8 @@ class Confinement {
           own_(own),
           number_(numbers_in(bonded, test.world)),
           pressure_(*test.description.confinement.pressure),
-          particle_(std::sqrt(test.setup.width * test.setup.height / static_cast<double>(test.setup.particles))),
+          particle_(std::sqrt(test.setup.specimen.width * test.setup.specimen.height /
+                              static_cast<double>(test.setup.specimen.particles))),
           held_(bonded.bodies.size(), true) {
         find_held();
     }
@@ -70,11 +71,11 @@ class Confinement {
         const double time = world_.stepping.time, kick_share = world_.stepping.kick_share;
         const std::size_t events = world_.bonds.events.size();
         displace(world_, std::vector<BodyMotion>(moving.size()));  // sets all velocities to 0
-        if (test_.setup.has_walls()) {
+        if (test_.setup.apparatus.has_walls()) {
             bring_parts();
             find_held();
         } else {
-            add_membrane(world_, pressure_, 0.5 * particle_, test_.setup.bottom, test_.setup.top);
+            add_membrane(world_, pressure_, 0.5 * particle_, test_.setup.apparatus.bottom, test_.setup.apparatus.top);
             compute_forces(world_);
         }
         Imbalance left = imbalance();
@@ -107,7 +108,7 @@ class Confinement {
             world_.bonds.events[k].time = time;
         }
         if (world_.bonds.broken > broken) {
-            test_.setup.notices.push_back(
+            test_.setup.origin.notices.push_back(
                 fmt::format("{} of {} bonds broke under the confining pressure alone, before loading",
                             world_.bonds.broken - broken, world_.bonds.initial));
         }
@@ -117,15 +118,15 @@ class Confinement {
             body.vy = moving[b].vy;
             body.omega = moving[b].omega;
         }
-        for (const BodyIndex platen : {test_.setup.bottom, test_.setup.top})
+        for (const BodyIndex platen : {test_.setup.apparatus.bottom, test_.setup.apparatus.top})
             change_velocity(world_, platen, 1, moving[platen].vy);
         // Loading starts with a solution in which the walls yield as the specimen widens.
-        if (test_.setup.has_walls()) test_.small_strain->moduli.solution = stretched();
+        if (test_.setup.apparatus.has_walls()) test_.small_strain->moduli.solution = stretched();
         restart_account(world_);
         velocities_changed(world_);
         compute_forces(world_);
         strains_begin_at(test_.setup, world_);
-        test_.setup.confining_pressure = pressure_;
+        test_.setup.apparatus.confining_pressure = pressure_;
     }
 
   private:
@@ -138,7 +139,8 @@ class Confinement {
 
     void find_held() {
         held_.assign(held_.size(), true);
-        for (const BodyIndex b : find_free_motions(bonded_, bodies_of_parts(own_), closed_points(own_)).bodies)
+        for (const BodyIndex b :
+             find_free_motions(bonded_, bodies_of_parts(own_.apparatus), closed_points(own_.apparatus)).bodies)
             held_[b] = false;
     }
 
@@ -165,10 +167,10 @@ class Confinement {
         };
         const bool platens_touch = test_.description.loading.platens == PlatenKind::frictional;
         std::vector<Way> ways;
-        for (const SetupPart& part : test_.setup.parts) {
+        for (const SetupPart& part : test_.setup.apparatus.parts) {
             if (!part.wall && !platens_touch) continue;
-            const bool low = part.wall ? force_of(part.body) > 0.0 : part.body != test_.setup.top;
-            const double force = pressure_ * (part.wall ? test_.setup.height : test_.setup.width);
+            const bool low = part.wall ? force_of(part.body) > 0.0 : part.body != test_.setup.apparatus.top;
+            const double force = pressure_ * (part.wall ? test_.setup.specimen.height : test_.setup.specimen.width);
             ways.push_back({part.body, part.wall, 0.0, low ? 1.0 : -1.0, force, first_way * particle_});
             ways.back().start = place(ways.back());
         }
@@ -194,15 +196,16 @@ class Confinement {
     /// Linear solution for a strain of 1 between the platens. It is the solution in Moduli or, with walls, one in which
     /// the walls keep their force.
     ElasticSolution stretched() const {
-        return solve_elastic(bonded_, prescribed_parts(own_, own_.length), {}, closed_points(own_));
+        return solve_elastic(bonded_, prescribed_parts(own_.apparatus, own_.apparatus.length), {},
+                             closed_points(own_.apparatus));
     }
 
     Imbalance imbalance() const {
         Imbalance left;
-        for (const SetupPart& part : test_.setup.parts)
+        for (const SetupPart& part : test_.setup.apparatus.parts)
             if (part.wall) left.force = std::max(left.force, std::abs(left_on(part.body) / force_of(part.body)));
         for (BodyIndex b = 0; b < world_.bodies.size(); ++b) {
-            if (test_.setup.is_platen(b) || !held_[number_[b]]) continue;
+            if (test_.setup.apparatus.is_platen(b) || !held_[number_[b]]) continue;
             const BodyForce& force = world_.bodies.force[b];
             left.force = std::max(left.force, std::hypot(force.fx, force.fy) / (pressure_ * particle_));
         }
@@ -217,18 +220,19 @@ class Confinement {
         std::vector<BodyMotion> loads(bonded_.bodies.size());
         for (BodyIndex b = 0; b < world_.bodies.size(); ++b) {
             const BodyIndex k = number_[b];
-            if (test_.setup.is_platen(b) || !held_[k]) continue;
+            if (test_.setup.apparatus.is_platen(b) || !held_[k]) continue;
             const BodyForce& force = world_.bodies.force[b];
             loads[k] = {force.fx, force.fy, force.torque};
         }
-        for (const SetupPart& part : own_.parts)
+        for (const SetupPart& part : own_.apparatus.parts)
             if (part.wall) loads[part.body].x = left_on(part.body);
-        const ElasticSolution solved = solve_elastic(bonded_, prescribed_parts(own_, 0.0), loads, closed_points(own_));
+        const ElasticSolution solved =
+            solve_elastic(bonded_, prescribed_parts(own_.apparatus, 0.0), loads, closed_points(own_.apparatus));
         // A change of the external force is balanced by an equal change of the stress in the specimen.
-        const double gained = -nominal_stress(own_, solved.reaction);
-        const ElasticSolution with_walls = own_.has_walls() ? stretched() : ElasticSolution{};
-        const ElasticSolution& stretch = own_.has_walls() ? with_walls : test_.small_strain->moduli.solution;
-        const double strain = (left.stress - gained) / nominal_stress(own_, stretch.reaction);
+        const double gained = -nominal_stress(own_.apparatus, solved.reaction);
+        const ElasticSolution with_walls = own_.apparatus.has_walls() ? stretched() : ElasticSolution{};
+        const ElasticSolution& stretch = own_.apparatus.has_walls() ? with_walls : test_.small_strain->moduli.solution;
+        const double strain = (left.stress - gained) / nominal_stress(own_.apparatus, stretch.reaction);
         std::vector<BodyMotion> way(world_.bodies.size());
         for (BodyIndex b = 0; b < way.size(); ++b) {
             const BodyMotion &by_load = solved.displacement[number_[b]], &by_strain = stretch.displacement[number_[b]];
@@ -263,10 +267,10 @@ class Confinement {
 
     /// Net force along x that pushes the specimen out from between its platens, N; 0 unless it slides as a whole.
     double push_sideways() const {
-        if (test_.setup.has_walls()) return 0.0;
+        if (test_.setup.apparatus.has_walls()) return 0.0;
         double sum = 0.0, sizes = 0.0;
         for (BodyIndex b = 0; b < world_.bodies.size(); ++b) {
-            if (test_.setup.is_platen(b) || !held_[number_[b]]) continue;
+            if (test_.setup.apparatus.is_platen(b) || !held_[number_[b]]) continue;
             const BodyForce& force = world_.bodies.force[b];
             sum += force.fx;
             sizes += std::hypot(force.fx, force.fy);
@@ -313,7 +317,7 @@ void confine(VirtualTest& test, const World& bonded, const TestSetup& own) {
         throw InputError(fmt::format("{}: expected an elastic solution, which is needed to apply the pressure: {}",
                                      test.description.at("confinement.pressure"), test.no_small_strain));
     }
-    if (test.setup.has_walls())
+    if (test.setup.apparatus.has_walls())
         Confinement(test, test.world, test.setup).run();
     else
         Confinement(test, bonded, own).run();

@@ -45,14 +45,14 @@ std::string small_particle(const VirtualTest& test) {
     BodyIndex smallest = 0;
     double least = std::numeric_limits<double>::infinity(), sum = 0.0;
     for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
-        if (test.setup.is_platen(b)) continue;
+        if (test.setup.apparatus.is_platen(b)) continue;
         const double mass = world.bodies.inertia[b].mass;
         sum += mass;
         if (mass >= least) continue;
         least = mass;
         smallest = b;
     }
-    const double times = std::sqrt(sum / static_cast<double>(test.setup.particles) / least);
+    const double times = std::sqrt(sum / static_cast<double>(test.setup.specimen.particles) / least);
     if (!(times > noticed_steps)) return "";
     const BodyState& body = world.bodies.state[smallest];
     return fmt::format(
@@ -72,7 +72,7 @@ RunEstimate expected_run(const VirtualTest& test, double strain, double steps_pe
 }
 
 double roughly_steps_per_second(const VirtualTest& test) {
-    const double rate = test.setup.polygons ? rate_of_polygons : rate_of_circles;
+    const double rate = test.setup.specimen.polygons ? rate_of_polygons : rate_of_circles;
     return rate * test.world.workers.threads / static_cast<double>(test.world.bodies.size());
 }
 
@@ -88,8 +88,8 @@ void refuse_endless(const VirtualTest& test, const RunEstimate& run) {
 
 void refuse_resting(const VirtualTest& test) {
     if (test.state.path.by_caller()) return;
-    const BodyState& driver = test.world.bodies.state[test.setup.top];
-    const double place = test.setup.axis == 0 ? driver.x : driver.y, speed = platen_speed(test);
+    const BodyState& driver = test.world.bodies.state[test.setup.apparatus.top];
+    const double place = test.setup.apparatus.axis == 0 ? driver.x : driver.y, speed = platen_speed(test);
     const double way = speed * test.world.stepping.time_step;
     if (speed > 0.0 && place + way != place) return;
     const TestCase& asked = test.description;

@@ -13,7 +13,9 @@
 #include "solver/measure/ledger.hpp"
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/emission/acoustic_event.hpp"
 #include "specimens/loading/expected_run.hpp"
+#include "specimens/observers/events.hpp"
 #include "specimens/results/files.hpp"
 #include "specimens/setup/lateral_control.hpp"
 #include "specimens/setup/unloading.hpp"
@@ -84,7 +86,7 @@ class LoadingLoop {
             if (stop_asked_ || (world_.stepping.steps % steps_between_clock_checks_ == 0 && check_clock())) break;
             // The strain follows from the positions after the last step, whether or not forces have been computed
             // there.
-            strain_ = setup_.axial_strain(world_);
+            strain_ = setup_.apparatus.axial_strain(world_);
             const double travel = state_.path.travel(strain_);
             const bool at_end = (lateral_rule_.on() ? travel : strain_) >= max_strain_;
             const bool row_due = at_end || travel >= row_spacing_ * static_cast<double>(state_.rows.size());
@@ -131,9 +133,9 @@ class LoadingLoop {
     /// @param drift  time step that led to the current positions, s
     void watch_platens(double drift) {
         const PhaseTimer timer(world_.workers.profile, Phase::set_the_rate);
-        const PartForces forces = forces_on_parts(world_, setup_);
-        watch_balance(state_.rate, setup_.rate_rule, forces.driver / setup_.section, -forces.supports / setup_.section,
-                      drift);
+        const PartForces forces = forces_on_parts(world_, setup_.apparatus);
+        watch_balance(state_.rate, setup_.rate_rule, forces.driver / setup_.apparatus.section,
+                      -forces.supports / setup_.apparatus.section, drift);
     }
 
     /// Sets the speed of the platen according to the inertia error.
@@ -146,13 +148,15 @@ class LoadingLoop {
         const double allowed = state_.rate.rate, since = time - path.chosen_at;
         path.chosen_at = time;
         if (unload_rule_.on())
-            turn_by_list(path, unload_rule_, allowed, strain_, axial_stress(world_, setup_), since);
+            turn_by_list(path, unload_rule_, allowed, strain_, axial_stress(world_, setup_.apparatus), since);
         else if (lateral_rule_.on())
-            follow_lateral(path, lateral_rule_, allowed, strain_, setup_.median_lateral_strain(world_), since);
+            follow_lateral(path, lateral_rule_, allowed, strain_,
+                           setup_.gauges.median_lateral_strain(world_, setup_.bonds.start), since);
         else
             path.speed = allowed;
-        const double speed = path.speed * setup_.length;
-        change_velocity(world_, setup_.top, setup_.axis, setup_.compression ? -speed : speed);
+        const double speed = path.speed * setup_.apparatus.length;
+        change_velocity(world_, setup_.apparatus.top, setup_.apparatus.axis,
+                        setup_.apparatus.compression ? -speed : speed);
     }
 
     void record_events() {
@@ -160,7 +164,8 @@ class LoadingLoop {
         if (world_.bonds.slips.empty()) return;
         const PhaseTimer timer(world_.workers.profile, Phase::observe);
         if (files_ != nullptr)
-            for (const SlipEvent& event : world_.bonds.slips) files_->add_slip(event, strain_);
+            for (const SlipEvent& event : world_.bonds.slips)
+                files_->add(ResultTable::slips, slip_line(event, strain_));
         world_.bonds.slips.clear();
     }
 
@@ -173,9 +178,9 @@ class LoadingLoop {
             const BreakEvent& event = world_.bonds.events[k];
             ++(event.shear_mode ? state_.breaks_in_shear : state_.breaks_in_tension);
             state_.breaks_after_sliding += event.slid ? 1 : 0;
-            note_break(setup_, event, state_.history);
+            note_break(setup_.bonds, event, state_.history);
             if (files_ != nullptr)
-                files_->add_event(event, strain_, setup_.trace_of(state_.history.cracks.back().bond));
+                files_->add_event(event, strain_, setup_.bonds.trace_of(state_.history.cracks.back().bond));
         }
         if (files_ != nullptr) {
             if (hooks_.look) unseen_.insert(unseen_.end(), world_.bonds.events.begin(), world_.bonds.events.end());
@@ -194,7 +199,7 @@ class LoadingLoop {
         if (files_ == nullptr) return;
         const std::vector<AcousticEvent>& events = state_.emission.events;
         for (std::size_t k = events.size() - count; k < events.size(); ++k)
-            files_->add_emission(events[k], state_.emission.rule.thickness);
+            files_->add(ResultTable::ae, acoustic_line(events[k], state_.emission.rule.thickness));
     }
 
     void record_row(bool at_end) {
@@ -212,7 +217,7 @@ class LoadingLoop {
         if (new_peak) {
             state_.breaks_in_shear_to_peak = state_.breaks_in_shear;
             state_.breaks_in_tension_to_peak = state_.breaks_in_tension;
-            if (!setup_.trace_faces.empty()) state_.faces_at_peak = places_of_faces(world_, setup_);
+            if (!setup_.bonds.trace_faces.empty()) state_.faces_at_peak = places_of_faces(world_, setup_.bonds);
         }
         if (state_.failure.collapsed) {
             state_.ended_by = ended_by_failure;
@@ -274,7 +279,7 @@ class LoadingLoop {
 
     void report_progress(double elapsed) const {
         TestProgress p;
-        p.axial_strain = setup_.axial_strain(world_);
+        p.axial_strain = setup_.apparatus.axial_strain(world_);
         const double travel = state_.path.travel(p.axial_strain);
         p.share_done = travel / whole_travel_;
         p.axial_stress = state_.rows.empty() ? 0.0 : state_.rows.back().axial_stress;

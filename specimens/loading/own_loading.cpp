@@ -19,9 +19,9 @@ constexpr const char* own_speed = "the driving part's speed is the caller's from
 }  // namespace
 
 double platen_speed(const VirtualTest& test) {
-    const BodyState& driver = test.world.bodies.state[test.setup.top];
-    const double along = test.setup.axis == 0 ? driver.vx : driver.vy;
-    return test.setup.compression ? -along : along;
+    const BodyState& driver = test.world.bodies.state[test.setup.apparatus.top];
+    const double along = test.setup.apparatus.axis == 0 ? driver.vx : driver.vy;
+    return test.setup.apparatus.compression ? -along : along;
 }
 
 void set_platen_speed(VirtualTest& test, double speed) {
@@ -34,19 +34,20 @@ void set_platen_speed(VirtualTest& test, double speed) {
                         loading.unloads() ? "a list of unloadings" : "lateral strain"));
     }
     TestSetup& setup = test.setup;
-    if (!driven_at_velocity(test.world, setup.top, setup.axis)) {
+    if (!driven_at_velocity(test.world, setup.apparatus.top, setup.apparatus.axis)) {
         throw InputError(
             "platen speed: found a driving part that moves freely or under a force along the axis, expected one "
             "driven at a velocity; set such a drive first");
     }
     LoadingPath& path = test.state.path;
-    const double strain = setup.axial_strain(test.world);
-    if (std::ranges::none_of(setup.notices, [](const std::string& text) { return text.starts_with(own_speed); }))
-        setup.notices.push_back(fmt::format("{}{:.6g} on", own_speed, strain));
+    const double strain = setup.apparatus.axial_strain(test.world);
+    if (std::ranges::none_of(setup.origin.notices, [](const std::string& text) { return text.starts_with(own_speed); }))
+        setup.origin.notices.push_back(fmt::format("{}{:.6g} on", own_speed, strain));
     setup.rate_rule.tolerance = 0.0;
     path.own_from = std::min(path.own_from, path.travel(strain));
-    path.change_speed(speed / setup.length, std::numeric_limits<double>::infinity(), strain);
-    change_velocity(test.world, setup.top, setup.axis, setup.compression ? -speed : speed);
+    path.change_speed(speed / setup.apparatus.length, std::numeric_limits<double>::infinity(), strain);
+    change_velocity(test.world, setup.apparatus.top, setup.apparatus.axis,
+                    setup.apparatus.compression ? -speed : speed);
 }
 
 }  // namespace crackle

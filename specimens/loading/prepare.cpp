@@ -28,8 +28,8 @@ using Clock = std::chrono::steady_clock;
 void report_bonded(const TestHooks& hooks, const World& world, const TestSetup& setup, const TestCase& test) {
     if (!hooks.detail) return;
     hooks.detail(fmt::format("{} bodies, {} segments; {} contact points touch, {} of them bonded; {} threads",
-                             world.bodies.size(), setup.segments, setup.contacts_initial, world.bonds.initial,
-                             world.workers.threads));
+                             world.bodies.size(), setup.origin.segments, setup.bonds.contacts_initial,
+                             world.bonds.initial, world.workers.threads));
     hooks.detail(fmt::format(
         "time step {:.4g} s, {}; exact stable step {:.4g} s{}, guaranteed bound {:.4g} s", world.stepping.time_step,
         test.numerics.time_step ? std::string("given by the case")
@@ -51,7 +51,7 @@ constexpr std::size_t most_bodies_solved = 200'000;
 
 void note_no_small_strain(VirtualTest& test, const std::string& why) {
     test.no_small_strain = why;
-    test.setup.notices.push_back("no small-strain modulus: " + why);
+    test.setup.origin.notices.push_back("no small-strain modulus: " + why);
 }
 
 /// Computes the linear solution of a world with bonded platens, or adds a notice that states why there is none.
@@ -64,8 +64,8 @@ void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& 
     }
     try {
         SmallStrain solved{solve_moduli(world, own), 0.0};
-        solved.yield_strain =
-            yield_strain(world, own, solved.moduli, own.uniaxial ? first_yield_share : first_yield_share_uneven);
+        solved.yield_strain = yield_strain(world, own.apparatus, solved.moduli,
+                                           own.apparatus.uniaxial ? first_yield_share : first_yield_share_uneven);
         test.state.youngs_modulus = solved.moduli.youngs_modulus;
         test.state.poissons_ratio = solved.moduli.poissons_ratio;
         test.state.gauge_modulus = solved.moduli.gauge_modulus;
@@ -87,7 +87,7 @@ void listen_for_emission(VirtualTest& test) {
             emission_rule(test.world, test.setup, test.state.youngs_modulus, test.state.poissons_ratio,
                           output.out_of_plane_thickness.value_or(1.0));
     } catch (const InputError& error) {
-        test.setup.notices.push_back(std::string("no acoustic events: ") + error.what());
+        test.setup.origin.notices.push_back(std::string("no acoustic events: ") + error.what());
     }
 }
 
@@ -96,14 +96,15 @@ constexpr double deep_bond_share = 0.1;
 
 void notice_deep_bonds(VirtualTest& test) {
     const TestSetup& setup = test.setup;
-    if (!setup.polygons) return;
-    const double size = std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
-    const double excess = setup.bond_thick - setup.mesh_gap;
+    if (!setup.specimen.polygons) return;
+    const double size =
+        std::sqrt(setup.specimen.width * setup.specimen.height / static_cast<double>(setup.specimen.particles));
+    const double excess = setup.bonds.thick - setup.specimen.mesh_gap;
     if (excess <= deep_bond_share * size) return;
-    test.setup.notices.push_back(fmt::format(
+    test.setup.origin.notices.push_back(fmt::format(
         "bond.thick = {:.4g} m exceeds the gap of {:.4g} m by {:.2g} of the mean particle size, so that polygons "
         "without a common face are bonded, too; this excess is the overlap at bonding and should be small",
-        setup.bond_thick, setup.mesh_gap, excess / size));
+        setup.bonds.thick, setup.specimen.mesh_gap, excess / size));
 }
 
 // A notice is given if the rate in the case exceeds noticed_rate times the initial rate for noticed_tolerance.
@@ -114,7 +115,7 @@ void notice_fast_loading(VirtualTest& test) {
     const double derived = largest_rate(rate_rule_of(test, noticed_tolerance));
     const double given = *test.description.loading.axial_strain_rate;
     if (given <= noticed_rate * derived) return;
-    test.setup.notices.push_back(
+    test.setup.origin.notices.push_back(
         fmt::format("{} = {:.3g} 1/s is {:.2g} times the initial rate of rate_tolerance = {}, so that inertia and "
                     "dashpots carry part of the stress; leave the rate out, or measure its effect with --verify",
                     test.description.at("loading.axial_strain_rate"), given, given / derived, noticed_tolerance));
@@ -216,21 +217,21 @@ VirtualTest measure_at_rest(NewTest made, const TestCase& description, const Tes
     const LoadingKind kind = description.loading.kind;
     test.setup = record_setup(test.world, specimen, made.platens, kind, grip);
     if (!description.output.frames)
-        test.description.output.frames = default_frames(test.setup.particles, description.output.curve_rows);
+        test.description.output.frames = default_frames(test.setup.specimen.particles, description.output.curve_rows);
     test.state.failure.strength_drop = description.loading.strength_drop;
     test.state.failure.share_of_peak = description.loading.stop_at_share_of_peak;
     hooks.report_stage(fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds.initial,
                                    test.world.bonds.interfaces_initial, test.world.stepping.time_step));
     report_bonded(hooks, test.world, test.setup, description);
     hooks.report_work("solving for small strain");
-    for (std::string& notice : unlikely_numbers(description, test.setup))
-        test.setup.notices.push_back(std::move(notice));
+    for (std::string& notice : unlikely_numbers(description, test.setup.specimen))
+        test.setup.origin.notices.push_back(std::move(notice));
     notice_deep_bonds(test);
     if (made.platens.bonded) {
         check_platen_hold(test.world, test.setup, made.platens, description);
         solve_small_strain(test, test.world, test.setup, visit);
         if (description.confined()) confine_or_advise(test, specimen, {nullptr, nullptr, while_solving});
-        if (test.setup.normal_force > 0.0 || test.setup.normal_spring > 0.0) press(test);
+        if (test.setup.apparatus.normal_force > 0.0 || test.setup.apparatus.normal_spring > 0.0) press(test);
     } else {
         TestCase::Loading held = description.loading;
         held.platens = PlatenKind::bonded;
@@ -249,8 +250,8 @@ VirtualTest measure_at_rest(NewTest made, const TestCase& description, const Tes
     listen_for_emission(test);
     if (description.confined())
         hooks.report_stage(
-            fmt::format("confined by {:.4g} {}", test.setup.confining_pressure, description.stress_unit()));
-    if (std::isfinite(test.state.youngs_modulus) && !test.setup.uniaxial) {
+            fmt::format("confined by {:.4g} {}", test.setup.apparatus.confining_pressure, description.stress_unit()));
+    if (std::isfinite(test.state.youngs_modulus) && !test.setup.apparatus.uniaxial) {
         hooks.report_stage(fmt::format("small strain: nominal modulus {:.4g} {}", test.state.youngs_modulus,
                                        description.stress_unit()));
     } else if (std::isfinite(test.state.youngs_modulus)) {
@@ -280,10 +281,10 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks, co
         // lateral_rule_of() throws if the case makes loading impossible.
         lateral_rule_of(description, test.setup.rate_rule, test.state.poissons_ratio);
     } else {
-        if (!test.setup.uniaxial) start_by_rate(test);
+        if (!test.setup.apparatus.uniaxial) start_by_rate(test);
         notice_fast_loading(test);
     }
-    for (const std::string& notice : test.setup.notices) hooks.report_stage("notice: " + notice);
+    for (const std::string& notice : test.setup.origin.notices) hooks.report_stage("notice: " + notice);
     test.world.workers
         .while_solving = {};  // loading polls for interrupts itself, because there are then results to keep
     return test;

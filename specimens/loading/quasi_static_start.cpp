@@ -20,7 +20,7 @@ namespace crackle {
 namespace {
 
 ClosedPoints closed_of(const VirtualTest& test) {
-    return test.closed == ClosedPoints::touching ? test.closed : closed_points(test.setup);
+    return test.closed == ClosedPoints::touching ? test.closed : closed_points(test.setup.apparatus);
 }
 
 /// Motion of every body for an axial strain of 1 in the direction of loading.
@@ -28,20 +28,22 @@ ClosedPoints closed_of(const VirtualTest& test) {
 std::vector<BodyMotion> elastic_motion(const VirtualTest& test, const std::vector<bool>& elastic) {
     const TestSetup& setup = test.setup;
     const World& world = test.world;
-    const double sense = -setup.sense();
-    const double bottom = world.bodies.state[setup.bottom].y, height = world.bodies.state[setup.top].y - bottom;
+    const double sense = -setup.apparatus.sense();
+    const double bottom = world.bodies.state[setup.apparatus.bottom].y,
+                 height = world.bodies.state[setup.apparatus.top].y - bottom;
     std::vector<BodyMotion> motion(world.bodies.size());
     for (std::size_t b = 0; b < motion.size(); ++b) {
-        const double share = setup.length * (world.bodies.state[b].y - bottom) / height;
-        motion[b] = setup.axis == 1 ? BodyMotion{0.0, share, 0.0} : BodyMotion{share, 0.0, 0.0};
+        const double share = setup.apparatus.length * (world.bodies.state[b].y - bottom) / height;
+        motion[b] = setup.apparatus.axis == 1 ? BodyMotion{0.0, share, 0.0} : BodyMotion{share, 0.0, 0.0};
         if (elastic[b]) motion[b] = test.small_strain->moduli.solution.displacement[b];
     }
     // A driving part that is not bonded is not part of the solution and moves on its own; other unbonded parts stay at
     // rest. Walls move as in the solution.
-    const std::vector<Prescribed> parts = prescribed_parts(setup, setup.length);
+    const std::vector<Prescribed> parts = prescribed_parts(setup.apparatus, setup.apparatus.length);
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const BodyIndex body = parts[k].body;
-        if (!elastic[body] || (setup.uniaxial && !setup.parts[k].wall)) motion[body] = parts[k].motion;
+        if (!elastic[body] || (setup.apparatus.uniaxial && !setup.apparatus.parts[k].wall))
+            motion[body] = parts[k].motion;
     }
     for (BodyMotion& way : motion) way = {sense * way.x, sense * way.y, sense * way.rotation};
     return motion;
@@ -70,7 +72,7 @@ void settle_dashpots(World& world, const TestSetup& setup, const std::vector<boo
         for (int d = 0; d < 3; ++d)
             if (control.dof[d].drive == Drive::force)
                 component(loads[control.body], d) += control.force(d, world.bodies.state[control.body]);
-    const ElasticSolution settled = solve_elastic(world, prescribed_parts(setup, 0.0), loads, closed);
+    const ElasticSolution settled = solve_elastic(world, prescribed_parts(setup.apparatus, 0.0), loads, closed);
     displace(world, settled.displacement);
 }
 
@@ -95,17 +97,19 @@ RateRule rate_rule_of(const VirtualTest& test, double tolerance) {
     const TestSetup& setup = test.setup;
     double mass = 0.0;
     for (std::size_t b = 0; b < test.world.bodies.size(); ++b)
-        if (!setup.is_platen(static_cast<BodyIndex>(b))) mass += test.world.bodies.inertia[b].mass;
+        if (!setup.apparatus.is_platen(static_cast<BodyIndex>(b))) mass += test.world.bodies.inertia[b].mass;
     // Work is stress times strain times `area`.
-    const double modulus = test.small_strain->moduli.youngs_modulus, area = setup.section * setup.length;
+    const double modulus = test.small_strain->moduli.youngs_modulus,
+                 area = setup.apparatus.section * setup.apparatus.length;
     RateRule rule;
     rule.tolerance = tolerance;
-    rule.transit_time = setup.uniaxial ? setup.height / std::sqrt(modulus / (mass / area)) : transit_of_motion(test);
+    rule.transit_time =
+        setup.apparatus.uniaxial ? setup.specimen.height / std::sqrt(modulus / (mass / area)) : transit_of_motion(test);
     rule.first_strain = test.small_strain->yield_strain;
     // A joint in the shear box slides long before the rock breaks.
-    if (setup.normal_force > 0.0)
+    if (setup.apparatus.normal_force > 0.0)
         rule.first_strain =
-            std::min(rule.first_strain, joint_slip_strain(test.world, setup, test.small_strain->moduli));
+            std::min(rule.first_strain, joint_slip_strain(test.world, setup.apparatus, test.small_strain->moduli));
     // If nothing fails before, the largest strain of the test is used.
     rule.first_strain = std::min(rule.first_strain, test.description.loading.max_axial_strain);
     rule.stress_floor = modulus * rule.first_strain;
@@ -125,7 +129,8 @@ std::vector<bool> elastic_bodies(const VirtualTest& test) {
     const bool elastically = moves_elastically(test);
     std::vector<bool> elastic(test.world.bodies.size(), elastically);
     if (elastically)
-        for (const BodyIndex b : find_free_motions(test.world, bodies_of_parts(test.setup), closed_of(test)).bodies)
+        for (const BodyIndex b :
+             find_free_motions(test.world, bodies_of_parts(test.setup.apparatus), closed_of(test)).bodies)
             elastic[b] = false;
     return elastic;
 }
@@ -141,8 +146,9 @@ std::vector<BodyMotion> start_moving(VirtualTest& test, double rate) {
         settle_dashpots(world, setup, elastic, closed_of(test));
         set_velocities(world, motion, rate);
     }
-    change_velocity(world, setup.top, setup.axis, -setup.sense() * rate * setup.length);
-    if (!setup.uniaxial) {  // parts that are free already move with the other bodies
+    change_velocity(world, setup.apparatus.top, setup.apparatus.axis,
+                    -setup.apparatus.sense() * rate * setup.apparatus.length);
+    if (!setup.apparatus.uniaxial) {  // parts that are free already move with the other bodies
         strains_begin_at(test.setup, world);
         relax_drives(world);
     }

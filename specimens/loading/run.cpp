@@ -45,11 +45,10 @@ std::ifstream open_file(const fs::path& path) {
 }
 
 FileOptions file_options(const VirtualTest& test) {
-    const TestCase::Output& output = test.description.output;
-    return {.precision = output.frame_precision,
-            .slips = output.slips,
+    return {.output = test.description.output,
+            .emission = test.state.emission.rule.on(),
             .pressed = test.description.pressed(),
-            .jointed = !test.setup.traces.empty()};
+            .jointed = !test.setup.bonds.traces.empty()};
 }
 
 /// Sets the number of threads: at most as many as are requested and worthwhile.
@@ -117,7 +116,7 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
         load_specimen(test, hooks, &files);
     } catch (const UnstableRun& error) {
         test.state.ended_by = ended_by_instability;
-        test.setup.notices.push_back(error.what());
+        test.setup.origin.notices.push_back(error.what());
         files.flush();
         write_peak();
         write_summary();
@@ -196,10 +195,7 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
     const auto write_summary = [&] {
         outcome.summary =
             make_summary(test.description, test.setup, test.state, test.world, timing, errors ? &*errors : nullptr);
-        FileMarks files{{"curve.csv", test.state.curve}, {"events.csv", test.state.events}};
-        if (test.description.output.slips) files.emplace_back("slips.csv", test.state.slips);
-        if (test.state.emission.rule.on()) files.emplace_back("ae.csv", test.state.ae);
-        crackle::write_summary(folder, outcome.summary, std::move(files));
+        crackle::write_summary(folder, outcome.summary, named_marks(tables_of(file_options(test)), test.state.tables));
     };
     write_summary();
     if (options.verify) {
@@ -289,7 +285,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     // The summary of the interrupted test is removed, because curve and frames continue beyond it.
     fs::remove(folder.path() / "summary.json", error);
     hooks.report_stage(fmt::format("resumed at step {}, axial strain {:.4g}", test.world.stepping.steps,
-                                   test.setup.axial_strain(test.world)));
+                                   test.setup.apparatus.axial_strain(test.world)));
     return naming_the_fate(folder, [&] {
         TestFiles files(folder, checkpoint.case_hash, test.state, file_options(test));
         return run_with_files(test, options, hooks, folder, files);

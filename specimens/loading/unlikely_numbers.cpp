@@ -59,14 +59,14 @@ class Look {
                                *m.cohesion / *m.tensile_strength));
     }
 
-    void at_size(const TestSetup& setup) const {
-        const double grain = std::sqrt(setup.area / static_cast<double>(setup.particles));
+    void at_size(const TestedSpecimen& specimen) const {
+        const double grain = std::sqrt(specimen.area / static_cast<double>(specimen.particles));
         const double stiffness = test_.material.contact_modulus.value_or(0.0);
         if (!test_.area_units() || test_.jointed() || stiffness < stiff_as_rock || grain < largest_grain) return;
         notices_.push_back(
             fmt::format("the specimen is {:.3g} m by {:.3g} m, with grains of {:.2g} m that are as stiff as rock: are "
                         "its lengths meant in mm? Numbers are in m",
-                        setup.width, setup.height, grain));
+                        specimen.width, specimen.height, grain));
     }
 
   private:
@@ -76,13 +76,13 @@ class Look {
 
 }  // namespace
 
-std::vector<std::string> unlikely_numbers(const TestCase& test, const TestSetup& setup) {
+std::vector<std::string> unlikely_numbers(const TestCase& test, const TestedSpecimen& specimen) {
     std::vector<std::string> notices;
     const Look look(test, notices);
     look.at("material", test.material);
     for (std::size_t k = 0; k < test.mineral.size(); ++k)
         look.at(fmt::format("mineral[{}]", k + 1), mineral_material(test, k));
-    look.at_size(setup);
+    look.at_size(specimen);
     return notices;
 }
 

@@ -13,6 +13,6 @@
 namespace crackle {
 
 /// A sentence for each unlikely value, naming its key.
-std::vector<std::string> unlikely_numbers(const TestCase& test, const TestSetup& setup);
+std::vector<std::string> unlikely_numbers(const TestCase& test, const TestedSpecimen& specimen);
 
 }  // namespace crackle

@@ -11,8 +11,8 @@ CrackRoses find_crack_roses(const World& world, const TestSetup& setup, const Co
                             double time_of_peak) {
     CrackRoses roses;
     for (const Crack& crack : history.cracks) {
-        const ContactPoint point = setup.bonds[crack.bond];
-        if (setup.is_platen(point.body_i) || setup.is_platen(point.body_j)) continue;
+        const ContactPoint point = setup.bonds.points[crack.bond];
+        if (setup.apparatus.is_platen(point.body_i) || setup.apparatus.is_platen(point.body_j)) continue;
         const bool after = crack.time > time_of_peak;
         Rose& rose = crack.shear_mode ? (after ? roses.shear_after : roses.shear_to_peak)
                                       : (after ? roses.tension_after : roses.tension_to_peak);

@@ -35,7 +35,7 @@ FragmentSizes measure_fragments(const World& world, const TestSetup& setup, cons
     std::vector<double> sizes(areas.size());
     std::ranges::transform(areas, sizes.begin(), diameter);
     figures.median_size = median_size(sizes, areas);
-    const double particle = all / static_cast<double>(setup.particles);
+    const double particle = all / static_cast<double>(setup.specimen.particles);
     figures.law = fit_rosin_rammler(sizes, areas, diameter(least_particles * particle));
     return figures;
 }

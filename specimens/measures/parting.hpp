@@ -25,7 +25,7 @@ struct Parting {
 };
 
 /// Location of the largest crack. It is `platen` if at least half of its bonds belong to a platen, and `grip` if it
-/// lies within the grip depth of an end (TestSetup::grip). Otherwise it is `gauge`. Empty if no bond has broken.
+/// lies within the grip depth of an end (BondRecord::grip). Otherwise it is `gauge`. Empty if no bond has broken.
 std::optional<Parting> find_parting(const TestSetup& setup, const ContactHistory& history);
 
 }  // namespace crackle

@@ -21,29 +21,29 @@ void TraceMotion::add(const TraceMotion& other) {
     failed += other.failed;
 }
 
-std::vector<FacePlaces> places_of_faces(const World& world, const TestSetup& setup) {
+std::vector<FacePlaces> places_of_faces(const World& world, const BondRecord& bonds) {
     const auto place = [&](BodyIndex b) {
         const BodyState& body = world.bodies.state[b];
         return StartPlace{body.x, body.y, body.angle};
     };
     std::vector<FacePlaces> places;
-    places.reserve(setup.trace_faces.size());
-    for (const TraceFace& face : setup.trace_faces) places.push_back({place(face.i), place(face.j)});
+    places.reserve(bonds.trace_faces.size());
+    for (const TraceFace& face : bonds.trace_faces) places.push_back({place(face.i), place(face.j)});
     return places;
 }
 
-std::vector<TraceMotion> trace_motions(const TestSetup& setup, std::span<const FacePlaces> places,
+std::vector<TraceMotion> trace_motions(const BondRecord& bonds, std::span<const FacePlaces> places,
                                        std::span<const Crack> cracks) {
-    std::vector<std::int32_t> broken(setup.trace_faces.size(), 0);
-    if (!setup.traces.empty())
+    std::vector<std::int32_t> broken(bonds.trace_faces.size(), 0);
+    if (!bonds.traces.empty())
         for (const Crack& crack : cracks)
-            if (const std::int32_t face = setup.bond_faces[crack.bond]; face >= 0)
+            if (const std::int32_t face = bonds.face_of_bond[crack.bond]; face >= 0)
                 ++broken[static_cast<std::size_t>(face)];
-    std::vector<TraceMotion> motions(setup.traces.size());
-    for (std::size_t k = 0; k < setup.trace_faces.size(); ++k) {
-        const TraceFace& face = setup.trace_faces[k];
+    std::vector<TraceMotion> motions(bonds.traces.size());
+    for (std::size_t k = 0; k < bonds.trace_faces.size(); ++k) {
+        const TraceFace& face = bonds.trace_faces[k];
         if (face.length == 0.0) continue;
-        const FaceMotion moved = motion_of(face, setup.start_of(face), places[k]);
+        const FaceMotion moved = motion_of(face, bonds.start_of(face), places[k]);
         motions[static_cast<std::size_t>(face.trace)].add(
             {.faces = 1,
              .length = face.length,
@@ -57,8 +57,8 @@ std::vector<TraceMotion> trace_motions(const TestSetup& setup, std::span<const F
     return motions;
 }
 
-std::int64_t breaks_on_traces(const TestSetup& setup, std::span<const Crack> cracks) {
-    return std::ranges::count_if(cracks, [&](const Crack& crack) { return setup.trace_of(crack.bond) >= 0; });
+std::int64_t breaks_on_traces(const BondRecord& bonds, std::span<const Crack> cracks) {
+    return std::ranges::count_if(cracks, [&](const Crack& crack) { return bonds.trace_of(crack.bond) >= 0; });
 }
 
 }  // namespace crackle

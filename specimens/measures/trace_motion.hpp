@@ -27,16 +27,16 @@ struct TraceMotion {
     void add(const TraceMotion& other);
 };
 
-/// Current positions of the bodies in TestSetup::trace_faces. They are stored for every row that may be the peak.
-std::vector<FacePlaces> places_of_faces(const World& world, const TestSetup& setup);
+/// Current positions of the bodies in BondRecord::trace_faces. They are stored for every row that may be the peak.
+std::vector<FacePlaces> places_of_faces(const World& world, const BondRecord& bonds);
 
 /// Motion of each trace.
 /// @param places  the positions of the faces' bodies at that time
 /// @param cracks  the cracks formed up to that time
-std::vector<TraceMotion> trace_motions(const TestSetup& setup, std::span<const FacePlaces> places,
+std::vector<TraceMotion> trace_motions(const BondRecord& bonds, std::span<const FacePlaces> places,
                                        std::span<const Crack> cracks);
 
 /// Number of cracks that lie on traces.
-std::int64_t breaks_on_traces(const TestSetup& setup, std::span<const Crack> cracks);
+std::int64_t breaks_on_traces(const BondRecord& bonds, std::span<const Crack> cracks);
 
 }  // namespace crackle

@@ -69,13 +69,13 @@ struct BreakPlace {
 std::vector<BreakPlace> places_of(const TestSetup& setup, const ContactHistory& history) {
     std::vector<BreakPlace> places;
     for (const Crack& crack : history.cracks) {
-        const ContactPoint point = setup.bonds[crack.bond];
-        if (setup.is_platen(point.body_i) || setup.is_platen(point.body_j)) continue;
-        const StartPlace &a = setup.start[point.body_i], &b = setup.start[point.body_j];
+        const ContactPoint point = setup.bonds.points[crack.bond];
+        if (setup.apparatus.is_platen(point.body_i) || setup.apparatus.is_platen(point.body_j)) continue;
+        const StartPlace &a = setup.bonds.start[point.body_i], &b = setup.bonds.start[point.body_j];
         places.push_back({0.5 * (a.x + b.x), 0.5 * (a.y + b.y), crack.energy, crack.time, 0});
     }
     std::ranges::stable_sort(places, {}, &BreakPlace::x);
-    const double size = std::sqrt(setup.area / static_cast<double>(setup.particles));
+    const double size = std::sqrt(setup.specimen.area / static_cast<double>(setup.specimen.particles));
     boost::disjoint_sets_with_storage<> joined(places.size());
     for (std::size_t k = 0; k < places.size(); ++k)
         for (std::size_t n = k + 1; n < places.size() && places[n].x - places[k].x <= size; ++n)
@@ -140,13 +140,14 @@ std::string spoken_across(double across) {
 }
 
 std::vector<Verdict> on_platens(const TestSetup& setup, const ContactHistory& history) {
-    const double across = setup.width / std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
+    const double across = setup.specimen.width / std::sqrt(setup.specimen.width * setup.specimen.height /
+                                                           static_cast<double>(setup.specimen.particles));
     std::vector<Verdict> verdicts{{wide_enough.holds, across >= fewest_across, spoken_across(across)}};
-    Verdict place{setup.compression ? away_from_platens.holds : between_grips.holds, std::nullopt,
+    Verdict place{setup.apparatus.compression ? away_from_platens.holds : between_grips.holds, std::nullopt,
                   "no bond has broken"};
     if (const auto parting = find_parting(setup, history)) {
         const bool in_gauge = parting->place == PartingPlace::gauge;
-        place.holds = setup.compression ? parting->place != PartingPlace::platen : in_gauge;
+        place.holds = setup.apparatus.compression ? parting->place != PartingPlace::platen : in_gauge;
         place.found = counted(parting->bonds, "bond") +
                       (in_gauge ? " within the gauge length" : fmt::format(" at a {}", name_of(parting->place)));
     }
@@ -154,9 +155,9 @@ std::vector<Verdict> on_platens(const TestSetup& setup, const ContactHistory& hi
     return verdicts;
 }
 
-std::vector<Verdict> on_disc(const TestSetup& setup, std::span<const CurveRow> rows,
+std::vector<Verdict> on_disc(const TestedSpecimen& specimen, std::span<const CurveRow> rows,
                              const std::vector<BreakPlace>& places) {
-    const double radius = 0.5 * setup.width, centre = setup.middle_height;
+    const double radius = 0.5 * specimen.width, centre = specimen.middle_height;
     const double until = time_of_first_drop(rows);
     double energy = 0.0, moment = 0.0, of_jaws = 0.0;
     std::size_t before = 0;
@@ -179,27 +180,28 @@ std::vector<Verdict> on_disc(const TestSetup& setup, std::span<const CurveRow> r
     return {middle, jaws};
 }
 
-Verdict splits(const TestSetup& setup, const LargestCrack& crack) {
-    const double spans = (crack.high - crack.low) / setup.width;
+Verdict splits(const TestedSpecimen& specimen, const LargestCrack& crack) {
+    const double spans = (crack.high - crack.low) / specimen.width;
     return {split_disc.holds, crack.slant <= largest_slant && spans >= split_share,
             fmt::format("{:.0f} degrees from the load axis, {:.2f} of the diameter, {} breaks", crack.slant, spans,
                         crack.breaks)};
 }
 
-Verdict from_midspan(const TestSetup& setup, const LargestCrack& crack) {
-    const double size = std::sqrt(setup.area / static_cast<double>(setup.particles));
-    const double away = std::abs(crack.middle - setup.middle);
-    const double spans = (crack.high - crack.low) / (setup.height - setup.notch);
-    return {crack_at_midspan.holds, away <= std::max(midspan_share * setup.height, 2.0 * size) && spans >= split_share,
+Verdict from_midspan(const TestedSpecimen& specimen, const LargestCrack& crack) {
+    const double size = std::sqrt(specimen.area / static_cast<double>(specimen.particles));
+    const double away = std::abs(crack.middle - specimen.middle);
+    const double spans = (crack.high - crack.low) / (specimen.height - specimen.notch);
+    return {crack_at_midspan.holds,
+            away <= std::max(midspan_share * specimen.height, 2.0 * size) && spans >= split_share,
             fmt::format("{:.3g} m from midspan, {:.2f} of the height above any notch, {} breaks", away, spans,
                         crack.breaks)};
 }
 
-Verdict along_gap(const TestSetup& setup, const std::vector<BreakPlace>& places) {
+Verdict along_gap(const TestedSpecimen& specimen, const std::vector<BreakPlace>& places) {
     double energy = 0.0, near = 0.0;
     for (const BreakPlace& place : places) {
         energy += place.energy;
-        if (std::abs(place.y - setup.middle_height) <= gap_share * setup.height) near += place.energy;
+        if (std::abs(place.y - specimen.middle_height) <= gap_share * specimen.height) near += place.energy;
     }
     Verdict verdict{sheared_gap.holds, std::nullopt, "no bond has broken"};
     if (energy > 0.0) {
@@ -220,14 +222,14 @@ std::string broken_claim(const std::string& claim, const std::string& found) {
 
 std::vector<Verdict> verdicts_on(const TestSetup& setup, std::span<const CurveRow> rows, const ContactHistory& history,
                                  bool failed) {
-    const ValidFailure asked = test_kind(setup.kind).valid_failure;
+    const ValidFailure asked = test_kind(setup.apparatus.kind).valid_failure;
     if (asked == ValidFailure::between_platens) return on_platens(setup, history);
     const std::vector<BreakPlace> places = places_of(setup, history);
-    if (asked == ValidFailure::along_gap) return {along_gap(setup, places)};
+    if (asked == ValidFailure::along_gap) return {along_gap(setup.specimen, places)};
     const bool disc = asked == ValidFailure::splits_disc;
     std::vector<Verdict> verdicts;
-    if (disc) verdicts = on_disc(setup, rows, places);
-    Verdict last = disc ? splits(setup, largest_of(places)) : from_midspan(setup, largest_of(places));
+    if (disc) verdicts = on_disc(setup.specimen, rows, places);
+    Verdict last = disc ? splits(setup.specimen, largest_of(places)) : from_midspan(setup.specimen, largest_of(places));
     if (!failed) {
         last.holds.reset();
         last.found = "the specimen has not failed";

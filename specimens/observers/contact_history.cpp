@@ -12,19 +12,19 @@
 
 namespace crackle {
 
-PointIndex bond_of(const TestSetup& setup, PointKind kind, const ContactPoint& point) {
+PointIndex bond_of(const BondRecord& bonds, PointKind kind, const ContactPoint& point) {
     const auto number = static_cast<std::size_t>(kind);
-    const boost::counting_iterator<PointIndex> begin(setup.bond_kind_begin[number]);
-    const boost::counting_iterator<PointIndex> end(setup.bond_kind_begin[number + 1]);
-    const auto before = [&](PointIndex bond, const PointKey& key) { return key_of(kind, setup.bonds[bond]) < key; };
+    const boost::counting_iterator<PointIndex> begin(bonds.kind_begin[number]);
+    const boost::counting_iterator<PointIndex> end(bonds.kind_begin[number + 1]);
+    const auto before = [&](PointIndex bond, const PointKey& key) { return key_of(kind, bonds.points[bond]) < key; };
     const auto found = std::lower_bound(begin, end, key_of(kind, point), before);
-    const bool is_bond = found != end && same_point(kind, setup.bonds[*found], point);
-    return is_bond ? *found : static_cast<PointIndex>(setup.bonds.size());
+    const bool is_bond = found != end && same_point(kind, bonds.points[*found], point);
+    return is_bond ? *found : static_cast<PointIndex>(bonds.points.size());
 }
 
-void note_break(const TestSetup& setup, const BreakEvent& event, ContactHistory& history) {
-    const PointIndex bond = bond_of(setup, event.kind, event.point);
-    if (bond == setup.bonds.size()) throw std::logic_error("a point broke that was not bonded when loading began");
+void note_break(const BondRecord& bonds, const BreakEvent& event, ContactHistory& history) {
+    const PointIndex bond = bond_of(bonds, event.kind, event.point);
+    if (bond == bonds.points.size()) throw std::logic_error("a point broke that was not bonded when loading began");
     history.cracks.push_back({event.time, event.energy, event.strength, event.orientation, bond, event.shear_mode});
 }
 

@@ -23,7 +23,7 @@ struct Crack {
     double energy = 0.0;       // J, energy dissipated by the break
     double strength = 0.0;     // N, as in BreakEvent
     double orientation = 0.0;  // rad, direction of the contact normal when the bond broke, in (-π/2, π/2]
-    PointIndex bond = 0;       // index into TestSetup::bonds
+    PointIndex bond = 0;       // index into BondRecord::points
     bool shear_mode = false;
 
     CRACKLE_FIELDS(time, energy, strength, orientation, bond, shear_mode);
@@ -58,12 +58,12 @@ struct ContactHistory {
 };
 
 /// Records a break.
-void note_break(const TestSetup& setup, const BreakEvent& event, ContactHistory& history);
+void note_break(const BondRecord& bonds, const BreakEvent& event, ContactHistory& history);
 /// Records the points that currently touch without a bond. Requires compute_forces(). Takes time linear in the listed
 /// points.
 void look_at_contacts(const World& world, ContactHistory& history);
 
-/// Index of a point in TestSetup::bonds; the size of that list if the point was not bonded at the start of loading.
-PointIndex bond_of(const TestSetup& setup, PointKind kind, const ContactPoint& point);
+/// Index of a point in BondRecord::points; the size of that list if the point was not bonded at the start of loading.
+PointIndex bond_of(const BondRecord& bonds, PointKind kind, const ContactPoint& point);
 
 }  // namespace crackle

@@ -22,29 +22,29 @@ constexpr double least_sliding_force = 1e-9;
 namespace {
 
 /// Forces of the specimen on its platens, without those of the membrane.
-PartForces specimen_forces(const World& world, const TestSetup& setup) {
-    PartForces forces = forces_on_parts(world, setup);
-    if (setup.confined()) {
-        forces.driver -= membrane_force_on(world, setup.top).fy;
-        forces.supports -= membrane_force_on(world, setup.bottom).fy;
+PartForces specimen_forces(const World& world, const PlacedApparatus& apparatus) {
+    PartForces forces = forces_on_parts(world, apparatus);
+    if (apparatus.confined()) {
+        forces.driver -= membrane_force_on(world, apparatus.top).fy;
+        forces.supports -= membrane_force_on(world, apparatus.bottom).fy;
     }
     return forces;
 }
 
 }  // namespace
 
-double axial_stress(const World& world, const TestSetup& setup) {
-    const PartForces forces = specimen_forces(world, setup);
-    return 0.5 * setup.sense() * (forces.driver - forces.supports) / setup.section;
+double axial_stress(const World& world, const PlacedApparatus& apparatus) {
+    const PartForces forces = specimen_forces(world, apparatus);
+    return 0.5 * apparatus.sense() * (forces.driver - forces.supports) / apparatus.section;
 }
 
 CurveRow observe_row(const World& world, const TestSetup& setup) {
     CurveRow row;
-    const double sense = setup.sense();
-    row.axial_strain = setup.axial_strain(world);
-    const PartForces forces = specimen_forces(world, setup);
-    row.stress_top = sense * forces.driver / setup.section;
-    row.stress_bottom = -sense * forces.supports / setup.section;
+    const double sense = setup.apparatus.sense();
+    row.axial_strain = setup.apparatus.axial_strain(world);
+    const PartForces forces = specimen_forces(world, setup.apparatus);
+    row.stress_top = sense * forces.driver / setup.apparatus.section;
+    row.stress_bottom = -sense * forces.supports / setup.apparatus.section;
     row.confinement_work = world.account.force_work;
     row.axial_stress = 0.5 * (row.stress_top + row.stress_bottom);
     row.lateral_strain = setup.lateral_strain(world);
@@ -55,7 +55,7 @@ CurveRow observe_row(const World& world, const TestSetup& setup) {
     row.step = world.stepping.steps;
     row.bonds_slid = world.bonds.broken_after_sliding;
     const double strength =
-        setup.bond_facts().strengths_are_given ? setup.mean_tensile_strength : setup.mean_back_tension;
+        setup.bonds.facts().strengths_are_given ? setup.bonds.mean_tensile_strength : setup.bonds.mean_back_tension;
     for (std::size_t k = 0; k < world.points.size(); ++k) {
         constexpr int bond_that_slid = point_bonded | point_slid;
         const std::uint16_t flags = world.points.state[k].flags;

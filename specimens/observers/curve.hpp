@@ -19,6 +19,7 @@
 
 namespace crackle {
 
+struct PlacedApparatus;
 struct TestSetup;
 
 /// One row of curve.csv.
@@ -58,7 +59,7 @@ struct CurveRow {
 CurveRow observe_row(const World& world, const TestSetup& setup);
 
 /// Mean stress of the two platens, N/m, positive in the direction of loading; requires compute_forces().
-double axial_stress(const World& world, const TestSetup& setup);
+double axial_stress(const World& world, const PlacedApparatus& apparatus);
 
 /// A column of curve.csv.
 struct CurveColumn {

@@ -63,37 +63,43 @@ bool is_between_bodies(const World& world, std::size_t kind, const ContactPoint&
 }
 
 bool setup_is_whole(const TestSetup& setup, const World& world) {
-    const std::size_t n = world.bodies.size(), bonds = setup.bonds.size();
+    const std::size_t n = world.bodies.size(), bonds = setup.bonds.points.size();
     const auto is_body = [n](BodyIndex body) { return body < n; };
     const auto is_part = [&](const SetupPart& part) {
         return is_body(part.body) && part.face <= world.bodies.info(part.body).element_count;
     };
     const auto are_bodies = [&](const std::vector<BodyIndex>& bodies) { return std::ranges::all_of(bodies, is_body); };
     const auto is_face = [&](const TraceFace& face) {
-        return is_body(face.i) && is_body(face.j) && face.trace >= 0 && face.trace < std::ssize(setup.traces);
+        return is_body(face.i) && is_body(face.j) && face.trace >= 0 && face.trace < std::ssize(setup.bonds.traces);
     };
-    const auto is_face_number = [&](std::int32_t face) { return face >= -1 && face < std::ssize(setup.trace_faces); };
-    if (!is_known(setup.kind) || !is_known(setup.specimen) || !is_known(setup.bond_law) || setup.axis < 0 ||
-        setup.axis > 1 || !is_body(setup.bottom) || !is_body(setup.top) || setup.parts.empty() ||
-        !std::ranges::all_of(setup.parts, is_part) || !are_bodies(setup.left) || !are_bodies(setup.right) ||
-        !are_bodies(setup.gauge_bottom) || !are_bodies(setup.gauge_top) || setup.start.size() != n ||
-        setup.bond_overlaps.size() != bonds || !(setup.bond_shares.empty() || setup.bond_shares.size() == bonds) ||
-        !(setup.bond_faces.empty() || setup.bond_faces.size() == bonds) ||
-        !std::ranges::all_of(setup.trace_faces, is_face) || !std::ranges::all_of(setup.bond_faces, is_face_number) ||
-        !are_kinds_of(setup.bond_kind_begin, bonds) || setup.bonds.parts.size() != bonds - setup.bond_kind_begin[1] ||
-        setup.particles < 0 || setup.particles > static_cast<std::int64_t>(n))
+    const auto is_face_number = [&](std::int32_t face) {
+        return face >= -1 && face < std::ssize(setup.bonds.trace_faces);
+    };
+    if (!is_known(setup.apparatus.kind) || !is_known(setup.specimen.kind) || !is_known(setup.bonds.law) ||
+        setup.apparatus.axis < 0 || setup.apparatus.axis > 1 || !is_body(setup.apparatus.bottom) ||
+        !is_body(setup.apparatus.top) || setup.apparatus.parts.empty() ||
+        !std::ranges::all_of(setup.apparatus.parts, is_part) || !are_bodies(setup.gauges.left) ||
+        !are_bodies(setup.gauges.right) || !are_bodies(setup.gauges.bottom) || !are_bodies(setup.gauges.top) ||
+        setup.bonds.start.size() != n || setup.bonds.overlaps.size() != bonds ||
+        !(setup.bonds.shares.empty() || setup.bonds.shares.size() == bonds) ||
+        !(setup.bonds.face_of_bond.empty() || setup.bonds.face_of_bond.size() == bonds) ||
+        !std::ranges::all_of(setup.bonds.trace_faces, is_face) ||
+        !std::ranges::all_of(setup.bonds.face_of_bond, is_face_number) ||
+        !are_kinds_of(setup.bonds.kind_begin, bonds) ||
+        setup.bonds.points.parts.size() != bonds - setup.bonds.kind_begin[1] || setup.specimen.particles < 0 ||
+        setup.specimen.particles > static_cast<std::int64_t>(n))
         return false;
     for (std::size_t number = 0; number < point_kinds; ++number) {
         const auto kind = static_cast<PointKind>(number);
-        const auto key = [&](PointIndex bond) { return key_of(kind, setup.bonds[bond]); };
-        for (PointIndex bond = setup.bond_kind_begin[number]; bond < setup.bond_kind_begin[number + 1]; ++bond) {
-            if (!is_between_bodies(world, number, setup.bonds[bond]) ||
-                (bond > setup.bond_kind_begin[number] && !(key(bond - 1) < key(bond))))
+        const auto key = [&](PointIndex bond) { return key_of(kind, setup.bonds.points[bond]); };
+        for (PointIndex bond = setup.bonds.kind_begin[number]; bond < setup.bonds.kind_begin[number + 1]; ++bond) {
+            if (!is_between_bodies(world, number, setup.bonds.points[bond]) ||
+                (bond > setup.bonds.kind_begin[number] && !(key(bond - 1) < key(bond))))
                 return false;
         }
         for (PointIndex k = world.points.kind_begin[number]; k < world.points.kind_begin[number + 1]; ++k) {
             if ((world.points.state[k].flags & point_bonded) != 0 &&
-                bond_of(setup, kind, world.points.contact[k]) == bonds)
+                bond_of(setup.bonds, kind, world.points.contact[k]) == bonds)
                 return false;
         }
     }
@@ -112,7 +118,7 @@ bool loose_are_whole(const LooseContacts& loose, const World& world) {
 
 bool frame_is_whole(const Frame& frame, const TestState& state, const TestSetup& setup, const World& world) {
     if (frame.row < 0) return frame.row == -1;
-    const std::size_t bonds = setup.bonds.size();
+    const std::size_t bonds = setup.bonds.points.size();
     return frame.row < std::ssize(state.rows) && frame.bodies.size() == world.bodies.size() &&
            frame.shear_force.size() == bonds && frame.states.size() == bonds &&
            std::ranges::all_of(frame.states, [](ContactState one) { return one <= ContactState::loose; }) &&
@@ -122,7 +128,7 @@ bool frame_is_whole(const Frame& frame, const TestState& state, const TestSetup&
 }
 
 bool state_is_whole(const TestState& state, const TestSetup& setup, const World& world) {
-    const std::size_t n = world.bodies.size(), bonds = setup.bonds.size();
+    const std::size_t n = world.bodies.size(), bonds = setup.bonds.points.size();
     const auto is_row = [&](std::int64_t row) { return row >= 0 && row < std::ssize(state.rows); };
     const auto is_row_or_none = [&](std::int64_t row) { return row == -1 || is_row(row); };
     const auto is_whole = [&](const OpenEvent& open) {
@@ -139,7 +145,7 @@ bool state_is_whole(const TestState& state, const TestSetup& setup, const World&
            loose_are_whole(state.history.loose, world) && frame_is_whole(state.peak_frame, state, setup, world) &&
            std::ranges::all_of(state.frames, [&](const FrameEntry& frame) { return is_row(frame.row); }) &&
            state.next_frame >= 0 && state.path.unloaded >= 0 &&
-           (state.faces_at_peak.empty() || state.faces_at_peak.size() == setup.trace_faces.size()) &&
+           (state.faces_at_peak.empty() || state.faces_at_peak.size() == setup.bonds.trace_faces.size()) &&
            std::ranges::all_of(state.emission.open, is_whole);
 }
 

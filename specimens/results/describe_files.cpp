@@ -8,11 +8,9 @@
 #include <ostream>
 #include <string>
 
-#include "specimens/emission/acoustic_event.hpp"
 #include "specimens/frames/frame_painter.hpp"
-#include "specimens/observers/curve.hpp"
-#include "specimens/observers/events.hpp"
 #include "specimens/results/output_folder.hpp"
+#include "specimens/results/result_tables.hpp"
 #include "specimens/summary/summary_keys.hpp"
 
 namespace crackle {
@@ -83,35 +81,6 @@ packing, independent of the internal numbering; platens have the largest ids. Nu
 in [solver/MODEL.md](../../solver/MODEL.md) and [specimens/METHODS.md](../METHODS.md).
 )";
 
-constexpr const char* curve_text = R"(
-## `curve.csv`
-
-One row for each of `output.curve_rows` equal parts of `loading.max_axial_strain`; the first row is at the start of loading, the last at the end of the test.
-Peak, failure and moduli are determined from at least 2000 rows, even if fewer are written. Counts, losses and work are totals since loading began.
-)";
-
-constexpr const char* events_text = R"(
-## `events.csv`
-
-One row for each bonded contact point that broke, in the order in which they broke, similar to a record of acoustic emission. Two polygons may have several
-bonded contact points (their *interface*); each of these has its own row.
-)";
-
-constexpr const char* slips_text = R"(
-## `slips.csv`
-
-With `output.slips = true`, one row for each back-tension bond that reached its Coulomb limit, written when it first did so. The file shows shear damage that does not appear
-among breaks: a back-tension bond slides at its limit, and breaks only when its overlap vanishes. Coulomb bonds do not slide before they fail.
-)";
-
-constexpr const char* emission_text = R"(
-## `ae.csv`
-
-With `output.emission = true`, one row for each acoustic event, in the order in which the events ended. An event is a group of breaks close in
-place and time ([method](../emission/METHODS.md)); its moment is the largest moment of the source during the event. Every break belongs to exactly one event. Energies and
-moments are those of the model, per unit thickness. Magnitudes refer to a specimen of the thickness `output.out_of_plane_thickness`.
-)";
-
 constexpr const char* summary_text = R"(
 ## `summary.json`
 
@@ -142,18 +111,12 @@ Field data of all of them:
 void describe_test_files(std::ostream& out) {
     out << introduction;
     for (const ResultFile& file : result_files()) fmt::print(out, "| `{}` | {} |\n", file.name, file.holds);
-    out << folder_text << curve_text;
-    begin_table(out, "column");
-    for (const CurveColumn& column : curve_columns()) print_row(out, column.what);
-    out << events_text;
-    begin_table(out, "column");
-    for (const EventColumn& column : event_columns()) print_row(out, column.what);
-    out << slips_text;
-    begin_table(out, "column");
-    for (const SlipColumn& column : slip_columns()) print_row(out, column.what);
-    out << emission_text;
-    begin_table(out, "column");
-    for (const AcousticColumn& column : acoustic_columns()) print_row(out, column.what);
+    out << folder_text;
+    for (std::size_t k = 0; k < result_tables; ++k) {
+        const auto table = static_cast<ResultTable>(k);
+        fmt::print(out, "\n## `{}`\n{}", name_of(table), facts_of(table).section);
+        print_table(out, "column", facts_of(table).columns());
+    }
     out << summary_text;
     begin_table(out, "key");
     for (const SummaryKey& key : summary_keys())

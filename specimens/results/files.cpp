@@ -36,18 +36,12 @@ void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
 }  // namespace
 
 TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, const FileOptions& options)
-    : folder_(folder),
-      case_hash_(std::move(case_hash)),
-      options_(options),
-      curve_(folder.path() / "curve.csv", state.curve),
-      events_(folder.path() / "events.csv", state.events),
-      collection_due_(!state.frames.empty()) {
-    if (state.curve.bytes == 0) curve_.write(curve_header(options_.pressed));
-    if (state.events.bytes == 0) events_.write(events_header(options_.jointed));
-    if (options.slips) slips_.emplace(folder.path() / "slips.csv", state.slips);
-    if (options.slips && state.slips.bytes == 0) slips_->write(slips_header());
-    if (state.emission.rule.on()) ae_.emplace(folder.path() / "ae.csv", state.ae);
-    if (ae_ && state.ae.bytes == 0) ae_->write(acoustic_header());
+    : folder_(folder), case_hash_(std::move(case_hash)), options_(options), collection_due_(!state.frames.empty()) {
+    for (const ResultTable table : tables_of(options)) {
+        const FileMark& mark = state.tables[static_cast<std::size_t>(table)];
+        GrowingFile& file = tables_[static_cast<std::size_t>(table)].emplace(folder.path() / name_of(table), mark);
+        if (mark.bytes == 0) file.write(facts_of(table).header(options));
+    }
     remove_unlisted_frames(folder.path() / "frames", state);
     if (state.peak_frame.bodies.size() < options_.large_frame) return;
     peak_on_disc_.emplace(folder.path());
@@ -55,36 +49,32 @@ TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, TestStat
     state.peak_frame = {};
 }
 
-void TestFiles::add_row(const CurveRow& row) { curve_.write(curve_line(row, options_.pressed)); }
+void TestFiles::add(ResultTable table, const std::string& line) {
+    if (auto& file = tables_[static_cast<std::size_t>(table)]) file->write(line);
+}
+
+void TestFiles::add_row(const CurveRow& row) { add(ResultTable::curve, curve_line(row, options_.pressed)); }
 
 void TestFiles::add_event(const BreakEvent& event, double axial_strain, std::int32_t trace) {
-    events_.write(event_line(event, axial_strain, options_.jointed ? std::optional(trace) : std::nullopt));
-}
-
-void TestFiles::add_slip(const SlipEvent& event, double axial_strain) {
-    if (slips_) slips_->write(slip_line(event, axial_strain));
-}
-
-void TestFiles::add_emission(const AcousticEvent& event, double thickness) {
-    if (ae_) ae_->write(acoustic_line(event, thickness));
+    add(ResultTable::events, event_line(event, axial_strain, options_.jointed ? std::optional(trace) : std::nullopt));
 }
 
 void TestFiles::add_frame(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,
                           const World& world) {
     if (!list_frame({row_index, row.axial_strain, row.time}, setup, state, world)) return;
     Frame frame;
-    take_frame(world, setup, state.history, row, row_index, frame);
+    take_frame(world, setup.bonds, state.history, row, row_index, frame);
     draw(std::move(frame), setup, state, world);
 }
 
 void TestFiles::keep_peak(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,
                           const World& world) {
     if (world.bodies.size() < options_.large_frame) {
-        take_frame(world, setup, state.history, row, row_index, state.peak_frame);
+        take_frame(world, setup.bonds, state.history, row, row_index, state.peak_frame);
         return;
     }
     if (!peak_on_disc_) peak_on_disc_.emplace(folder_.path());
-    take_frame(world, setup, state.history, row, row_index, *peak_on_disc_);
+    take_frame(world, setup.bonds, state.history, row, row_index, *peak_on_disc_);
 }
 
 void TestFiles::add_peak(const TestSetup& setup, TestState& state, const World& world) {
@@ -100,7 +90,7 @@ bool TestFiles::list_frame(const FrameEntry& entry, const TestSetup& setup, Test
     state.frames.insert(later, entry);
     if (!painter_ || !painter_->paints(world, setup)) {
         background_.wait();
-        painter_.emplace(world, setup, options_.precision);
+        painter_.emplace(world, setup, options_.output.frame_precision);
     }
     collection_due_ = true;
     background_.make_room(world.bodies.size() <= most_bodies_of_several ? most_waiting : 0);
@@ -156,10 +146,7 @@ void TestFiles::write_collection(const TestState& state) {
 void TestFiles::write_checkpoint(const TestSetup& setup, TestState& state, const World& world) {
     flush();
     write_collection(state);
-    state.curve = curve_.mark();
-    state.events = events_.mark();
-    if (slips_) state.slips = slips_->mark();
-    if (ae_) state.ae = ae_->mark();
+    state.tables = marks();
     if (peak_on_disc_) state.peak_frame = peak_on_disc_->whole();
     folder_.write(
         "checkpoint", [&](std::ostream& out) { save_test(out, case_hash_, setup, state, world); }, Durable::yes);
@@ -168,18 +155,20 @@ void TestFiles::write_checkpoint(const TestSetup& setup, TestState& state, const
 
 void TestFiles::flush() {
     background_.wait();
-    curve_.flush();
-    events_.flush();
-    if (slips_) slips_->flush();
-    if (ae_) ae_->flush();
+    for (auto& file : tables_)
+        if (file) file->flush();
+}
+
+TableMarks TestFiles::marks() const {
+    TableMarks marks;
+    for (std::size_t k = 0; k < result_tables; ++k)
+        if (tables_[k]) marks[k] = tables_[k]->mark();
+    return marks;
 }
 
 void TestFiles::write_summary(Summary& summary, const TestState& state) {
     write_collection(state);
-    FileMarks files{{"curve.csv", curve_.mark()}, {"events.csv", events_.mark()}};
-    if (slips_) files.emplace_back("slips.csv", slips_->mark());
-    if (ae_) files.emplace_back("ae.csv", ae_->mark());
-    crackle::write_summary(folder_, summary, std::move(files));
+    crackle::write_summary(folder_, summary, named_marks(tables_of(options_), marks()));
 }
 
 void write_summary(const OutputFolder& folder, Summary& summary, FileMarks files) {

@@ -2,6 +2,7 @@
 // The files written during a test: curve.csv, events.csv, frames/, the checkpoint, and finally summary.json.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "specimens/results/growing_file.hpp"
 #include "specimens/results/make_summary.hpp"
 #include "specimens/results/output_folder.hpp"
+#include "specimens/results/result_tables.hpp"
 
 namespace crackle {
 
@@ -19,29 +21,18 @@ namespace crackle {
 /// if there is one.
 void write_summary(const OutputFolder& folder, Summary& summary, FileMarks files);
 
-/// Options for the files of a test.
-struct FileOptions {
-    FramePrecision precision = FramePrecision::single_;  ///< precision of points in frames
-    bool slips = false;                                  ///< whether slips.csv is written
-    bool pressed = false, jointed = false;               ///< whether curve and events have the columns for such a test
-    std::size_t large_frame = 200'000;  ///< number of bodies from which the frame at the peak is kept on disk
-};
-
 /// The files of a test while it runs.
 class TestFiles {
   public:
     /// Starts new files if the state has no rows; otherwise continues them from the state and removes later contents.
-    /// ae.csv is written if emission is recorded.
     TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, const FileOptions& options);
 
     /// Adds a row to curve.csv.
     void add_row(const CurveRow& row);
     /// @param trace  index of the trace on which the bond broke, or -1
     void add_event(const BreakEvent& event, double axial_strain, std::int32_t trace);
-    /// Adds a row to slips.csv.
-    void add_slip(const SlipEvent& event, double axial_strain);
-    /// Adds a row to ae.csv. @param thickness  the thickness of the specimen, m
-    void add_emission(const AcousticEvent& event, double thickness);
+    /// Adds a line to a table, unless the test has no such table. @param line  including the line end
+    void add(ResultTable table, const std::string& line);
     /// Takes a frame of the current state, as take_frame() does, and adds it to state.frames in the order of rows. The
     /// frame's file is written in the background; it is complete before a checkpoint or a summary is written.
     /// frames.pvd follows within a second, or at that time: replacing a file costs more than a frame of a small
@@ -65,17 +56,17 @@ class TestFiles {
     /// Adds a frame to the list. @return whether it must be drawn, because it was not in the list yet
     bool list_frame(const FrameEntry& entry, const TestSetup& setup, TestState& state, const World& world);
     void draw(Frame frame, const TestSetup& setup, const TestState& state, const World& world);
+    TableMarks marks() const;
     std::string due_collection(const TestState& state);
     void write_collection(const TestState& state);
 
     const OutputFolder& folder_;
     std::string case_hash_;
     FileOptions options_;
-    GrowingFile curve_, events_;
-    std::optional<GrowingFile> slips_, ae_;
-    std::optional<FrameOnDisc> peak_on_disc_;  // used instead of TestState::peak_frame
-    std::optional<FramePainter> painter_;      // exists once there is a frame
-    bool collection_due_;                      // whether frames.pvd is older than the state
+    std::array<std::optional<GrowingFile>, result_tables> tables_;  // those of this test
+    std::optional<FrameOnDisc> peak_on_disc_;                       // used instead of TestState::peak_frame
+    std::optional<FramePainter> painter_;                           // exists once there is a frame
+    bool collection_due_;                                           // whether frames.pvd is older than the state
     std::chrono::steady_clock::time_point collected_;
     Background background_;  // last member, because its remaining jobs use the others
 };

@@ -27,11 +27,11 @@
 namespace crackle {
 namespace {
 
-Description describe(const TestCase& test, const TestSetup& setup, const TestState& state) {
+Description describe(const TestCase& test, const TestedSpecimen& specimen, const TestState& state) {
     const bool failed = state.failure.failed, running = state.ended_by.empty();
     Description d{test.title,
                   test.loading.kind,
-                  setup.specimen,
+                  specimen.kind,
                   test.loading.platens,
                   test.bond.law,
                   test.material.units,
@@ -45,20 +45,20 @@ Description describe(const TestCase& test, const TestSetup& setup, const TestSta
     return d;
 }
 
-void strength(Strength& s, const TestSetup& setup, const TestState& state, const FirstLoading& first) {
+void strength(Strength& s, const PlacedApparatus& apparatus, const TestState& state, const FirstLoading& first) {
     const FailureTracker& f = state.failure;
     (f.failed ? s.peak_stress : s.peak_stress_so_far) = f.peak_row < 0 ? NAN : f.peak_stress;
     (f.failed ? s.peak_strain : s.peak_strain_so_far) = f.peak_row < 0 ? NAN : f.peak_strain;
     s.largest_stress = f.largest_row < 0 ? NAN : f.largest_stress;
     s.strain_at_largest_stress = f.largest_row < 0 ? NAN : f.strain_at_largest;
     // In other kinds of test, stress divided by strain is not a modulus of the rock.
-    s.youngs_modulus = setup.uniaxial ? state.youngs_modulus : NAN;
+    s.youngs_modulus = apparatus.uniaxial ? state.youngs_modulus : NAN;
     s.poissons_ratio = state.poissons_ratio;
     s.gauge_modulus = state.gauge_modulus;
-    if (!setup.uniaxial) return;
+    if (!apparatus.uniaxial) return;
 
     const auto measure = [&](const auto& tangent, Stress& modulus, Number& poissons_ratio) {
-        const Tangent found = tangent(first.rows, first.peak_row, setup.compression);
+        const Tangent found = tangent(first.rows, first.peak_row, apparatus.compression);
         modulus = found.modulus;
         poissons_ratio = found.poissons_ratio;
         return found;
@@ -69,44 +69,46 @@ void strength(Strength& s, const TestSetup& setup, const TestState& state, const
     measure(tangent_at_half_peak, s.tangent_modulus_50, s.tangent_50_poissons_ratio);
     measure(tangent_of_straightest, s.average_modulus, s.average_poissons_ratio);
     measure(secant_to_half_peak, s.secant_modulus_50, s.secant_50_poissons_ratio);
-    const double falling = f.failed ? tangent_beyond_peak(first.rows, first.peak_row, setup.compression).modulus : NAN;
+    const double falling =
+        f.failed ? tangent_beyond_peak(first.rows, first.peak_row, apparatus.compression).modulus : NAN;
     s.post_peak_modulus = falling;
     s.brittleness_index = brittleness_index(state.youngs_modulus, falling);
 }
 
 /// Adds the definitions of stress and strain for a test without platens, and results derived from the peak.
 void nominal(NominalFigures& n, const TestSetup& setup, const TestState& state, const FirstLoading& first) {
-    if (setup.uniaxial) return;
+    if (setup.apparatus.uniaxial) return;
     const FailureTracker& f = state.failure;
     const double peak = f.peak_row < 0 ? NAN : f.peak_stress;
-    n.stress_section = setup.section;
-    n.strain_length = setup.length;
-    (f.failed ? n.peak_force : n.peak_force_so_far) = peak * setup.section;
+    n.stress_section = setup.apparatus.section;
+    n.strain_length = setup.apparatus.length;
+    (f.failed ? n.peak_force : n.peak_force_so_far) = peak * setup.apparatus.section;
     n.nominal_modulus = state.youngs_modulus;
-    if (setup.span > 0.0) n.span = setup.span;
-    if (setup.notch > 0.0) {
-        const double particle = std::sqrt(setup.area / static_cast<double>(setup.particles));
-        n.notch = setup.notch;
-        n.notch_over_particle = setup.notch / particle;
-        (f.failed ? n.fracture_toughness : n.fracture_toughness_so_far) = setup.stress_intensity * peak;
+    if (setup.apparatus.span > 0.0) n.span = setup.apparatus.span;
+    if (setup.specimen.notch > 0.0) {
+        const double particle = std::sqrt(setup.specimen.area / static_cast<double>(setup.specimen.particles));
+        n.notch = setup.specimen.notch;
+        n.notch_over_particle = setup.specimen.notch / particle;
+        (f.failed ? n.fracture_toughness : n.fracture_toughness_so_far) = setup.apparatus.stress_intensity * peak;
     }
-    if (!test_kind(setup.kind).shear_box) return;
-    n.normal_stress = setup.normal_force / setup.width;
-    if (setup.normal_spring > 0.0) {
+    if (!test_kind(setup.apparatus.kind).shear_box) return;
+    n.normal_stress = setup.apparatus.normal_force / setup.specimen.width;
+    if (setup.apparatus.normal_spring > 0.0) {
         // Normal stress when the box has risen by `rise` times the height.
         const auto grown = [&](double rise) {
-            return (setup.normal_force + setup.normal_spring * rise * setup.height) / setup.width;
+            return (setup.apparatus.normal_force + setup.apparatus.normal_spring * rise * setup.specimen.height) /
+                   setup.specimen.width;
         };
         const bool known = first.peak_row >= 0;
         (f.failed ? n.normal_stress_at_peak : n.normal_stress_at_peak_so_far) =
             known ? grown(first.rows[static_cast<std::size_t>(first.peak_row)].lateral_strain) : NAN;
         n.normal_stress_end = state.rows.empty() ? NAN : grown(state.rows.back().lateral_strain);
     }
-    const ShearBoxFigures shear =
-        measure_shear_box(first.rows, first.peak_row, state.ended_by == ended_by_strain, setup.height, setup.length);
+    const ShearBoxFigures shear = measure_shear_box(first.rows, first.peak_row, state.ended_by == ended_by_strain,
+                                                    setup.specimen.height, setup.apparatus.length);
     n.residual_stress = shear.residual;
     n.dilation_angle_at_peak = shear.dilation_at_peak;
-    n.dilation_end = state.rows.empty() ? NAN : state.rows.back().lateral_strain * setup.height;
+    n.dilation_end = state.rows.empty() ? NAN : state.rows.back().lateral_strain * setup.specimen.height;
 }
 
 /// Adds whether the test is valid for its purpose.
@@ -122,21 +124,21 @@ void validity(Validity& v, const TestSetup& setup, const TestState& state, const
 }
 
 /// Adds the pressure of a confined test, and the work of its membrane or walls.
-void confinement(ConfinementFigures& c, const TestSetup& setup, const TestState& state, const World& world) {
-    if (!setup.confined()) return;
+void confinement(ConfinementFigures& c, const PlacedApparatus& apparatus, const TestState& state, const World& world) {
+    if (!apparatus.confined()) return;
     const FailureTracker& f = state.failure;
-    c.confining_pressure = setup.confining_pressure;
+    c.confining_pressure = apparatus.confining_pressure;
     (f.failed ? c.deviator_stress : c.deviator_stress_so_far) =
-        f.peak_row < 0 ? NAN : f.peak_stress - setup.confining_pressure;
-    c.confining_side = setup.has_walls() ? ConfiningSide::walls : ConfiningSide::membrane;
-    if (setup.has_walls()) return;
+        f.peak_row < 0 ? NAN : f.peak_stress - apparatus.confining_pressure;
+    c.confining_side = apparatus.has_walls() ? ConfiningSide::walls : ConfiningSide::membrane;
+    if (apparatus.has_walls()) return;
     const Membrane& m = world.membrane;
     c.membrane = MembraneFigures{m.points.size(), m.wrapped, m.jumped, m.open, m.work};
 }
 
 /// Adds the stresses at which cracks start to form and to coalesce, for a compression test.
 void cracking(CrackingFigures& c, const TestCase& test, const TestSetup& setup, const TestState& state) {
-    const std::optional<CrackThresholds> t = crack_thresholds_of(test, setup, state);
+    const std::optional<CrackThresholds> t = crack_thresholds_of(test, setup.apparatus, state);
     if (!t) return;
     const double peak = state.failure.peak_stress;
     c.crack_initiation_stress = t->count_break;
@@ -148,17 +150,17 @@ void cracking(CrackingFigures& c, const TestCase& test, const TestSetup& setup, 
     c.crack_damage_over_peak = t->damage / peak;
 }
 
-std::vector<CycleFigures> cycles(const TestSetup& setup, const TestState& state) {
+std::vector<CycleFigures> cycles(const PlacedApparatus& apparatus, const TestState& state) {
     std::vector<CycleFigures> all;
-    for (LoadingCycle cycle : find_cycles(state.rows, setup.compression)) {
+    for (LoadingCycle cycle : find_cycles(state.rows, apparatus.compression)) {
         if (cycle.linear && std::isfinite(state.youngs_modulus)) {
             cycle.modulus = state.youngs_modulus;
             cycle.permanent_strain = cycle.modulus_error = 0.0;
         }
         all.push_back({cycle.strain, cycle.stress, cycle.low_strain, cycle.low_stress, cycle.modulus,
-                       setup.uniaxial ? cycle.poissons_ratio : NAN, cycle.modulus_error,
+                       apparatus.uniaxial ? cycle.poissons_ratio : NAN, cycle.modulus_error,
                        cycle.unbroken ? 0.0 : 1.0 - cycle.modulus / state.youngs_modulus, cycle.permanent_strain,
-                       cycle.loop * setup.section * setup.length});
+                       cycle.loop * apparatus.section * apparatus.length});
     }
     return all;
 }
@@ -175,18 +177,18 @@ void damage(DamageFigures& d, const TestSetup& setup, const TestState& state, co
     const std::vector<CurveRow>& rows = state.rows;
     const std::int64_t peak = state.failure.peak_row;
     const auto area_strain_of = [&](const CurveRow& row) {
-        return setup.uniaxial ? area_strain(row, setup.compression) : NAN;
+        return setup.apparatus.uniaxial ? area_strain(row, setup.apparatus.compression) : NAN;
     };
     d.area_strain_peak = peak < 0 ? NAN : area_strain_of(rows[static_cast<std::size_t>(peak)]);
     d.area_strain_end = rows.empty() ? NAN : area_strain_of(rows.back());
     Frame now;
-    take_frame(world, setup, state.history, rows.empty() ? CurveRow{} : rows.back(), 0, now);
+    take_frame(world, setup.bonds, state.history, rows.empty() ? CurveRow{} : rows.back(), 0, now);
     const FragmentSizes fragments = measure_fragments(world, setup, now);
     d.fragments = fragments.count;
     d.largest_fragment_share = fragments.largest_share;
     d.fragment_size_median = fragments.median_size;
     d.fragment_rosin_rammler = FragmentLaw{fragments.law.size, fragments.law.exponent, fragments.law.pieces};
-    const std::optional<Parting> p = setup.uniaxial ? find_parting(setup, state.history) : std::nullopt;
+    const std::optional<Parting> p = setup.apparatus.uniaxial ? find_parting(setup, state.history) : std::nullopt;
     d.failed_at = p ? std::optional(name_of(p->place)) : std::nullopt;
     d.largest_crack = p ? std::optional(LargestCrack{p->bonds, p->of_platen, p->height}) : std::nullopt;
 }
@@ -267,26 +269,26 @@ void energies(Summary& s, const TestState& state) {
 }
 
 void counts(SpecimenFigures& s, const TestSetup& setup, const World& world) {
-    s.initial_width = setup.width;
-    s.initial_height = setup.height;
-    s.particles = setup.particles;
-    if (setup.centres > 0) s.seeds = setup.centres;
-    if (setup.polygons) s.segments = setup.segments;
-    s.bond_thick = setup.bond_thick;
-    s.contacts_initial = setup.contacts_initial;
+    s.initial_width = setup.specimen.width;
+    s.initial_height = setup.specimen.height;
+    s.particles = setup.specimen.particles;
+    if (setup.origin.centres > 0) s.seeds = setup.origin.centres;
+    if (setup.specimen.polygons) s.segments = setup.origin.segments;
+    s.bond_thick = setup.bonds.thick;
+    s.contacts_initial = setup.bonds.contacts_initial;
     s.bonds_initial = world.bonds.initial;
     s.interfaces_initial = world.bonds.interfaces_initial;
-    s.mean_back_tension = setup.mean_back_tension;
-    s.mean_back_tension_interface = setup.mean_back_tension_interface;
-    s.mean_bond_overlap = setup.mean_bond_overlap;
-    if (setup.bond_facts().strengths_are_given) {
-        s.mean_tensile_strength = setup.mean_tensile_strength;
-        s.mean_cohesion = setup.mean_cohesion;
+    s.mean_back_tension = setup.bonds.mean_back_tension;
+    s.mean_back_tension_interface = setup.bonds.mean_back_tension_interface;
+    s.mean_bond_overlap = setup.bonds.mean_overlap;
+    if (setup.bonds.facts().strengths_are_given) {
+        s.mean_tensile_strength = setup.bonds.mean_tensile_strength;
+        s.mean_cohesion = setup.bonds.mean_cohesion;
     }
     s.bonds_unbreakable = world.bonds.held;
-    s.grip = setup.grip;
-    s.platen_bottom_id = setup.bottom_id;
-    s.platen_top_id = setup.top_id;
+    s.grip = setup.bonds.grip;
+    s.platen_bottom_id = setup.apparatus.bottom_id;
+    s.platen_top_id = setup.apparatus.top_id;
 }
 
 /// Stress carried by the dashpots at the start of loading, divided by the largest stress; NaN unless the case gives
@@ -328,9 +330,9 @@ void numerics(NumericsFigures& n, const TestCase& test, const TestSetup& setup, 
     n.seed = test.has_table("packing") ? std::optional(test.packing.seed) : std::nullopt;
 }
 
-PackingFigures packing(const TestSetup& setup) {
+PackingFigures packing(const Provenance& origin) {
     PackingFigures figures;
-    for (const auto& quantity : setup.packing) {
+    for (const auto& quantity : origin.packing) {
         PackingFigures::fields(figures, [&](std::string_view member, Number& figure, const FigureRow& /*row*/) {
             if (member == quantity.first) figure = quantity.second;
         });
@@ -338,20 +340,21 @@ PackingFigures packing(const TestSetup& setup) {
     return figures;
 }
 
-std::vector<MineralFigures> minerals(const TestSetup& setup) {
+std::vector<MineralFigures> minerals(const Provenance& origin) {
     std::vector<MineralFigures> all;
-    all.reserve(setup.minerals.size());
-    for (const MineralShare& m : setup.minerals) all.push_back({m.name, m.asked, m.reached, m.grains});
+    all.reserve(origin.minerals.size());
+    for (const MineralShare& m : origin.minerals) all.push_back({m.name, m.asked, m.reached, m.grains});
     return all;
 }
 
-void numerical_errors(Summary& s, const TestSetup& setup, const TestState& state, const NumericalErrors* errors) {
+void numerical_errors(Summary& s, const PlacedApparatus& apparatus, const TestState& state,
+                      const NumericalErrors* errors) {
     const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
     const auto none = std::nullopt;
     const ErrorFigures unknown{none, none, none, none, none, none};
     ErrorsByFigure& all = s.numerical_errors.begin_table();
     all.peak_stress = all.peak_strain = unknown;
-    if (setup.compression && setup.uniaxial) all.crack_initiation_stress = all.crack_damage_stress = unknown;
+    if (apparatus.compression && apparatus.uniaxial) all.crack_initiation_stress = all.crack_damage_stress = unknown;
     if (errors != nullptr) all = errors->figures;
     for (auto* of : {&all.peak_stress, &all.peak_strain, &all.crack_initiation_stress, &all.crack_damage_stress})
         if (*of) (*of)->energy_closing = std::abs(last.energy_error / last.platen_work);
@@ -378,9 +381,9 @@ void run(RunFigures& r, const TestSetup& setup, const TestState& state, const Wo
     r.wall_seconds = timing.wall_seconds;
     r.step_seconds = timing.step_seconds;
     r.particle_steps_per_second =
-        static_cast<double>(setup.particles) * static_cast<double>(steps) / timing.step_seconds;
+        static_cast<double>(setup.specimen.particles) * static_cast<double>(steps) / timing.step_seconds;
     if (world.workers.profile != nullptr)
-        r.profile = profile_report(*world.workers.profile, setup.particles, steps, timing.step_seconds);
+        r.profile = profile_report(*world.workers.profile, setup.specimen.particles, steps, timing.step_seconds);
 }
 
 }  // namespace
@@ -390,35 +393,35 @@ FirstLoading judged_rows(const TestCase& test, const TestState& state) {
                                   : FirstLoading{state.rows, state.failure.peak_row};
 }
 
-std::optional<CrackThresholds> crack_thresholds_of(const TestCase& test, const TestSetup& setup,
+std::optional<CrackThresholds> crack_thresholds_of(const TestCase& test, const PlacedApparatus& apparatus,
                                                    const TestState& state) {
-    if (!setup.compression || !setup.uniaxial) return std::nullopt;
+    if (!apparatus.compression || !apparatus.uniaxial) return std::nullopt;
     const FirstLoading first = judged_rows(test, state);
     return find_crack_thresholds(first.rows, first.peak_row, state.youngs_modulus, state.poissons_ratio,
-                                 setup.confining_pressure);
+                                 apparatus.confining_pressure);
 }
 
 Summary make_summary(const TestCase& test, const TestSetup& setup, const TestState& state, const World& world,
                      const TestTiming& timing, const NumericalErrors* errors) {
     Summary s;
     const FirstLoading first = judged_rows(test, state);
-    s.about = describe(test, setup, state);
-    strength(s.strength, setup, state, first);
+    s.about = describe(test, setup.specimen, state);
+    strength(s.strength, setup.apparatus, state, first);
     nominal(s.nominal, setup, state, first);
     validity(s.validity, setup, state, first);
-    confinement(s.confinement, setup, state, world);
+    confinement(s.confinement, setup.apparatus, state, world);
     cracking(s.cracking, test, setup, state);
-    if (test.loading.unloads()) s.cycles = cycles(setup, state);
+    if (test.loading.unloads()) s.cycles = cycles(setup.apparatus, state);
     damage(s.damage, setup, state, world);
     s.crack_rose = directions(setup, state, world);
-    if (!setup.traces.empty()) s.jointed = trace_figures(setup, state, world);
+    if (!setup.bonds.traces.empty()) s.jointed = trace_figures(setup.bonds, state, world);
     acoustic_emission(s, state);
     energies(s, state);
     counts(s.specimen, setup, world);
     numerics(s.numerics, test, setup, state, world);
-    numerical_errors(s, setup, state, errors);
-    if (!setup.packing.empty()) s.packing = packing(setup);
-    if (!setup.minerals.empty()) s.minerals = minerals(setup);
+    numerical_errors(s, setup.apparatus, state, errors);
+    if (!setup.origin.packing.empty()) s.packing = packing(setup.origin);
+    if (!setup.origin.minerals.empty()) s.minerals = minerals(setup.origin);
     frames(s.frames, state);
     s.out_of_plane_thickness = test.output.out_of_plane_thickness;
     s.notices = notices_of(test, setup, state, world, viscous_share(test, state));
@@ -429,7 +432,7 @@ Summary make_summary(const TestCase& test, const TestSetup& setup, const TestSta
     run(s.run, setup, state, world, timing);
     Table<std::string>& columns = s.columns.begin_table();
     for (const CurveColumn& column : curve_columns())
-        if (!column.pressed || setup.pressed())
+        if (!column.pressed || setup.apparatus.pressed())
             columns.emplace_back(column.what.name, stated_in(column.what, test.area_units()));
     state_units(s);
     return s;

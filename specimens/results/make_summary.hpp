@@ -29,7 +29,7 @@ struct TestTiming {
 /// case unloads.
 FirstLoading judged_rows(const TestCase& test, const TestState& state);
 /// Crack thresholds of a compression test between platens; empty for other tests.
-std::optional<CrackThresholds> crack_thresholds_of(const TestCase& test, const TestSetup& setup,
+std::optional<CrackThresholds> crack_thresholds_of(const TestCase& test, const PlacedApparatus& apparatus,
                                                    const TestState& state);
 
 /// @param errors  the numerical errors from companion runs; null if there are none

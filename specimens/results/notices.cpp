@@ -19,7 +19,7 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
     constexpr double closing_error_to_mention = 2e-3;
     constexpr double share_above_to_mention = 0.25;
     constexpr double excess_to_mention = 0.1;
-    std::vector<std::string> notices = setup.notices;
+    std::vector<std::string> notices = setup.origin.notices;
     const FailureTracker& f = state.failure;
     if (f.failed && f.peak_row < rows_that_resolve) {
         notices.push_back(fmt::format(
@@ -36,11 +36,12 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
                         f.peak_strain, test.loading.strength_drop));
     }
     if (const double most = test.loading.max_axial_strain;
-        state.ended_by == ended_by_strain && setup.axial_strain(world) > (1.0 + excess_to_mention) * most) {
+        state.ended_by == ended_by_strain && setup.apparatus.axial_strain(world) > (1.0 + excess_to_mention) * most) {
         notices.push_back(fmt::format(
             "the test ended at a strain of {:.3g}, beyond loading.max_axial_strain = {:g}, because {} strained "
             "the specimen too far; increase loading.max_axial_strain, or lower the loading rate",
-            setup.axial_strain(world), most, world.stepping.steps == 1 ? "the first step" : "the last steps"));
+            setup.apparatus.axial_strain(world), most,
+            world.stepping.steps == 1 ? "the first step" : "the last steps"));
     }
     if (world.stepping.time_step > setup.stable_time_step) {
         notices.push_back(
@@ -61,7 +62,8 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
             "acted along the last membrane");
     }
     const std::optional<Parting> parting = find_parting(setup, state.history);
-    if (f.failed && setup.uniaxial && !setup.compression && parting && parting->place != PartingPlace::gauge) {
+    if (f.failed && setup.apparatus.uniaxial && !setup.apparatus.compression && parting &&
+        parting->place != PartingPlace::gauge) {
         notices.push_back(
             fmt::format("the specimen broke at a {}, so the strength is not that of the rock: {} of the {} broken "
                         "bonds in the largest crack joined particles to a platen; {}",
@@ -70,12 +72,13 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
                                                                : "increase loading.grip, or use a longer specimen"));
     }
     const auto deepest = std::ranges::min_element(state.rows, {}, &CurveRow::lateral_strain);
-    if (setup.normal_spring > 0.0 && deepest != state.rows.end() &&
-        setup.normal_force + setup.normal_spring * deepest->lateral_strain * setup.height < 0.0) {
+    if (setup.apparatus.normal_spring > 0.0 && deepest != state.rows.end() &&
+        setup.apparatus.normal_force + setup.apparatus.normal_spring * deepest->lateral_strain * setup.specimen.height <
+            0.0) {
         notices.push_back(
             fmt::format("the upper half box sank by {:.3g} m, and loading.normal_stiffness made the normal stress "
                         "negative; increase loading.normal_stress, or reduce loading.normal_stiffness",
-                        -deepest->lateral_strain * setup.height));
+                        -deepest->lateral_strain * setup.specimen.height));
     }
     if (const TestCase::Loading& loading = test.loading; loading.unloads()) {
         const auto& asked = loading.unload_at_strain ? *loading.unload_at_strain : *loading.unload_at_stress;

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -27,39 +26,39 @@
 #include "specimens/recordings/replacement.hpp"
 #include "specimens/recordings/test_results.hpp"
 #include "specimens/results/checkpoint.hpp"
+#include "specimens/results/result_tables.hpp"
 
 namespace crackle {
 namespace {
 
 namespace fs = std::filesystem;
 
-// The files in the order in which staged results replace the old ones. The summary comes last, because other programs
-// check for it.
-constexpr std::array<ResultFile, 10> files_of_a_test{{
-    {"case.toml",
-     "the case with all values written out, including defaults, the hashes of its inputs, and a comment on each key "
-     "(`crackle test --keys` lists all keys); it can be run again"},
-    {circles_file,
-     "circles as packed or read, with the walls between which they were packed, in the layout of DEMseg's in_gm.dat "
-     "(solver/demseg/FORMATS.md); the damping is in case.toml. Absent if polygons were read from a file"},
-    {polygons_file, "polygons as meshed or read, in the same layout; absent for circles"},
-    {"curve.csv", "one row per observed step"},
-    {"events.csv", "one row per bonded contact point that broke"},
-    {"slips.csv", "one row per bonded contact point that slips, at its first slip; only with `output.slips = true`"},
-    {"ae.csv",
-     "one row per acoustic event, a group of bond breaks close in place and time, with the moment of its source; only "
-     "with `output.emission = true`"},
-    {"frames",
-     "folder of frames for ParaView, including those at the start, at the peak and at the end; open "
-     "`frames/frames.pvd`"},
-    {"checkpoint", "complete state of the test, for `--resume`; its format depends on the version of the program"},
-    {"summary.json", "results of the whole test"},
-}};
-constexpr auto result_names = [] {
-    std::array<const char*, files_of_a_test.size()> names{};
-    for (std::size_t k = 0; k < names.size(); ++k) names[k] = files_of_a_test[k].name;
-    return names;
-}();
+constexpr const char* frames_folder = "frames";
+
+/// The files in the order in which staged results replace the old ones. The summary comes last, because other programs
+/// check for it.
+std::vector<ResultFile> files_of_a_test() {
+    std::vector<ResultFile> files{
+        {"case.toml",
+         "the case with all values written out, including defaults, the hashes of its inputs, and a comment on each "
+         "key (`crackle test --keys` lists all keys); it can be run again"},
+        {circles_file,
+         "circles as packed or read, with the walls between which they were packed, in the layout of DEMseg's "
+         "in_gm.dat (solver/demseg/FORMATS.md); the damping is in case.toml. Absent if polygons were read from a file"},
+        {polygons_file, "polygons as meshed or read, in the same layout; absent for circles"}};
+    for (std::size_t k = 0; k < result_tables; ++k) {
+        const auto table = static_cast<ResultTable>(k);
+        files.push_back({name_of(table), facts_of(table).holds});
+    }
+    files.push_back({frames_folder,
+                     "folder of frames for ParaView, including those at the start, at the peak and at the end; open "
+                     "`frames/frames.pvd`"});
+    files.push_back(
+        {"checkpoint", "complete state of the test, for `--resume`; its format depends on the version of the program"});
+    files.push_back({"summary.json", "results of the whole test"});
+    return files;
+}
+
 constexpr const char* report_name =
     "report.html";  // made from the results by another command; outdated once they are replaced
 
@@ -69,8 +68,7 @@ constexpr const char* report_name =
 }
 
 bool holds_results(const fs::path& folder) {
-    return std::any_of(result_names.begin(), result_names.end(),
-                       [&](const char* name) { return is_there(folder / name); });
+    return std::ranges::any_of(result_files(), [&](const ResultFile& file) { return is_there(folder / file.name); });
 }
 
 /// @throws InputError, SystemFailure if an existing file cannot be read, which must not be mistaken for "no"
@@ -106,15 +104,16 @@ bool is_heading_alone(const fs::path& file) {
 bool has_only_begun(const fs::path& folder) {
     for (const char* name : {"checkpoint", "summary.json", "frames"})
         if (is_there(folder / name)) return false;
-    return begins_with(folder / "case.toml", resolved_case_mark) && is_heading_alone(folder / "curve.csv") &&
-           is_heading_alone(folder / "events.csv");
+    return begins_with(folder / "case.toml", resolved_case_mark) &&
+           std::ranges::all_of(table_of_names<ResultTable>,
+                               [&](std::string_view table) { return is_heading_alone(folder / table); });
 }
 
 bool is_frame(const std::string& name) { return name == "frames.pvd" || is_picture(name); }
 
 void remove_results(const fs::path& folder) {
     std::error_code ignored;
-    for (const char* name : result_names) fs::remove_all(folder / name, ignored);
+    for (const ResultFile& file : result_files()) fs::remove_all(folder / file.name, ignored);
 }
 
 /// Removes temporary files left by a stopped process from a folder that this process has locked.
@@ -162,13 +161,15 @@ void move_staged(const fs::path& working, const fs::path& target, const std::set
     if (is_report_page(target / report_name)) remove_or_throw(target / report_name);
     // As long as the first file is still here, nothing has been moved, so extra files in `target` belong to the old
     // results.
-    if (is_there(working / result_names.front())) {
-        for (const char* name : {circles_file, polygons_file})
-            if (!is_there(working / name)) remove_or_throw(target / name);
+    if (is_there(working / result_files().front().name)) {
+        for (const ResultFile& file : result_files())
+            if (file.name != std::string(frames_folder) && !is_there(working / file.name))
+                remove_or_throw(target / file.name);
     }
-    for (const std::string name : result_names) {
+    for (const ResultFile& file : result_files()) {
+        const std::string name = file.name;
         if (!is_there(working / name)) continue;
-        if (name == "frames") {
+        if (name == frames_folder) {
             replace_frames(working / name, target / name, names);
         } else {
             rename_or_throw(working / name, target / name);
@@ -202,10 +203,13 @@ void complete_move(const fs::path& target) {
 
 bool holds_test_results(const fs::path& folder) { return holds_results(folder) && !has_only_begun(folder); }
 
-std::span<const ResultFile> result_files() { return files_of_a_test; }
+std::span<const ResultFile> result_files() {
+    static const std::vector<ResultFile> files = files_of_a_test();
+    return files;
+}
 
 bool is_result_name(const std::string& name) {
-    return std::find(result_names.begin(), result_names.end(), name) != result_names.end();
+    return std::ranges::any_of(result_files(), [&](const ResultFile& file) { return file.name == name; });
 }
 
 OutputFolder OutputFolder::create(const fs::path& wanted, Earlier earlier, std::span<const fs::path> inputs) {
@@ -283,8 +287,8 @@ OutputFolder OutputFolder::reopen(const fs::path& wanted) {
 
 OutputFolder::~OutputFolder() {
     std::error_code ignored;  // set if the folder is not empty: results are kept
-    const bool empty = std::none_of(result_names.begin(), result_names.end(),
-                                    [&](const char* name) { return fs::exists(working_ / name, ignored) || ignored; });
+    const bool empty = std::ranges::none_of(
+        result_files(), [&](const ResultFile& file) { return fs::exists(working_ / file.name, ignored) || ignored; });
     if (staged() && empty) fs::remove(working_ / staged_mark, ignored);
     if (made_) fs::remove(working_, ignored);
     if (!moved_from_.empty()) fs::remove(moved_from_, ignored);

@@ -16,7 +16,7 @@
 #include "specimens/observers/contact_history.hpp"
 #include "specimens/observers/curve.hpp"
 #include "specimens/observers/peak_and_failure.hpp"
-#include "specimens/results/growing_file.hpp"
+#include "specimens/results/result_tables.hpp"
 #include "specimens/setup/loading_path.hpp"
 #include "specimens/setup/loading_rate.hpp"
 #include "specimens/setup/trace_faces.hpp"
@@ -52,7 +52,7 @@ struct TestState {
     LoadingPath path;
     std::int64_t breaks_in_shear = 0, breaks_in_tension = 0, breaks_after_sliding = 0;
     std::int64_t breaks_in_shear_to_peak = 0, breaks_in_tension_to_peak = 0;
-    std::vector<FacePlaces> faces_at_peak;  ///< for TestSetup::trace_faces, at the current peak
+    std::vector<FacePlaces> faces_at_peak;  ///< for BondRecord::trace_faces, at the current peak
     std::string ended_by;                   ///< empty while the test runs
 
     // Moduli of the specimen with all bonds intact and without sliding (linear solution); NaN if there is no solution.
@@ -64,7 +64,7 @@ struct TestState {
 
     Emission emission;
 
-    FileMark curve, events, slips, ae;              ///< lengths and hashes of the files at the checkpoint
+    TableMarks tables;                              ///< at the checkpoint
     double wall_seconds = 0.0, step_seconds = 0.0;  ///< s; spent in earlier processes
     std::string command;                            ///< command line that started the test
 
@@ -81,7 +81,7 @@ struct TestState {
     CRACKLE_FIELDS(rows, failure, history, peak_frame, frames, next_frame, rate, path, breaks_in_shear,
                    breaks_in_tension, breaks_after_sliding, breaks_in_shear_to_peak, breaks_in_tension_to_peak,
                    faces_at_peak, ended_by, youngs_modulus, poissons_ratio, gauge_modulus, modulus_residual, emission,
-                   curve, events, slips, ae, wall_seconds, step_seconds, command);
+                   tables, wall_seconds, step_seconds, command);
 };
 
 }  // namespace crackle

@@ -11,6 +11,6 @@
 namespace crackle {
 
 /// @param world  the world at the end of the test
-JointedFigures trace_figures(const TestSetup& setup, const TestState& state, const World& world);
+JointedFigures trace_figures(const BondRecord& bonds, const TestState& state, const World& world);
 
 }  // namespace crackle

@@ -23,14 +23,15 @@ struct BondedFace {
 
 BondedFace hold_of(const World& world, const TestSetup& setup, BodyIndex platen) {
     BondedFace hold;
-    for (const BodyPair& bond : setup.bonds.pairs) {
+    for (const BodyPair& bond : setup.bonds.points.pairs) {
         if (bond.body_i != platen && bond.body_j != platen) continue;
         ++hold.bonds;
         const BodyIndex particle = bond.body_i == platen ? bond.body_j : bond.body_i;
         const std::vector<Vec2> places = element_positions(world, particle);
         const std::uint32_t first = world.bodies.info(particle).first_element;
         for (std::uint32_t e = 0; e < places.size(); ++e) {
-            const double radius = setup.polygons ? 0.0 : element_of(BodyView(world), particle, first + e).radius;
+            const double radius =
+                setup.specimen.polygons ? 0.0 : element_of(BodyView(world), particle, first + e).radius;
             hold.from = std::min(hold.from, places[e].x - radius);
             hold.to = std::max(hold.to, places[e].x + radius);
         }
@@ -49,19 +50,19 @@ double face_width(const World& world, const SetupPart& part) {
 /// Whether the specimen connects its parts through bonds or through open joints that touch under pressure.
 bool connected(const World& world, const TestSetup& setup) {
     boost::disjoint_sets_with_storage<> pieces(world.bodies.size());
-    for (const BodyPair& bond : setup.bonds.pairs) pieces.union_set(bond.body_i, bond.body_j);
+    for (const BodyPair& bond : setup.bonds.points.pairs) pieces.union_set(bond.body_i, bond.body_j);
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if ((world.points.state[k].flags & point_closed) == 0) continue;
         pieces.union_set(world.points.contact.pairs[k].body_i, world.points.contact.pairs[k].body_j);
     }
-    return std::ranges::all_of(setup.parts, [&](const SetupPart& part) {
-        return part.wall || pieces.find_set(part.body) == pieces.find_set(setup.top);
+    return std::ranges::all_of(setup.apparatus.parts, [&](const SetupPart& part) {
+        return part.wall || pieces.find_set(part.body) == pieces.find_set(setup.apparatus.top);
     });
 }
 
 void check_part_hold(const World& world, const TestSetup& setup, const TestCase& test) {
-    const TestKind& kind = test_kind(setup.kind);
-    for (const SetupPart& part : setup.parts) {
+    const TestKind& kind = test_kind(setup.apparatus.kind);
+    for (const SetupPart& part : setup.apparatus.parts) {
         const double width = face_width(world, part);
         const BondedFace hold = hold_of(world, setup, part.body);
         if (hold.length() >= min_platen_hold * width) continue;
@@ -71,7 +72,7 @@ void check_part_hold(const World& world, const TestSetup& setup, const TestCase&
         throw InputError(fmt::format(
             "{}: {} the {}, {:.3g} m wide, expected bonds over half of that; make it wider, or the particles smaller, "
             "or {}",
-            test.at("loading.kind"), found, part.body == setup.top ? kind.driver : kind.support, width,
+            test.at("loading.kind"), found, part.body == setup.apparatus.top ? kind.driver : kind.support, width,
             test.bond_facts().bonds_across_gaps
                 ? "give the bonds a reach (bond.range, bond.gap)"
                 : fmt::format("use bond.law = {}, whose bonds have a reach (bond.range, bond.gap)",
@@ -82,24 +83,24 @@ void check_part_hold(const World& world, const TestSetup& setup, const TestCase&
 }  // namespace
 
 void check_platen_hold(const World& world, const TestSetup& setup, const Platens& platens, const TestCase& test) {
-    if (!setup.uniaxial) check_part_hold(world, setup, test);
-    for (const BodyIndex platen : {setup.bottom, setup.top}) {
-        if (!setup.uniaxial) break;
+    if (!setup.apparatus.uniaxial) check_part_hold(world, setup, test);
+    for (const BodyIndex platen : {setup.apparatus.bottom, setup.apparatus.top}) {
+        if (!setup.apparatus.uniaxial) break;
         const BondedFace hold = hold_of(world, setup, platen);
-        if (hold.length() >= min_platen_hold * setup.width) continue;
-        const bool lower = platen == setup.bottom;
+        if (hold.length() >= min_platen_hold * setup.specimen.width) continue;
+        const bool lower = platen == setup.apparatus.bottom;
         throw InputError(
             fmt::format("{}: found {} bonded points over {:.3g} m of the {:.3g} m wide specimen at the {} platen (face "
                         "at y = {:.6g} m), expected them to reach over half of it; circles must overlap the domain's "
                         "face, polygons end flat half the meshing thickness inside it (mesh.boundary = \"domain\")",
-                        test.at("bond.thick"), hold.bonds, hold.length(), setup.width, lower ? "lower" : "upper",
-                        lower ? platens.bottom_y : platens.top_y));
+                        test.at("bond.thick"), hold.bonds, hold.length(), setup.specimen.width,
+                        lower ? "lower" : "upper", lower ? platens.bottom_y : platens.top_y));
     }
     if (!connected(world, setup)) {
         throw InputError(fmt::format(
             "{}: found {} bonds, none of which join the lower and the upper platen, expected a specimen in one "
             "piece; {}",
-            test.at("bond.thick"), setup.bonds.size(),
+            test.at("bond.thick"), setup.bonds.points.size(),
             world.settings.joints.empty() ? "polygons bond where bond.thick is larger than the gap between them"
                                           : "an open joint across the specimen holds it together only if its faces "
                                             "touch, that is, without an aperture"));

@@ -30,7 +30,7 @@ struct StartPlace {
 
 /// A face on a trace at the start of loading: a mesh face, or the overlapping flat faces of two circles.
 struct TraceFace {
-    std::int32_t trace = 0;   ///< index into TestSetup::traces
+    std::int32_t trace = 0;   ///< index into BondRecord::traces
     BodyIndex i = 0, j = 0;   ///< i < j
     std::int32_t bonds = 0;   ///< number of bonded points; 0 for an open face
     double length = 0.0;      // m

@@ -97,13 +97,14 @@ json state_of(const std::string& folder) {
         const BodyInfo info = world.bodies.info(b);
         const bool circles = info.piece_count == 0;
         const std::vector<Vec2> places = element_positions(world, b);
-        if (!circles && !setup.is_platen(b)) {
+        if (!circles && !setup.apparatus.is_platen(b)) {
             json corners = json::array();
             for (const Vec2 place : places) corners.push_back({place.x, place.y});
             polygons.push_back(corners);
         }
-        const double share =
-            setup.is_platen(b) ? 0.0 : world.settings.materials[info.material].density / world.bodies.inertia[b].mass;
+        const double share = setup.apparatus.is_platen(b)
+                                 ? 0.0
+                                 : world.settings.materials[info.material].density / world.bodies.inertia[b].mass;
         for (std::uint32_t e = 0; e < (circles ? info.element_count : 1); ++e) {
             const double radius = circles ? element_of(BodyView(world), b, info.first_element + e).radius : 0.0;
             if (circles) discs.push_back({places[e].x, places[e].y, radius});
@@ -113,8 +114,8 @@ json state_of(const std::string& folder) {
             put("id", {static_cast<double>(info.id)});
             put("radius", {radius});
             put("material", {info.material + 1.0});
-            put("angle", {body.angle - setup.start[b].angle});
-            put("displacement", {body.x - setup.start[b].x, body.y - setup.start[b].y, 0.0});
+            put("angle", {body.angle - setup.bonds.start[b].angle});
+            put("displacement", {body.x - setup.bonds.start[b].x, body.y - setup.bonds.start[b].y, 0.0});
             put("velocity", {body.vx, body.vy, 0.0});
             put("rotation_rate", {body.omega});
             put("stress_xx", {share * stress[b].xx});
@@ -124,7 +125,7 @@ json state_of(const std::string& folder) {
     }
     return {{"particles", described(particles)},
             {"contacts", described(contacts)},
-            {"bonds", setup.bonds.size()},
+            {"bonds", setup.bonds.points.size()},
             {"time", world.stepping.time},
             {"discs", discs},
             {"polygons", polygons}};

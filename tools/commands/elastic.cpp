@@ -46,9 +46,10 @@ std::string event_text(const VirtualTest& test, const ElasticAnalysis& a, const 
 }
 
 void print(const VirtualTest& test, const ElasticAnalysis& a, double seconds) {
-    print_out("{}, {}: {} particles, {} bonds, {} unknowns, {:.0f} ms\n", name_of(test.setup.specimen),
-              name_of(test.description.loading.kind), test.setup.particles, a.bonds.size(), a.unknowns, 1e3 * seconds);
-    if (test.setup.uniaxial)
+    print_out("{}, {}: {} particles, {} bonds, {} unknowns, {:.0f} ms\n", name_of(test.setup.specimen.kind),
+              name_of(test.description.loading.kind), test.setup.specimen.particles, a.bonds.size(), a.unknowns,
+              1e3 * seconds);
+    if (test.setup.apparatus.uniaxial)
         print_out("  Young's modulus   {}, Poisson's ratio {:.4g} (residual {:.1e})\n",
                   spoken_stress(a.youngs_modulus, test.description.stress_unit(), 6), a.poissons_ratio, a.residual);
     else
@@ -144,10 +145,10 @@ std::string elastic_as_json(const VirtualTest& test, const ElasticAnalysis& a,
     Json json{{"title", test.description.title},
               {"kind", name_of(test.description.loading.kind)},
               {"platens", name_of(test.description.loading.platens)},
-              {"specimen", name_of(test.setup.specimen)},
-              {"particles", test.setup.particles},
+              {"specimen", name_of(test.setup.specimen.kind)},
+              {"particles", test.setup.specimen.particles},
               {"bonds", a.bonds.size()},
-              {test.setup.uniaxial ? "youngs_modulus" : "nominal_modulus", a.youngs_modulus},
+              {test.setup.apparatus.uniaxial ? "youngs_modulus" : "nominal_modulus", a.youngs_modulus},
               {"poissons_ratio", a.poissons_ratio},
               {"stable_time_step", a.stable_time_step},
               {"stable_time_step_proved", a.stable_time_step_proved},
@@ -254,7 +255,7 @@ int elastic(const Invocation& given) {
     messages.make_room();
     messages.detail(fmt::format("solved for {} unknowns, residual {:.1e}", analysis.unknowns, analysis.residual));
     if (hooks.stage)
-        for (const std::string& notice : test.setup.notices) hooks.stage("notice: " + notice);
+        for (const std::string& notice : test.setup.origin.notices) hooks.stage("notice: " + notice);
     if (values.contains("bonds")) replace_file(values["bonds"].as<std::string>(), bonds_table(analysis));
     if (values.contains("json"))
         print_text(elastic_as_json(test, analysis, compliance, seconds, 2) + '\n');

@@ -137,8 +137,7 @@ Panel drawings_of(const Recording& test, const fs::path& folder, const std::opti
 Words everything_of(const std::vector<Recording>& tests) {
     Words what{"curve"};
     const TestResults& first = tests.front().results;
-    if (tests.size() == 1 && first.summary.about.kind != LoadingKind::tension && has_area_strain(first))
-        what.emplace_back("strain");
+    if (tests.size() == 1 && !pulled(first) && has_area_strain(first)) what.emplace_back("strain");
     what.emplace_back("ae");
     if (std::ranges::all_of(tests, [](const Recording& test) { return has_emission(test.results); }))
         what.emplace_back("emission");

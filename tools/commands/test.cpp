@@ -179,10 +179,10 @@ void print_check(const TestCheck& check) {
     const VirtualTest& test = check.test;
     const char* unit = test.description.stress_unit();
     const double slower = check.rate / check.slowest_rate;
-    print_out("{}, {}: {} particles, {:.3g} grains wide, {} bonds\n", name_of(test.setup.specimen),
-              name_of(test.description.loading.kind), test.setup.particles, check.grains_across,
+    print_out("{}, {}: {} particles, {:.3g} grains wide, {} bonds\n", name_of(test.setup.specimen.kind),
+              name_of(test.description.loading.kind), test.setup.specimen.particles, check.grains_across,
               test.world.bonds.initial);
-    if (std::isfinite(check.youngs_modulus) && !test.setup.uniaxial) {
+    if (std::isfinite(check.youngs_modulus) && !test.setup.apparatus.uniaxial) {
         print_out("  small strain   nominal modulus {}\n", spoken_stress(check.youngs_modulus, unit));
     } else if (std::isfinite(check.youngs_modulus)) {
         print_out("  small strain   E {}, nu {:.3g}; E over the gauge length {}\n",
@@ -200,9 +200,9 @@ void print_check(const TestCheck& check) {
             spoken_stress(strength->stress, unit, 2), strength->strain, strength->factor, 100.0 * strength->share);
     } else {
         print_out("  strength       no estimate: {}\n",
-                  test.description.confined() ? "the rule applies only without confining pressure"
-                  : !test.setup.uniaxial      ? "the rule applies only to specimens between platens"
-                                              : "too few bonds break in the linear solution");
+                  test.description.confined()      ? "the rule applies only without confining pressure"
+                  : !test.setup.apparatus.uniaxial ? "the rule applies only to specimens between platens"
+                                                   : "too few bonds break in the linear solution");
     }
     if (check.disc)
         print_out(
@@ -286,11 +286,11 @@ std::string check_as_json(const TestCheck& check, int indent) {
     Json json{{"title", test.description.title},
               {"kind", name_of(test.description.loading.kind)},
               {"platens", name_of(test.description.loading.platens)},
-              {"specimen", name_of(test.setup.specimen)},
-              {"particles", test.setup.particles},
+              {"specimen", name_of(test.setup.specimen.kind)},
+              {"particles", test.setup.specimen.particles},
               {"grains_across", check.grains_across},
               {"bonds", test.world.bonds.initial},
-              {test.setup.uniaxial ? "youngs_modulus" : "nominal_modulus", check.youngs_modulus},
+              {test.setup.apparatus.uniaxial ? "youngs_modulus" : "nominal_modulus", check.youngs_modulus},
               {"poissons_ratio", check.poissons_ratio},
               {"gauge_modulus", check.gauge_modulus},
               {"first_slip", loss_as_json(check.first_slip)},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "specimens/case/kinds/test_kind.hpp"
 #include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
 #include "tools/plot/panels.hpp"
@@ -22,7 +23,7 @@ struct AreaStrains {
 
 AreaStrains area_strains_of(const PlottedTest& test) {
     const TestResults& results = *test.results;
-    const double sense = results.summary.about.kind == LoadingKind::tension ? -1.0 : 1.0;
+    const double sense = pulled(results) ? -1.0 : 1.0;
     const Strength& known = results.summary.strength;
     const double compliance = (1.0 - known.poissons_ratio.or_nan()) / known.youngs_modulus.or_nan();
     const double confined = results.summary.confinement.confining_pressure.value_or(0.0);
@@ -57,10 +58,15 @@ constexpr double beyond_peak = 1.5;
 
 }  // namespace
 
+bool pulled(const TestResults& results) {
+    const Stated<LoadingKind>& kind = results.summary.about.kind;
+    return kind && test_kind(*kind).pulls();
+}
+
 bool has_area_strain(const TestResults& results) {
     // In other kinds of test, the two strains do not refer to the same uniformly strained area.
     const Stated<LoadingKind>& kind = results.summary.about.kind;
-    if (kind != LoadingKind::compression && kind != LoadingKind::tension && kind != LoadingKind::biaxial) return false;
+    if (!kind || !test_kind(*kind).uniaxial) return false;
     const std::vector<double>& lateral = column(results, "lateral_strain");
     return !lateral.empty() && std::ranges::none_of(lateral, [](double strain) { return std::isnan(strain); });
 }

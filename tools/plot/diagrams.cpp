@@ -183,8 +183,7 @@ Scale stress_scale(const std::vector<PlottedTest>& tests, double unit, int ticks
 std::vector<PlottedTest> slivers_of(const std::vector<PlottedTest>& tests) {
     constexpr double least_stress = 0.25, least_strain = 0.2;  // relative to the largest value of all tests
     std::array<std::vector<PlottedTest>, 2> kinds;
-    for (const PlottedTest& test : tests)
-        kinds[test.results->summary.about.kind == LoadingKind::tension ? 0 : 1].push_back(test);
+    for (const PlottedTest& test : tests) kinds[pulled(*test.results) ? 0 : 1].push_back(test);
     if (kinds[0].empty() || kinds[1].empty()) return {};
     const std::vector<PlottedTest>& weaker =
         largest_of(kinds[0], "axial_stress") < largest_of(kinds[1], "axial_stress") ? kinds[0] : kinds[1];

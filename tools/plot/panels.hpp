@@ -42,6 +42,8 @@ Panel breaks(const std::vector<PlottedTest>& tests);
 /// single test, also the part caused by cracks, and the point of crack damage. Values far below those at the peak are
 /// cut off.
 Panel area_strain(const std::vector<PlottedTest>& tests);
+/// Whether the specimen was pulled apart between platens.
+bool pulled(const TestResults& results);
 /// Whether the results contain the lateral strain of the specimen.
 bool has_area_strain(const TestResults& results);
 

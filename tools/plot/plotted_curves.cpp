@@ -43,27 +43,17 @@ std::vector<Point> curve_points(const Axes& axes, const std::vector<double>& x, 
 }
 
 CurveNames names_of_kind(const std::optional<LoadingKind>& kind) {
-    switch (kind.value_or(LoadingKind::compression)) {
-        case LoadingKind::brazilian:
-            return {"tensile stress at the centre", "shortening of the diameter"};
-        case LoadingKind::bending:
-            return {"fibre stress", "fibre strain"};
-        case LoadingKind::scb:
-            return {"P/2R", "displacement over R"};
-        case LoadingKind::direct_shear:
-            return {"shear stress", "displacement over length"};
-        default:
-            return {"axial stress", "axial strain"};
-    }
+    return test_kind(kind.value_or(LoadingKind::compression)).curve;
 }
 
 CurveNames names_of(const std::vector<PlottedTest>& tests) {
     const auto name = [](const PlottedTest& test) { return names_of_kind(test.results->summary.about.kind); };
-    if (tests.empty()) return {};
+    constexpr CurveNames of_any_kind{"stress", "strain"};
+    if (tests.empty()) return of_any_kind;
     const CurveNames first = name(tests.front());
     const bool alike = std::ranges::all_of(
         tests, [&](const PlottedTest& test) { return std::string_view(name(test).stress) == first.stress; });
-    return alike ? first : CurveNames{};
+    return alike ? first : of_any_kind;
 }
 
 std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "specimens/case/kinds/test_kind.hpp"
 #include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
 #include "tools/plot/panels.hpp"
@@ -22,10 +23,6 @@ std::vector<Point> curve_points(const Axes& axes, const std::vector<double>& x, 
                                 const std::vector<double>& y, double y_unit);
 
 /// Names of stress and strain for these tests; specific to the kind of test if all are of one kind.
-struct CurveNames {
-    const char* stress = "stress";
-    const char* strain = "strain";
-};
 CurveNames names_of(const std::vector<PlottedTest>& tests);
 /// What stress and strain are called for a kind of test.
 CurveNames names_of_kind(const std::optional<LoadingKind>& kind);

@@ -133,7 +133,7 @@ py::tuple elastic(const TestCase& description, double strain, int modes, const p
         const VirtualTest test = bond_test(tools::elastic_case(description, notices), hooks);
         *analysis = analyse_elastic(test.world, test.setup, moduli_of(test), strain, modes);
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        notices.insert(notices.end(), test.setup.notices.begin(), test.setup.notices.end());
+        notices.insert(notices.end(), test.setup.origin.notices.begin(), test.setup.origin.notices.end());
         TestHooks quietly = hooks;  // for making the same specimen again without reports
         quietly.stage = quietly.detail = {};
         json = tools::elastic_as_json(test, *analysis, jointed_compliance(test.description, quietly),

@@ -91,7 +91,7 @@ World& State::world_with_forces() {
 
 VirtualTest& State::driven() const {
     VirtualTest& found = test();
-    if (found.setup.parts.empty())
+    if (found.setup.apparatus.parts.empty())
         throw InputError("world: found particles without platens, expected a world made from a case");
     return found;
 }
@@ -141,7 +141,7 @@ void bind_state(py::module_& module) {
         .def_property_readonly(
             "time_step", [](const State& s) { return s.world().stepping.time_step; }, "Duration of the coming step, s.")
         .def_property_readonly(
-            "axial_strain", [](const State& s) { return s.driven().setup.axial_strain(s.world()); },
+            "axial_strain", [](const State& s) { return s.driven().setup.apparatus.axial_strain(s.world()); },
             "Axial strain from the motion of the driving part, positive in the test's loading direction.")
         .def_property(
             "platen_speed", [](const State& s) { return platen_speed(s.driven()); },
@@ -153,10 +153,11 @@ void bind_state(py::module_& module) {
             "Speed of the driving part in the test's loading direction, m/s; negative while it moves back. Setting it "
             "ends the control of the loading rate by rate_tolerance, as a notice in the summary states.")
         .def_property_readonly(
-            "length", [](const State& s) { return s.driven().setup.length; },
+            "length", [](const State& s) { return s.driven().setup.apparatus.length; },
             "Length to which strains refer, m; the speed divided by it is the strain rate.")
         .def_property_readonly(
-            "section", [](const State& s) { return s.driven().setup.section; }, "Width to which stresses refer, m.")
+            "section", [](const State& s) { return s.driven().setup.apparatus.section; },
+            "Width to which stresses refer, m.")
         .def("row", &measured_row,
              "One row of the curve, measured now: axial_strain, axial_stress (N/m, or Pa), stress_top, stress_bottom, "
              "lateral_strain, bonds_broken, energies in J, ... as crackle test --files lists them.")
@@ -210,13 +211,14 @@ void bind_state(py::module_& module) {
             "View of the contact laws: for the material pairs (1,1), (1,2), (2,2), (1,3)..., then for these pairs with "
             "unbreakable bonds, then for materials against walls.")
         .def_property_readonly(
-            "notices", [](const State& s) { return s.test().setup.notices; },
+            "notices", [](const State& s) { return s.test().setup.origin.notices; },
             "Notices on the specimen and its loading: a list of texts, as in a summary.")
         .def_property_readonly(
             "platens",
             [](const State& s) {
                 py::list ids;
-                for (const SetupPart& part : s.driven().setup.parts) ids.append(s.world().bodies.names[part.body].id);
+                for (const SetupPart& part : s.driven().setup.apparatus.parts)
+                    ids.append(s.world().bodies.names[part.body].id);
                 return ids;
             },
             "Ids of the bodies that hold and drive the specimen; the driving body is last.")

@@ -81,12 +81,12 @@ void take_counts(GuideResult& result, const TestCase& description, const TestHoo
 void take_elastic(GuideResult& result, VirtualTest& test) {
     const ElasticAnalysis analysis = analyse_elastic(test.world, test.setup, moduli_of(test), 1e-4, 0);
     auto& q = result.quantities;
-    q["particles"] = static_cast<double>(test.setup.particles);
-    q["segments"] = static_cast<double>(test.setup.segments);
-    q["contacts"] = static_cast<double>(test.setup.contacts_initial);
+    q["particles"] = static_cast<double>(test.setup.specimen.particles);
+    q["segments"] = static_cast<double>(test.setup.origin.segments);
+    q["contacts"] = static_cast<double>(test.setup.bonds.contacts_initial);
     q["interfaces"] = static_cast<double>(test.world.bonds.interfaces_initial);
-    q["mean_back_tension"] = test.setup.mean_back_tension;
-    q["mean_back_tension_interface"] = test.setup.mean_back_tension_interface;
+    q["mean_back_tension"] = test.setup.bonds.mean_back_tension;
+    q["mean_back_tension_interface"] = test.setup.bonds.mean_back_tension_interface;
     q["youngs_modulus"] = analysis.youngs_modulus;
     q["poissons_ratio"] = analysis.poissons_ratio;
     if (analysis.first_break) q["first_break_stress"] = analysis.first_break->stress;
@@ -104,8 +104,8 @@ void take_loaded(GuideResult& result, const VirtualTest& test, double seconds) {
     q["largest_stress"] = failure.largest_stress;
     q["strain_at_largest_stress"] = failure.strain_at_largest;
     q["secant_modulus"] = failure.largest_stress / failure.strain_at_largest;
-    q["initial_tangent_modulus"] = initial_tangent(test.state.rows, largest, test.setup.compression).modulus;
-    q["tangent_modulus_50"] = tangent_at_half_peak(test.state.rows, largest, test.setup.compression).modulus;
+    q["initial_tangent_modulus"] = initial_tangent(test.state.rows, largest, test.setup.apparatus.compression).modulus;
+    q["tangent_modulus_50"] = tangent_at_half_peak(test.state.rows, largest, test.setup.apparatus.compression).modulus;
     q["bonds_broken_share"] =
         static_cast<double>(test.world.bonds.broken) / static_cast<double>(test.world.bonds.initial);
     q["platen_out_of_balance"] = platen_out_of_balance(test.state.rows, largest);

@@ -305,14 +305,14 @@ void add_observers(const FeatureStudy& study, const std::string& kind, const Add
     const VirtualTest start = test;
     const auto reset = [&] { test = start; };
     const std::int64_t contacts = loaded_points(start.world);
-    const Trial steps_alone{test.setup.particles, contacts, reset,
+    const Trial steps_alone{test.setup.specimen.particles, contacts, reset,
                             [&](std::int64_t steps) {
                                 const double begun = processor_seconds();
                                 for (std::int64_t k = 0; k < steps; ++k) step(test.world);
                                 return processor_seconds() - begun;
                             },
                             steps_between_looks};
-    const Trial observed{test.setup.particles, contacts, reset, load, steps_between_looks};
+    const Trial observed{test.setup.specimen.particles, contacts, reset, load, steps_between_looks};
     add(compare(study,
                 row_of(FeatureRowKind::added, kind == "circles" ? "discs" : kind, "curve, events, frames of a test",
                        "its steps alone"),

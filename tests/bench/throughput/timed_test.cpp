@@ -101,7 +101,8 @@ VirtualTest bond_timed_test(const TimedSpecimen& specimen, const fs::path& folde
     VirtualTest test = bond_test(read_case(case_path));
     // A row every steps_between_rows steps of the length that bonding has found.
     const double strain_a_step = end_strain / (rows_of(specimen) * steps_between_rows);
-    change_velocity(test.world, test.setup.top, 1, -strain_a_step * test.setup.height / test.world.stepping.time_step);
+    change_velocity(test.world, test.setup.apparatus.top, 1,
+                    -strain_a_step * test.setup.specimen.height / test.world.stepping.time_step);
     return test;
 }
 
@@ -131,7 +132,7 @@ TimedTest time_test(const TimedSpecimen& specimen, const fs::path& folder, std::
     load_for(specimen.seconds);
 
     TimedTest timed;
-    timed.particles = test.setup.particles;
+    timed.particles = test.setup.specimen.particles;
     timed.steps = test.world.stepping.steps - steps_before;
     timed.step_seconds = test.state.step_seconds - seconds_before;
     timed.bonds = test.world.bonds.initial;

@@ -56,12 +56,12 @@ TEST_F(ElasticAnalysisOf, BondForcesOfAllPointsHoldThePlatens) {
             if (!view.bonded) continue;
             const LinearBond& bond = a.bonds.at(k++);
             // Tension: what the upper platen's points carry across, normal parts alone where they are vertical.
-            if (view.body_i == test.setup.top || view.body_j == test.setup.top)
+            if (view.body_i == test.setup.apparatus.top || view.body_j == test.setup.apparatus.top)
                 pull -= bond.normal_force * std::abs(view.normal.y);
         }
         EXPECT_EQ(k, a.bonds.size());
         EXPECT_TRUE(agrees(fmt::format("force on the upper platen from the bonds, {}", mesh), pull,
-                           a.youngs_modulus * strain * test.setup.width, 1e-6));
+                           a.youngs_modulus * strain * test.setup.specimen.width, 1e-6));
     }
 }
 
@@ -75,7 +75,7 @@ TEST_F(ElasticAnalysisOf, BondForcesAreThoseOfTheBodiesMoved) {
         const Moduli moduli = moduli_of(test);
         const ElasticAnalysis a = analyse_elastic(test.world, test.setup, moduli, strain, 0);
         std::vector<BodyMotion> way = moduli.solution.displacement;
-        const double sense = test.setup.compression ? -strain : strain;
+        const double sense = test.setup.apparatus.compression ? -strain : strain;
         for (BodyMotion& one : way) one = {sense * one.x, sense * one.y, sense * one.rotation};
         displace(test.world, way);
         compute_forces(test.world);
@@ -100,7 +100,7 @@ TEST_F(ElasticAnalysisOf, BondForcesAreThoseOfTheBodiesMoved) {
 TEST_F(ElasticAnalysisOf, EnergyOfTheSolutionIsHalfStressTimesStrain) {
     const VirtualTest test = prepared({});
     const Moduli moduli = moduli_of(test);  // of a strain of 1
-    const double area = test.setup.width * test.setup.height;
+    const double area = test.setup.specimen.width * test.setup.specimen.height;
     EXPECT_TRUE(agrees("stored energy", moduli.solution.energy, 0.5 * moduli.youngs_modulus * area, 1e-9));
 }
 
@@ -115,7 +115,7 @@ TEST_F(ElasticAnalysisOf, FirstSlipAndBreakAreWhereARunHasThem) {
     const LinearBond& bond = a.bonds[a.first_slip->bond];
     const auto slid = [&](PointIndex k) { return (test.world.points.state[k].flags & point_slid) != 0; };
     PointIndex found = 0;
-    while (test.setup.axial_strain(test.world) < 2.0 * a.first_slip->strain) {
+    while (test.setup.apparatus.axial_strain(test.world) < 2.0 * a.first_slip->strain) {
         step(test.world);
         for (found = 0; found < test.world.points.size() && !slid(found); ++found) {
         }
@@ -123,7 +123,8 @@ TEST_F(ElasticAnalysisOf, FirstSlipAndBreakAreWhereARunHasThem) {
     }
     ASSERT_LT(found, test.world.points.size());
     // The run's own rate error: the wave still rings by rate·height/c over the strain, below a per cent here.
-    EXPECT_TRUE(agrees("strain at the first slip", test.setup.axial_strain(test.world), a.first_slip->strain, 0.02));
+    EXPECT_TRUE(
+        agrees("strain at the first slip", test.setup.apparatus.axial_strain(test.world), a.first_slip->strain, 0.02));
     const ContactPoint point = test.world.points.contact[found];
     const std::pair<int, int> ids =
         std::minmax(test.world.bodies.info(point.body_i).id, test.world.bodies.info(point.body_j).id);

@@ -56,8 +56,8 @@ World chain(double angle, double damping_ratio) {
 TestSetup ends_of(const World& world) {
     TestSetup setup;
     for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
-        if (world.bodies.info(b).id == 1) setup.bottom = b;
-        if (world.bodies.info(b).id == 4) setup.top = b;
+        if (world.bodies.info(b).id == 1) setup.apparatus.bottom = b;
+        if (world.bodies.info(b).id == 4) setup.apparatus.top = b;
     }
     return setup;
 }
@@ -182,16 +182,17 @@ TEST(EmissionRule, TakesTheSpeedFromModuliAndMassesInEitherUnits) {
     // By hand: circles of 2600 kg/m3 with a sixth of pores, 1 m thick.
     double mass = 0.0, diameters = 0.0;
     for (std::size_t b = 0; b < area.world.bodies.size(); ++b) {
-        if (area.setup.is_platen(static_cast<BodyIndex>(b))) continue;
+        if (area.setup.apparatus.is_platen(static_cast<BodyIndex>(b))) continue;
         const double r = area.world.bodies.state[b].shape[0];
         mass += 2600.0 * std::numbers::pi * r * r;
         diameters += 2.0 * r;
     }
-    const double density = mass / (area.setup.width * area.setup.height);
+    const double density = mass / (area.setup.specimen.width * area.setup.specimen.height);
     EXPECT_TRUE(agrees("density, kg/m2", rule.density, density, 1e-12));
     EXPECT_GT(rule.density, 2000.0);
     EXPECT_LT(rule.density, 2400.0);
-    EXPECT_TRUE(agrees("diameter, m", rule.diameter, diameters / static_cast<double>(area.setup.particles), 1e-12));
+    EXPECT_TRUE(
+        agrees("diameter, m", rule.diameter, diameters / static_cast<double>(area.setup.specimen.particles), 1e-12));
     EXPECT_TRUE(agrees("damping ratio", rule.damping_ratio, 0.2, 1e-6));  // shares are floats
     const double shear_modulus = area.state.youngs_modulus / 2.0 / (1.0 + area.state.poissons_ratio);
     EXPECT_TRUE(agrees("speed, m/s", rule.shear_wave_speed, std::sqrt(shear_modulus / density), 1e-12));
@@ -204,28 +205,29 @@ TEST(EmissionRule, GoesByAMeanFieldWhereModuliAreNotKnown) {
     // A bond of length l along the axes shears by l/2 under a shear strain of 1, one across them stretches by as much.
     const World level = chain(0.0, 0.1), slanted = chain(0.25 * std::numbers::pi, 0.1);
     TestSetup setup = ends_of(level);
-    setup.area = 0.01;
-    setup.width = setup.height = 0.1;
+    setup.specimen.area = 0.01;
+    setup.specimen.width = setup.specimen.height = 0.1;
     const double length = 2.0 * radius - overlap, ratio = level.settings.laws[0].shear_stiffness / stiffness;
     double sum = 0.0;
     for (const double l : {length, 2.0 * radius - weak_overlap, length}) sum += 0.25 * stiffness * l * l;
-    EXPECT_TRUE(
-        agrees("G of a level chain, N/m", mean_field_shear_modulus(level, setup), ratio * sum / setup.area, 1e-9));
-    EXPECT_TRUE(agrees("of a slanted one", mean_field_shear_modulus(slanted, setup), sum / setup.area, 1e-9));
+    EXPECT_TRUE(agrees("G of a level chain, N/m", mean_field_shear_modulus(level, setup),
+                       ratio * sum / setup.specimen.area, 1e-9));
+    EXPECT_TRUE(agrees("of a slanted one", mean_field_shear_modulus(slanted, setup), sum / setup.specimen.area, 1e-9));
     const EmissionRule rule = emission_rule(level, setup, std::nan(""), std::nan(""), 1.0);
     EXPECT_TRUE(rule.mean_field);
-    EXPECT_TRUE(agrees("speed, m/s", rule.shear_wave_speed, std::sqrt(ratio * sum / setup.area / rule.density), 1e-9));
+    EXPECT_TRUE(
+        agrees("speed, m/s", rule.shear_wave_speed, std::sqrt(ratio * sum / setup.specimen.area / rule.density), 1e-9));
 }
 
 TEST(EmissionRule, OfADiscHasItsDensityAndTheDashpotsThatAreGiven) {
     World world = chain(0.0, 0.1);
     TestSetup setup = ends_of(world);
-    setup.uniaxial = false;
-    setup.width = setup.height = 0.1;
-    setup.area = 0.25 * std::numbers::pi * 0.01;  // of the disc in that box
+    setup.apparatus.uniaxial = false;
+    setup.specimen.width = setup.specimen.height = 0.1;
+    setup.specimen.area = 0.25 * std::numbers::pi * 0.01;  // of the disc in that box
     const double mass = 2500.0 * std::numbers::pi * radius * radius;
     const auto rule = [&] { return emission_rule(world, setup, std::nan(""), std::nan(""), 1.0); };
-    EXPECT_TRUE(agrees("density, kg/m2", rule().density, 4.0 * mass / setup.area, 1e-12));
+    EXPECT_TRUE(agrees("density, kg/m2", rule().density, 4.0 * mass / setup.specimen.area, 1e-12));
     EXPECT_TRUE(agrees("damping ratio", rule().damping_ratio, 0.1, 1e-12));
     // Two equal masses on a spring are damped critically at 2 sqrt(k m/2), one that hangs on a held body at 2 sqrt(k
     // m). The chain has one spring of the first kind and two of the second.
@@ -248,9 +250,10 @@ TEST(EmissionRule, OfAMeanFieldIsNoSlowerThanThatOfTheModuli) {
         const double over = mean_field_shear_modulus(test.world, test.setup) / known;
         fmt::print("  {}: {:.3f} times the shear modulus of the solution\n", *mesh == '\0' ? "circles" : mesh, over);
         std::size_t of_platens = 0;
-        for (const BodyPair& bond : test.setup.bonds.pairs)
-            of_platens += test.setup.is_platen(bond.body_i) || test.setup.is_platen(bond.body_j) ? 1 : 0;
-        const double left_out = static_cast<double>(of_platens) / static_cast<double>(test.setup.bonds.size());
+        for (const BodyPair& bond : test.setup.bonds.points.pairs)
+            of_platens +=
+                test.setup.apparatus.is_platen(bond.body_i) || test.setup.apparatus.is_platen(bond.body_j) ? 1 : 0;
+        const double left_out = static_cast<double>(of_platens) / static_cast<double>(test.setup.bonds.points.size());
         EXPECT_GE(over, 1.0 - left_out) << "Voigt's bound, less the platens' share of the bonds";
         EXPECT_LT(over, 1.5);
     }
@@ -259,7 +262,7 @@ TEST(EmissionRule, OfAMeanFieldIsNoSlowerThanThatOfTheModuli) {
 TEST(EmissionRule, IsRefusedWithoutAShearModulus) {
     const World world = chain(0.0, 0.1);
     TestSetup setup = ends_of(world);
-    setup.area = 0.01;
+    setup.specimen.area = 0.01;
     EXPECT_THROW(emission_rule(world, setup, -1e9, 0.2, 1.0), InputError);
 }
 

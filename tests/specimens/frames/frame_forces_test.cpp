@@ -35,7 +35,7 @@ Frame taken(VirtualTest& test) {
     compute_forces(test.world);
     look_at_contacts(test.world, test.state.history);
     Frame frame;
-    take_frame(test.world, test.setup, test.state.history, observe_row(test.world, test.setup), 0, frame);
+    take_frame(test.world, test.setup.bonds, test.state.history, observe_row(test.world, test.setup), 0, frame);
     return frame;
 }
 
@@ -45,8 +45,8 @@ void each_bond(const VirtualTest& test, Visit visit) {
     for (PointIndex k = 0; k < test.world.points.size(); ++k) {
         const PointView view = view_point(test.world, k);
         if (!view.bonded) continue;
-        const PointIndex bond = bond_of(test.setup, view.kind, test.world.points.contact[k]);
-        ASSERT_LT(bond, test.setup.bonds.size());
+        const PointIndex bond = bond_of(test.setup.bonds, view.kind, test.world.points.contact[k]);
+        ASSERT_LT(bond, test.setup.bonds.points.size());
         visit(bond, view);
     }
 }
@@ -68,27 +68,27 @@ TEST_F(FrameForcesOfRock, OfADiscInATriangularLatticeUnderUniaxialStrainAreTheCl
     VirtualTest test = prepared();
     // The rock's lattice is slightly shaken: put its discs where they belong, and bond them there.
     const double strain = -1e-6, spacing = 2.0 * testing::rock_radius - testing::rock_overlap;
-    for (StartPlace& start : test.setup.start) {
+    for (StartPlace& start : test.setup.bonds.start) {
         const double row_height = spacing * std::sqrt(0.75), first = testing::rock_radius - testing::rock_overlap;
         const double row = std::round((start.y - first) / row_height);
         const double shift = first + 0.5 * spacing * (std::fmod(row, 2.0) == 0.0 ? 0.0 : 1.0);
         start = {shift + spacing * std::round((start.x - shift) / spacing), first + row_height * row, start.angle};
     }
     Frame frame = taken(test);
-    const auto place = [&](BodyIndex b) { return Vec2{test.setup.start[b].x, test.setup.start[b].y}; };
+    const auto place = [&](BodyIndex b) { return Vec2{test.setup.bonds.start[b].x, test.setup.bonds.start[b].y}; };
     for (BodyIndex b = 0; b < frame.bodies.size(); ++b) {
         frame.bodies[b].x = place(b).x;
         frame.bodies[b].y = (1.0 + strain) * place(b).y;
     }
     const Material& material = test.world.settings.materials[0];
     std::vector<int> partners(frame.bodies.size());
-    for (std::size_t k = 0; k < test.setup.bonds.size(); ++k) {
-        const auto [i, j] = test.setup.bonds.pairs[k];
-        if (test.setup.is_platen(i) || test.setup.is_platen(j)) continue;
+    for (std::size_t k = 0; k < test.setup.bonds.points.size(); ++k) {
+        const auto [i, j] = test.setup.bonds.points.pairs[k];
+        if (test.setup.apparatus.is_platen(i) || test.setup.apparatus.is_platen(j)) continue;
         ++partners[i];
         ++partners[j];
         const Vec2 normal = (1.0 / norm(place(j) - place(i))) * (place(j) - place(i));
-        test.setup.bond_overlaps[k] = 2.0 * testing::rock_radius - norm(place(j) - place(i));
+        test.setup.bonds.overlaps[k] = 2.0 * testing::rock_radius - norm(place(j) - place(i));
         frame.shear_force[k] = material.shear_stiffness * strain * spacing * normal.x * normal.y;
     }
     const FrameForces forces = find_forces(PlacedFrame(test.world, test.setup, frame));
@@ -137,7 +137,7 @@ TEST_F(FrameForcesOfRock, AreZeroBeforeLoadingAndAddUpToTheViewsOfAllPointsLater
         double largest = 0.0, off = 0.0;
         for (BodyIndex b = 0; b < sums.size(); ++b) {
             const ParticleStress& got = forces.stress[b];
-            if (test.setup.is_platen(b)) {
+            if (test.setup.apparatus.is_platen(b)) {
                 EXPECT_EQ(got.yy, 0.0) << "a platen's";
                 continue;
             }
@@ -187,7 +187,8 @@ TEST_F(FrameForcesOfRock, OfFlatFacesAreThoseOfTheirPoints) {
         largest = std::max(largest, std::abs(view.normal_force));
         if (view.kind != PointKind::face_face) return;
         ++flat;
-        turned = std::max(turned, view.normal_stiffness * std::abs(view.bond_overlap - test.setup.bond_overlaps[bond]));
+        turned =
+            std::max(turned, view.normal_stiffness * std::abs(view.bond_overlap - test.setup.bonds.overlaps[bond]));
     });
     fmt::print("  {} flat faces; turning has taken up to {:.3g} of the largest force\n", flat, turned / largest);
     EXPECT_GT(flat, 50U);
@@ -200,26 +201,29 @@ TEST_F(FrameForcesOfRock, FragmentsOfASpecimenSplitAcrossAreItsTwoParts) {
         VirtualTest test = prepared(mesh);
         Frame frame = taken(test);
         const std::vector<std::int32_t> whole = find_fragments(test.world, test.setup, frame);
-        for (BodyIndex b = 0; b < whole.size(); ++b) EXPECT_EQ(whole[b], test.setup.is_platen(b) ? -1 : 0);
+        for (BodyIndex b = 0; b < whole.size(); ++b) EXPECT_EQ(whole[b], test.setup.apparatus.is_platen(b) ? -1 : 0);
         // Above the cut is less than below it. One bond across it would be enough to hold the two together.
-        const double cut = 0.7 * test.setup.height;
+        const double cut = 0.7 * test.setup.specimen.height;
         const auto above = [&](BodyIndex b) { return frame.bodies[b].y > cut; };
         std::size_t last = 0;
-        for (std::size_t k = 0; k < test.setup.bonds.size(); ++k) {
-            const ContactPoint point = test.setup.bonds[k];
+        for (std::size_t k = 0; k < test.setup.bonds.points.size(); ++k) {
+            const ContactPoint point = test.setup.bonds.points[k];
             if (above(point.body_i) == above(point.body_j)) continue;
             frame.states[k] = ContactState::broken_touching;
             last = k;
         }
         const std::vector<std::int32_t> parts = find_fragments(test.world, test.setup, frame);
         for (BodyIndex b = 0; b < parts.size(); ++b)
-            EXPECT_EQ(parts[b], test.setup.is_platen(b) ? -1 : above(b) ? 1 : 0) << test.world.bodies.info(b).id;
+            EXPECT_EQ(parts[b], test.setup.apparatus.is_platen(b) ? -1
+                                : above(b)                        ? 1
+                                                                  : 0)
+                << test.world.bodies.info(b).id;
         const FragmentSizes figures = measure_fragments(test.world, test.setup, frame);
         EXPECT_EQ(figures.count, 2);
         double all = 0.0, below = 0.0;
         for (BodyIndex b = 0; b < parts.size(); ++b) {
-            all += test.setup.is_platen(b) ? 0.0 : area_of(test.world, b);
-            below += test.setup.is_platen(b) || above(b) ? 0.0 : area_of(test.world, b);
+            all += test.setup.apparatus.is_platen(b) ? 0.0 : area_of(test.world, b);
+            below += test.setup.apparatus.is_platen(b) || above(b) ? 0.0 : area_of(test.world, b);
         }
         EXPECT_TRUE(within("largest share", figures.largest_share, below / all, 1e-12));
         frame.states[last] = ContactState::bonded_slid;
@@ -234,7 +238,7 @@ TEST_F(FrameForcesOfRock, FragmentsAreNumberedByAreaThenById) {
     const std::vector<std::int32_t> dust = find_fragments(test.world, test.setup, frame);
     std::vector<std::pair<int, std::int32_t>> by_id;
     for (BodyIndex b = 0; b < dust.size(); ++b)
-        if (!test.setup.is_platen(b)) by_id.emplace_back(test.world.bodies.info(b).id, dust[b]);
+        if (!test.setup.apparatus.is_platen(b)) by_id.emplace_back(test.world.bodies.info(b).id, dust[b]);
     std::sort(by_id.begin(), by_id.end());
     for (std::size_t k = 0; k < by_id.size(); ++k)
         EXPECT_EQ(by_id[k].second, static_cast<std::int32_t>(k)) << "equal discs, all alone, go by their ids";
@@ -252,7 +256,9 @@ TEST_F(FrameForcesOfRock, FragmentsAreWhatSpreadingAlongIntactBondsReaches) {
             changed = false;
             for (PointIndex k = 0; k < test.world.points.size(); ++k) {
                 const PointView view = view_point(test.world, k);
-                if (!view.bonded || test.setup.is_platen(view.body_i) || test.setup.is_platen(view.body_j)) continue;
+                if (!view.bonded || test.setup.apparatus.is_platen(view.body_i) ||
+                    test.setup.apparatus.is_platen(view.body_j))
+                    continue;
                 const BodyIndex low = std::min(lowest[view.body_i], lowest[view.body_j]);
                 changed = changed || lowest[view.body_i] != low || lowest[view.body_j] != low;
                 lowest[view.body_i] = lowest[view.body_j] = low;
@@ -263,7 +269,7 @@ TEST_F(FrameForcesOfRock, FragmentsAreWhatSpreadingAlongIntactBondsReaches) {
         std::set<std::int32_t> numbers;
         std::set<BodyIndex> groups;
         for (BodyIndex b = 0; b < got.size(); ++b) {
-            if (test.setup.is_platen(b)) continue;
+            if (test.setup.apparatus.is_platen(b)) continue;
             pairs.emplace(got[b], lowest[b]);
             numbers.insert(got[b]);
             groups.insert(lowest[b]);

@@ -55,10 +55,10 @@ class Frames : public ::testing::Test {
     static Frame taken(VirtualTest& test) {
         ContactHistory& history = test.state.history;
         while (history.cracks.size() < test.world.bonds.events.size())
-            note_break(test.setup, test.world.bonds.events[history.cracks.size()], history);
+            note_break(test.setup.bonds, test.world.bonds.events[history.cracks.size()], history);
         look_at_contacts(test.world, history);
         Frame frame;
-        take_frame(test.world, test.setup, history, observe_row(test.world, test.setup), 7, frame);
+        take_frame(test.world, test.setup.bonds, history, observe_row(test.world, test.setup), 7, frame);
         return frame;
     }
     static void write(std::ostream& out, const VirtualTest& test, const FramePainter& painter, const Frame& frame,
@@ -96,7 +96,7 @@ TEST_F(Frames, ContactsHaveTheForcesAndStatesOfTheirPoints) {
     for (const auto& [mesh, law] : {std::pair("", "rounded"), {"voronoi", "rounded"}, {"voronoi", "demseg"}}) {
         VirtualTest test = broken_test(mesh, law);
         const PolyData data = read(test, taken(test), Picture::contacts);
-        const auto& bonds = test.setup.bonds;
+        const auto& bonds = test.setup.bonds.points;
         std::map<std::pair<PointKind, PointKey>, PointView> touching;
         std::size_t bonded = 0;
         for (PointIndex k = 0; k < test.world.points.size(); ++k) {
@@ -106,7 +106,7 @@ TEST_F(Frames, ContactsHaveTheForcesAndStatesOfTheirPoints) {
         }
         EXPECT_LT(bonded, bonds.size());
         // Places are known to a rounding of the specimen's size, turns to one of a whole turn.
-        const double rounding = 1e7 * 1e-15 * test.setup.height;
+        const double rounding = 1e7 * 1e-15 * test.setup.specimen.height;
         double largest = 0.0;
         std::array<int, 5> counts{};
         const auto expect_forces = [&](std::size_t cell, const PointView& view) {
@@ -117,7 +117,7 @@ TEST_F(Frames, ContactsHaveTheForcesAndStatesOfTheirPoints) {
         };
         for (std::size_t k = 0; k < bonds.size(); ++k) {
             int kind = 0;
-            while (k >= test.setup.bond_kind_begin[static_cast<std::size_t>(kind) + 1]) ++kind;
+            while (k >= test.setup.bonds.kind_begin[static_cast<std::size_t>(kind) + 1]) ++kind;
             const ContactPoint point = bonds[k];
             const auto held = touching.find({PointKind(kind), key_of(PointKind(kind), point)});
             const bool touches = held != touching.end();
@@ -139,9 +139,9 @@ TEST_F(Frames, ContactsHaveTheForcesAndStatesOfTheirPoints) {
             const auto& line = data.cells[cell].points;
             for (const std::size_t point : line)
                 middle = middle + (1.0 / static_cast<double>(line.size())) * data.points[point];
-            if (!test.setup.polygons && line.size() == 3) middle = data.points[line[1]];
-            if (!test.setup.polygons && line.size() == 2) middle = data.points[line[1]];
-            EXPECT_LT(norm(middle - view.position), 1e-7 * test.setup.height);
+            if (!test.setup.specimen.polygons && line.size() == 3) middle = data.points[line[1]];
+            if (!test.setup.specimen.polygons && line.size() == 2) middle = data.points[line[1]];
+            EXPECT_LT(norm(middle - view.position), 1e-7 * test.setup.specimen.height);
             expect_forces(cell++, view);
         }
         fmt::print("  {} {}: intact, slid, broken, touching again, loose: {}, {}, {}, {}, {}; shear up to {:.3g} N\n",
@@ -158,12 +158,12 @@ TEST_F(Frames, OutlinesAndBondsLieWhereTheBodiesAre) {
         const PolyData particles = read(test, frame, Picture::particles), bonds = read(test, frame, Picture::contacts);
         ASSERT_EQ(particles.cells.size(), test.world.bodies.size());
         EXPECT_TRUE(particles.cells[0].line && particles.cells[1].line && !particles.cells[2].line);
-        const double rounding = 1e-7 * test.setup.height;
+        const double rounding = 1e-7 * test.setup.specimen.height;
         double farthest = 0.0, turned = 0.0;
         for (std::size_t c = 0; c < particles.cells.size(); ++c) {
             const BodyIndex b = body_of_id(test.world, static_cast<int>(particles.cell_data.at("id")[c]));
             std::vector<Vec2> places = element_positions(test.world, b);
-            if (test.setup.is_platen(b)) places.resize(2);
+            if (test.setup.apparatus.is_platen(b)) places.resize(2);
             const bool circle = test.world.bodies.info(b).piece_count == 0;
             ASSERT_EQ(particles.cells[c].points.size(), circle ? 24U : places.size());
             Vec2 mean;
@@ -175,7 +175,7 @@ TEST_F(Frames, OutlinesAndBondsLieWhereTheBodiesAre) {
             if (circle) farthest = std::max(farthest, norm(mean - places[0]));
             EXPECT_EQ(particles.cell_data.at("radius")[c], circle ? test.world.bodies.state[b].shape[0] : 0.0);
             EXPECT_EQ(particles.cell_data.at("displacement")[3 * c + 1],
-                      test.world.bodies.state[b].y - test.setup.start[b].y);
+                      test.world.bodies.state[b].y - test.setup.bonds.start[b].y);
             EXPECT_EQ(particles.cell_data.at("velocity")[3 * c], test.world.bodies.state[b].vx);
             EXPECT_EQ(particles.cell_data.at("rotation_rate")[c], test.world.bodies.state[b].omega);
             turned = std::max(turned, std::abs(particles.cell_data.at("angle")[c]));

@@ -28,12 +28,11 @@ TEST(TestKinds, TheCaseKnowsEveryKindByItsName) {
     for (const std::string& name : names_of<LoadingKind>()) {
         const LoadingKind value = *from_name<LoadingKind>(name);
         const TestKind& kind = test_kind(value);
-        TestCase test;
-        test.loading.kind = value;
-        EXPECT_EQ(kind.kind, value) << name;
-        EXPECT_EQ(test.uniaxial(), kind.uniaxial) << name;
-        EXPECT_EQ(test.pressed(), kind.shear_box || test.confined()) << name;
         EXPECT_EQ(kind.apparatus == nullptr, kind.uniaxial) << name;
+        for (const KindKey& one : kind.keys) {
+            const std::string key = one.key, table = key.substr(0, key.find('.'));
+            EXPECT_NE(find_parameter(table, key.substr(table.size() + 1)), nullptr) << name << ": " << key;
+        }
         EXPECT_EQ(kind.valid_failure == ValidFailure::between_platens, kind.uniaxial) << name;
     }
 }
@@ -67,11 +66,12 @@ TEST(TestKinds, JawsThatAreNotBondedJustTouchTheDisc) {
     test.loading.platens = PlatenKind::frictional;
     constexpr double reach = 1e-5;
     KindRequest request{test, {0.0, 0.1, 0.0, 0.1, {}}, 0.005};
-    const Shape shape = brazilian_shape(request);
+    const TestKind& disc = test_kind(LoadingKind::brazilian);
+    const Shape shape = disc.shape(request);
     for (const Vec2 corner : shape.outline) request.surface.push_back({corner, reach});
     for (const JawShape jaws : {JawShape::arc, JawShape::flat, JawShape::curved}) {
         test.loading.jaws = jaws;
-        const Apparatus apparatus = brazilian_apparatus(request, shape);
+        const Apparatus apparatus = disc.apparatus(request, shape);
         ASSERT_EQ(apparatus.parts.size(), 2U);
         for (const LoadingPart& part : apparatus.parts) {
             double nearest = 1e300;
@@ -102,7 +102,8 @@ TEST(TestKinds, SupportsOfABeamCarryHalfTheLoadEachAndNoThrust) {
     EXPECT_TRUE(within("right support over the load", -reaction[1].y / load, 0.5, 1e-3));
     for (const BodyMotion& one : reaction) EXPECT_TRUE(within("thrust over the load", one.x / load, 0.0, 1e-6));
     for (const BodyMotion& one : reaction)
-        EXPECT_TRUE(within("moment over load and depth", one.rotation / (load * test.setup.height), 0.0, 1e-6));
+        EXPECT_TRUE(
+            within("moment over load and depth", one.rotation / (load * test.setup.specimen.height), 0.0, 1e-6));
 }
 
 TEST(TestKinds, BadInputOfAKindIsRefusedByName) {

@@ -39,8 +39,10 @@ TEST(TestCheck, CountsGrainsStepsAndSeconds) {
     const TestCase test = read_case(testing::write_small_case(scratch / "", {}));
     const TestCheck check = check_test(test);
     const TestSetup& setup = check.test.setup;
-    EXPECT_TRUE(agrees("grains across", check.grains_across,
-                       std::sqrt(static_cast<double>(setup.particles) * setup.width / setup.height), 1e-12));
+    EXPECT_TRUE(
+        agrees("grains across", check.grains_across,
+               std::sqrt(static_cast<double>(setup.specimen.particles) * setup.specimen.width / setup.specimen.height),
+               1e-12));
     EXPECT_TRUE(
         agrees("steps to the end", check.to_end.steps, 0.005 / 0.02 / check.test.world.stepping.time_step, 1e-12));
     EXPECT_TRUE(agrees("seconds to the end", check.to_end.seconds, check.to_end.steps / check.steps_per_second, 1e-12));

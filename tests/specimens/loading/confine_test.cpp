@@ -63,10 +63,10 @@ TEST_F(Confined, SpecimenIsInEquilibriumBeforeLoadingBegins) {
             EXPECT_EQ(row.axial_strain, 0.0);
             EXPECT_TRUE(within("lateral strain", row.lateral_strain, 0.0, 1e-15));
             EXPECT_EQ(world.bonds.broken, 0);
-            EXPECT_EQ(test.setup.confining_pressure, pressure);
+            EXPECT_EQ(test.setup.apparatus.confining_pressure, pressure);
             // The disc that is rolled about the specimen is as large as a mean particle.
-            const double particle =
-                std::sqrt(test.setup.width * test.setup.height / static_cast<double>(test.setup.particles));
+            const double particle = std::sqrt(test.setup.specimen.width * test.setup.specimen.height /
+                                              static_cast<double>(test.setup.specimen.particles));
             EXPECT_TRUE(agrees("radius of the membrane's disc, m", world.membrane.probe, 0.5 * particle, 1e-12));
         }
     }
@@ -92,7 +92,7 @@ TEST_F(Confined, SpecimenThatItsPlatensDoNotHoldIsRefusedSoon) {
 
 /// N, of the specimen on a wall, inwards positive where it presses it out.
 double force_on_wall(const VirtualTest& test, std::size_t wall) {
-    const double force = test.world.bodies.force[test.setup.parts[wall].body].fx;
+    const double force = test.world.bodies.force[test.setup.apparatus.parts[wall].body].fx;
     return wall == 1 ? -force : force;
 }
 
@@ -101,7 +101,7 @@ TEST_F(Confined, WallsAreInEquilibriumWithTheSpecimenBeforeLoadingBegins) {
         for (const char* loading : {"", "platens = \"frictional\"\nplaten_friction_angle = 10"}) {
             VirtualTest test = prepare_test(described(mesh, pressure, loading, "walls"));
             World& world = test.world;
-            ASSERT_EQ(test.setup.parts.size(), 4U);
+            ASSERT_EQ(test.setup.apparatus.parts.size(), 4U);
             for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;
             velocities_changed(world);
             compute_forces(world);
@@ -112,12 +112,12 @@ TEST_F(Confined, WallsAreInEquilibriumWithTheSpecimenBeforeLoadingBegins) {
                 within(what + ": stress of the platens over the pressure", row.axial_stress / pressure, 1.0, 1e-4));
             for (const std::size_t wall : {1U, 2U}) {
                 EXPECT_TRUE(agrees(fmt::format("{}: force on wall {}", what, wall), force_on_wall(test, wall),
-                                   pressure * test.setup.height, 1e-4));
-                EXPECT_EQ(world.bodies.force[test.setup.parts[wall].body].fy, 0.0) << "walls are smooth";
+                                   pressure * test.setup.specimen.height, 1e-4));
+                EXPECT_EQ(world.bodies.force[test.setup.apparatus.parts[wall].body].fy, 0.0) << "walls are smooth";
             }
             EXPECT_EQ(row.axial_strain, 0.0);
             EXPECT_EQ(world.bonds.broken, 0);
-            EXPECT_EQ(test.setup.confining_pressure, pressure);
+            EXPECT_EQ(test.setup.apparatus.confining_pressure, pressure);
         }
     }
 }
@@ -126,7 +126,9 @@ TEST_F(Confined, WallsDoTheWorkOfTheirForceAndTheEnergyCloses) {
     for (const char* mesh : {"", "voronoi"}) {
         VirtualTest test = prepare_test(described(mesh, pressure, {}, "walls"));
         const auto apart = [&] {
-            const auto x = [&](std::size_t wall) { return test.world.bodies.state[test.setup.parts[wall].body].x; };
+            const auto x = [&](std::size_t wall) {
+                return test.world.bodies.state[test.setup.apparatus.parts[wall].body].x;
+            };
             return x(2) - x(1);
         };
         const double before = apart();
@@ -134,7 +136,7 @@ TEST_F(Confined, WallsDoTheWorkOfTheirForceAndTheEnergyCloses) {
         const CurveRow& last = test.state.rows.back();
         EXPECT_GT(test.state.failure.peak_stress, 2.0 * pressure);
         EXPECT_GT(apart(), before);
-        const double force = pressure * test.setup.height;
+        const double force = pressure * test.setup.specimen.height;
         EXPECT_TRUE(agrees("work of the walls, J", last.confinement_work, -force * (apart() - before), 1e-9));
         const double work = std::abs(last.platen_work) + std::abs(last.confinement_work);
         EXPECT_TRUE(within("closing error over the works", last.energy_error / work, 0.0, 2e-3));
@@ -147,7 +149,7 @@ TEST_F(Confined, SpecimenBetweenWallsHasTheModulusOfItsSolutionAndIsNoSofterThan
         description.loading.max_axial_strain = 1e-4;  // by less of it the start's small waves are seen
         *description.loading.axial_strain_rate = 5e-4;
         VirtualTest test = prepare_test(description);
-        const double solved = nominal_stress(test.setup, test.small_strain->moduli.solution.reaction);
+        const double solved = nominal_stress(test.setup.apparatus, test.small_strain->moduli.solution.reaction);
         load_specimen(test);
         const CurveRow &first = test.state.rows.front(), &last = test.state.rows.back();
         ASSERT_EQ(last.bonds_broken, 0);

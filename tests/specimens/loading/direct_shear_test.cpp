@@ -59,9 +59,9 @@ TEST_F(Kinds, BoxPressesCirclesThatMeetByTheNormalStress) {
     for (const char* joint : {"", open_joint}) {
         VirtualTest test = bond_test(packed(joint, 0.001));
         compute_forces(test.world);
-        const double force = 5e6 * test.setup.width;
+        const double force = 5e6 * test.setup.specimen.width;
         EXPECT_TRUE(agrees(fmt::format("{}: force on the upper box", *joint == '\0' ? "rock" : "joint"),
-                           test.world.bodies.force[test.setup.top].fy, force, most_unbalanced_pressed));
+                           test.world.bodies.force[test.setup.apparatus.top].fy, force, most_unbalanced_pressed));
         EXPECT_EQ(test.world.bonds.broken, 0);
     }
 }
@@ -98,12 +98,12 @@ TEST_F(Kinds, BoxPressesWithTheNormalStressBeforeItShears) {
         World& world = test.world;
         compute_forces(world);
         const std::string name = *mesh == '\0' ? "circles" : mesh;
-        const double force = normal * test.setup.width;
-        EXPECT_TRUE(agrees(name + ": force on the upper box", world.bodies.force[test.setup.top].fy, force,
+        const double force = normal * test.setup.specimen.width;
+        EXPECT_TRUE(agrees(name + ": force on the upper box", world.bodies.force[test.setup.apparatus.top].fy, force,
                            most_unbalanced_pressed));
         double lower = 0.0;
-        for (const SetupPart& part : test.setup.parts)
-            if (part.body != test.setup.top) lower += world.bodies.force[part.body].fy;
+        for (const SetupPart& part : test.setup.apparatus.parts)
+            if (part.body != test.setup.apparatus.top) lower += world.bodies.force[part.body].fy;
         // What bodies between them are left with: most_unbalanced of the force on a particle, each.
         EXPECT_TRUE(agrees(name + ": and on the lower one", -lower, force, 1e-3));
         const CurveRow row = observe_row(world, test.setup);
@@ -121,10 +121,11 @@ TEST_F(Kinds, NormalForceStaysWhenShearingBeginsAndDoesItsWork) {
     EXPECT_EQ(rows.front().lateral_strain, 0.0);
     EXPECT_EQ(rows.front().confinement_work, 0.0);
     // Its work is minus the force times the rise, to the rounding of a sum over steps.
-    const double force = normal * test.setup.width;
+    const double force = normal * test.setup.specimen.width;
     for (const CurveRow& row : rows) {
-        const double expected = -force * row.lateral_strain * test.setup.height;
-        ASSERT_NEAR(row.confinement_work, expected, 1e-9 * force * test.setup.height * 1e-3) << row.axial_strain;
+        const double expected = -force * row.lateral_strain * test.setup.specimen.height;
+        ASSERT_NEAR(row.confinement_work, expected, 1e-9 * force * test.setup.specimen.height * 1e-3)
+            << row.axial_strain;
     }
 }
 
@@ -134,20 +135,21 @@ TEST_F(Kinds, NormalStiffnessMakesTheNormalForceGrowWithTheRise) {
     description.loading.max_axial_strain = 0.02;  // beyond its strength, where it rises
     VirtualTest test = prepare_test(description);
     load_specimen(test);
-    const double force = normal * test.setup.width, spring = stiffness * test.setup.width;
+    const double force = normal * test.setup.specimen.width, spring = stiffness * test.setup.specimen.width;
     double highest = 0.0;
     for (const CurveRow& row : test.state.rows) {
-        const double rise = row.lateral_strain * test.setup.height;
+        const double rise = row.lateral_strain * test.setup.specimen.height;
         highest = std::max(highest, rise);
         const double expected = -(force + 0.5 * spring * rise) * rise;
-        ASSERT_NEAR(row.confinement_work, expected, 1e-9 * force * test.setup.height * 1e-3) << row.axial_strain;
+        ASSERT_NEAR(row.confinement_work, expected, 1e-9 * force * test.setup.specimen.height * 1e-3)
+            << row.axial_strain;
     }
     // Held back from rising at the end, the specimen bears what the spring has grown by; its inertia is of the box
     // alone.
     compute_forces(test.world);
-    const double rise = test.state.rows.back().lateral_strain * test.setup.height;
-    EXPECT_TRUE(
-        agrees("force on the upper box, N", test.world.bodies.force[test.setup.top].fy, force + spring * rise, 1e-3));
+    const double rise = test.state.rows.back().lateral_strain * test.setup.specimen.height;
+    EXPECT_TRUE(agrees("force on the upper box, N", test.world.bodies.force[test.setup.apparatus.top].fy,
+                       force + spring * rise, 1e-3));
     EXPECT_GT(spring * highest, 0.1 * force) << "the box has hardly risen: nothing was shown";
     const CurveRow& last = test.state.rows.back();
     EXPECT_TRUE(within("energy error over the work", last.energy_error / last.platen_work, 0.0, 5e-3));

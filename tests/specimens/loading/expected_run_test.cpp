@@ -125,9 +125,9 @@ TEST_F(ExpectedRun, OfEveryKindItsPlatenMoves) {
         VirtualTest test = prepare_test(read_case(scratch_ / "case.toml"));
         tried.insert(kind);
         EXPECT_NO_THROW(refuse_resting(test)) << kind << loading;
-        const double before = test.setup.axial_strain(test.world), begun = test.world.stepping.time;
+        const double before = test.setup.apparatus.axial_strain(test.world), begun = test.world.stepping.time;
         for (int k = 0; k < 50; ++k) step(test.world);
-        const double strain = test.setup.axial_strain(test.world) - before;
+        const double strain = test.setup.apparatus.axial_strain(test.world) - before;
         // Strain counts from the place of the driving part in double precision.
         EXPECT_TRUE(agrees(fmt::format("strain of a {} test in 50 steps", kind), strain,
                            rate * (test.world.stepping.time - begun), 1e-6));
@@ -145,7 +145,7 @@ TEST_F(ExpectedRun, WithoutAMovingPlatenIsRefusedHoweverLongItMayTake) {
     EXPECT_NE(refused.find("loading.axial_strain_rate: found a displacement of"), std::string::npos) << refused;
     EXPECT_FALSE(fs::exists(scratch_ / "out/curve.csv"));
     VirtualTest resting = prepare_test(small_case());
-    change_velocity(resting.world, resting.setup.top, resting.setup.axis, 0.0);
+    change_velocity(resting.world, resting.setup.apparatus.top, resting.setup.apparatus.axis, 0.0);
     EXPECT_THROW(load_specimen(resting, {}, nullptr), InputError);
 }
 

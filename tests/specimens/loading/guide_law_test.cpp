@@ -26,22 +26,24 @@ VirtualTest bonded(const std::string& specimen, SegmentLaw law) {
 TEST(GuideRock, UnderItsOwnLawHasTheGuidesContactsAndItsBackTensionBetweenSumAndMean) {
     const VirtualTest circles = bonded("circles", SegmentLaw::demseg), sum = bonded("delaunay", SegmentLaw::demseg),
                       mean = bonded("delaunay", SegmentLaw::demseg_mean);
-    const auto contacts = [](const VirtualTest& test) { return static_cast<double>(test.setup.contacts_initial); };
+    const auto contacts = [](const VirtualTest& test) {
+        return static_cast<double>(test.setup.bonds.contacts_initial);
+    };
     const double back_tension = 753.0;  // N, the guide's
     fmt::print(
         "  mean back-tension a pair of elements: sum {:.4g} N, mean {:.4g} N, the guide {:.4g} N\n"
         "  stiffness over the circles': sum {:.3g}, mean {:.3g}, the guide sqrt(10)\n",
-        sum.setup.mean_back_tension, mean.setup.mean_back_tension, back_tension,
+        sum.setup.bonds.mean_back_tension, mean.setup.bonds.mean_back_tension, back_tension,
         sum.state.youngs_modulus / circles.state.youngs_modulus,
         mean.state.youngs_modulus / circles.state.youngs_modulus);
     EXPECT_TRUE(
         agrees("contacts over the circles', the guide's about 10", contacts(sum) / contacts(circles), 10.0, 0.15));
     EXPECT_EQ(contacts(mean), contacts(sum));
     // An independent estimate on such a specimen gave 1.2 kN and 0.58 kN.
-    EXPECT_TRUE(agrees("back-tension, sum, N", sum.setup.mean_back_tension, 1200.0, 0.05));
-    EXPECT_TRUE(agrees("back-tension, mean, N", mean.setup.mean_back_tension, 580.0, 0.05));
-    EXPECT_GT(sum.setup.mean_back_tension, back_tension);
-    EXPECT_LT(mean.setup.mean_back_tension, back_tension);
+    EXPECT_TRUE(agrees("back-tension, sum, N", sum.setup.bonds.mean_back_tension, 1200.0, 0.05));
+    EXPECT_TRUE(agrees("back-tension, mean, N", mean.setup.bonds.mean_back_tension, 580.0, 0.05));
+    EXPECT_GT(sum.setup.bonds.mean_back_tension, back_tension);
+    EXPECT_LT(mean.setup.bonds.mean_back_tension, back_tension);
     EXPECT_GT(sum.state.youngs_modulus, std::sqrt(10.0) * circles.state.youngs_modulus);
     EXPECT_LT(mean.state.youngs_modulus, std::sqrt(10.0) * circles.state.youngs_modulus);
 }

@@ -78,7 +78,8 @@ TEST_F(WidenedRock, IsLoadedAsByAxialStrainWhileNothingBreaks) {
     ASSERT_EQ(test.state.ended_by, ended_by_strain);
     const CurveRow &last = test.state.rows.back(), &other = axial.state.rows.back();
     // The target is followed a transit late, of thirty that the test takes.
-    EXPECT_TRUE(agrees("rate of lateral strain, 1/s", test.setup.median_lateral_strain(test.world) / last.time,
+    EXPECT_TRUE(agrees("rate of lateral strain, 1/s",
+                       test.setup.gauges.median_lateral_strain(test.world, test.setup.bonds.start) / last.time,
                        test.state.poissons_ratio * other.axial_strain / other.time, 0.05));
     EXPECT_TRUE(agrees("stress, N/m", last.axial_stress, test.state.youngs_modulus * last.axial_strain, 0.01));
     EXPECT_EQ(test.state.path.travel(last.axial_strain), last.axial_strain);

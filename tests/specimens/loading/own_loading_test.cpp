@@ -78,7 +78,7 @@ TEST_F(OwnLoading, ALookEndsATestAtItsMoment) {
     hooks.look_every = 50;
     double at = 0.0;
     hooks.look = [&](VirtualTest& now) {
-        at = now.setup.axial_strain(now.world);
+        at = now.setup.apparatus.axial_strain(now.world);
         return at > 3e-4 ? AfterLook::end : AfterLook::go_on;
     };
     load_specimen(test, hooks);
@@ -103,12 +103,12 @@ TEST_F(OwnLoading, AnInterruptByALookLeavesTheTestAsAnyOther) {
 TEST_F(OwnLoading, RowsFollowThePlatenBackAndForth) {
     VirtualTest test = prepared(brief());
     const double speed = platen_speed(test);
-    EXPECT_TRUE(agrees("speed, m/s", speed, 0.0005 * test.setup.length, 1e-12));
+    EXPECT_TRUE(agrees("speed, m/s", speed, 0.0005 * test.setup.apparatus.length, 1e-12));
     TestHooks hooks;
     hooks.look_every = 1;
     bool back = false;
     hooks.look = [&](VirtualTest& now) {
-        const double strain = now.setup.axial_strain(now.world);
+        const double strain = now.setup.apparatus.axial_strain(now.world);
         if (!back && strain > 2e-4) {
             back = true;
             set_platen_speed(now, -0.5 * speed);
@@ -125,7 +125,7 @@ TEST_F(OwnLoading, RowsFollowThePlatenBackAndForth) {
     const double up = static_cast<double>(top - rows.begin()) / 2e-4;
     const double down = static_cast<double>(rows.end() - top) / 1e-4;
     EXPECT_NEAR(down / up, 1.0, 0.02);
-    EXPECT_TRUE(std::ranges::any_of(test.setup.notices, [](const std::string& text) {
+    EXPECT_TRUE(std::ranges::any_of(test.setup.origin.notices, [](const std::string& text) {
         return text.find("caller's from strain 0.0002") != std::string::npos;
     }));
 }
@@ -153,12 +153,12 @@ TEST_F(OwnLoading, RefusesASpeedOfAPartThatIsNotDrivenAtOne) {
     const DofControl still{Drive::velocity, 0.0};
     for (const DofControl& along : {DofControl{}, DofControl{Drive::force, 10.0}}) {
         const DofControl dof[3] = {along, along, still};
-        set_control(test.world, test.setup.top, dof, 0);
+        set_control(test.world, test.setup.apparatus.top, dof, 0);
         EXPECT_NE(testing::refusal([&] { set_platen_speed(test, speed); }).find("driven at a velocity"),
                   std::string::npos);
     }
     const DofControl dof[3] = {still, still, still};
-    set_control(test.world, test.setup.top, dof, 0);
+    set_control(test.world, test.setup.apparatus.top, dof, 0);
     set_platen_speed(test, speed);
     EXPECT_EQ(platen_speed(test), speed);
 }

@@ -22,17 +22,17 @@ TestCase granite() {
     return test;
 }
 
-TestSetup core() {
-    TestSetup setup;
-    setup.width = 0.05;
-    setup.height = 0.1;
-    setup.area = setup.width * setup.height;
-    setup.particles = 1250;
-    return setup;
+TestedSpecimen core() {
+    TestedSpecimen specimen;
+    specimen.width = 0.05;
+    specimen.height = 0.1;
+    specimen.area = specimen.width * specimen.height;
+    specimen.particles = 1250;
+    return specimen;
 }
 
-std::string notices_of(const TestCase& test, const TestSetup& setup = core()) {
-    const std::string all = fmt::format("{}", fmt::join(unlikely_numbers(test, setup), "\n"));
+std::string notices_of(const TestCase& test, const TestedSpecimen& specimen = core()) {
+    const std::string all = fmt::format("{}", fmt::join(unlikely_numbers(test, specimen), "\n"));
     if (!all.empty()) fmt::print("  {}\n", all);
     return all;
 }
@@ -66,7 +66,7 @@ TEST(UnlikelyNumbers, AreNamedWithWhatTheyAreLikelyToMean) {
 }
 
 TEST(UnlikelyNumbers, MillimetresAreNoMetres) {
-    TestSetup large = core();
+    TestedSpecimen large = core();
     large.width = 50.0;
     large.height = 100.0;
     large.area = 5000.0;

@@ -112,10 +112,10 @@ TEST_F(UnloadedRock, ElasticSpecimenHasItsModulusInEveryCycle) {
         TestCase description = unloaded(kind);
         description.numerics.intact = true;
         const VirtualTest test = tested(description);
-        const auto cycles = find_cycles(test.state.rows, test.setup.compression);
+        const auto cycles = find_cycles(test.state.rows, test.setup.apparatus.compression);
         ASSERT_EQ(cycles.size(), 2U) << kind;
         const double first_strain = test.setup.rate_rule.first_strain, spacing = 6.0 * first_strain / 2000;
-        const double area = test.setup.section * test.setup.length;
+        const double area = test.setup.apparatus.section * test.setup.apparatus.length;
         for (std::size_t k = 0; k < 2; ++k) {
             const LoadingCycle& c = cycles[k];
             EXPECT_TRUE(within("strain at turn", c.strain, (*description.loading.unload_at_strain)[k],

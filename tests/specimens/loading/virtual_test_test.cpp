@@ -49,8 +49,8 @@ TEST_F(VirtualRock, CirclesOverlapTheirPlatensByWhatTheyOverlappedTheWalls) {
     for (PointIndex k = 0; k < test.world.points.size(); ++k) {
         const ContactPoint point = test.world.points.contact[k];
         if ((test.world.points.state[k].flags & point_bonded) == 0) continue;
-        const bool top = point.body_j == test.setup.top;
-        if (!top && point.body_j != test.setup.bottom) continue;
+        const bool top = point.body_j == test.setup.apparatus.top;
+        if (!top && point.body_j != test.setup.apparatus.bottom) continue;
         ++platen_bonds;
         const int id = test.world.bodies.info(point.body_i).id;
         const auto body =
@@ -74,7 +74,7 @@ TEST_F(VirtualRock, PolygonsStandAsFarFromTheirPlatensAsFromEachOther) {
         for (PointIndex k = 0; k < test.world.points.size(); ++k) {
             const ContactPoint point = test.world.points.contact[k];
             if ((test.world.points.state[k].flags & point_bonded) == 0 ||
-                (point.body_j != test.setup.top && point.body_j != test.setup.bottom))
+                (point.body_j != test.setup.apparatus.top && point.body_j != test.setup.apparatus.bottom))
                 continue;
             ++platen_bonds;
             low = std::min(low, test.world.points.bond_overlap[k]);
@@ -89,13 +89,15 @@ TEST_F(VirtualRock, PolygonsStandAsFarFromTheirPlatensAsFromEachOther) {
 
 TEST_F(VirtualRock, BeginsWithVelocityLinearBetweenThePlatensAndNoWalls) {
     const VirtualTest test = prepare({});
-    const double low = element_positions(test.world, test.setup.bottom)[0].y;
-    const double high = element_positions(test.world, test.setup.top)[0].y;
-    const double speed = 0.02 * test.setup.height;
+    const double low = element_positions(test.world, test.setup.apparatus.bottom)[0].y;
+    const double high = element_positions(test.world, test.setup.apparatus.top)[0].y;
+    const double speed = 0.02 * test.setup.specimen.height;
     double worst = 0.0;
     for (BodyIndex b = 0; b < test.world.bodies.size(); ++b) {
         const BodyState& body = test.world.bodies.state[b];
-        const double share = b == test.setup.top ? 1.0 : b == test.setup.bottom ? 0.0 : (body.y - low) / (high - low);
+        const double share = b == test.setup.apparatus.top      ? 1.0
+                             : b == test.setup.apparatus.bottom ? 0.0
+                                                                : (body.y - low) / (high - low);
         worst = std::max(worst, std::abs(body.vy - speed * share));
         EXPECT_EQ(body.vx, 0.0);
         EXPECT_EQ(body.omega, 0.0);
@@ -109,7 +111,7 @@ TEST_F(VirtualRock, PulledFailsWithPositiveStressAndBalancedEnergy) {
     EXPECT_TRUE(test.state.failure.failed);
     EXPECT_EQ(test.state.ended_by, ended_by_failure);
     EXPECT_GT(test.state.failure.peak_stress, 0.0);
-    EXPECT_GT(test.world.bodies.state[test.setup.top].y, test.setup.top_start);
+    EXPECT_GT(test.world.bodies.state[test.setup.apparatus.top].y, test.setup.apparatus.top_start);
     EXPECT_EQ(static_cast<std::int64_t>(test.world.bonds.events.size()), test.world.bonds.broken);
     EXPECT_EQ(test.state.breaks_in_shear + test.state.breaks_in_tension, test.world.bonds.broken);
     const CurveRow& last = test.state.rows.back();
@@ -120,7 +122,7 @@ TEST_F(VirtualRock, PulledFailsWithPositiveStressAndBalancedEnergy) {
     EXPECT_TRUE(agrees("energy_error against the columns, J", balance, last.energy_error, 1e-6));
     EXPECT_TRUE(within("energy balance over work", balance / last.platen_work, 0.0, 5e-3));
     // No stress can exceed what the bonds across the narrower row could carry.
-    const double bound = 6.0 * 1e7 * 2.0 * testing::rock_overlap / test.setup.width;
+    const double bound = 6.0 * 1e7 * 2.0 * testing::rock_overlap / test.setup.specimen.width;
     EXPECT_LT(test.state.failure.peak_stress, bound);
 }
 
@@ -134,7 +136,7 @@ TEST_F(VirtualRock, SqueezedIsStrongerThanPulledAndWidens) {
     EXPECT_GT(compression.state.failure.peak_stress, tension.state.failure.peak_stress);
     EXPECT_GT(compression.state.rows[10].lateral_strain, 0.0);
     EXPECT_LT(tension.state.rows[10].lateral_strain, 0.0);
-    EXPECT_LT(compression.world.bodies.state[compression.setup.top].y, compression.setup.top_start);
+    EXPECT_LT(compression.world.bodies.state[compression.setup.apparatus.top].y, compression.setup.apparatus.top_start);
 }
 
 TEST_F(VirtualRock, FrictionalPlatensStartWithoutForceAndHoldNoBond) {
@@ -142,9 +144,9 @@ TEST_F(VirtualRock, FrictionalPlatensStartWithoutForceAndHoldNoBond) {
     wanted.kind = "compression";
     wanted.loading = "platens = \"frictional\"\nplaten_friction_angle = 5";
     VirtualTest test = prepare(wanted);
-    for (const BodyPair& bond : test.setup.bonds.pairs) {
-        EXPECT_NE(bond.body_j, test.setup.top);
-        EXPECT_NE(bond.body_j, test.setup.bottom);
+    for (const BodyPair& bond : test.setup.bonds.points.pairs) {
+        EXPECT_NE(bond.body_j, test.setup.apparatus.top);
+        EXPECT_NE(bond.body_j, test.setup.apparatus.bottom);
     }
     load_specimen(test);
     EXPECT_LT(std::abs(test.state.rows.front().axial_stress), 1e-3 * test.state.failure.peak_stress);
@@ -161,17 +163,17 @@ TEST_F(VirtualRock, CornersPressedThroughAPlatensFaceArePushedBackInProportion) 
     VirtualTest test = prepare(wanted);
     World& world = test.world;
     const double thick = world.settings.thick;
-    world.bodies.state[test.setup.bottom].y += 2.5 * thick;
-    world.bodies.state[test.setup.top].y -= 2.5 * thick;
+    world.bodies.state[test.setup.apparatus.bottom].y += 2.5 * thick;
+    world.bodies.state[test.setup.apparatus.top].y -= 2.5 * thick;
     for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;  // the dashpots' share
     world.list.valid = world.stepping.forces_current = false;
     compute_forces(world);
-    for (const BodyIndex platen : {test.setup.bottom, test.setup.top}) {
-        const double outwards = platen == test.setup.top ? 1.0 : -1.0;
+    for (const BodyIndex platen : {test.setup.apparatus.bottom, test.setup.apparatus.top}) {
+        const double outwards = platen == test.setup.apparatus.top ? 1.0 : -1.0;
         const double face = element_positions(world, platen)[0].y;
         double expected = 0.0, deepest = 0.0;
         for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
-            if (test.setup.is_platen(b)) continue;
+            if (test.setup.apparatus.is_platen(b)) continue;
             for (const Vec2 corner : element_positions(world, b)) {
                 const double depth = outwards * (corner.y - face);
                 expected += 1e7 * std::max(0.0, thick + depth);
@@ -382,7 +384,7 @@ TEST_F(VirtualRock, UnderTheGuidesLawPolygonsHoldOnToTheirPlatensBySegmentPairs)
         const PointView view = view_point(test.world, k);
         if (!view.bonded) continue;
         EXPECT_EQ(view.kind, PointKind::segment_segment);
-        if (!test.setup.is_platen(view.body_i) && !test.setup.is_platen(view.body_j)) continue;
+        if (!test.setup.apparatus.is_platen(view.body_i) && !test.setup.apparatus.is_platen(view.body_j)) continue;
         // Both ends of an edge in front of the platen's face: twice the excess of bond.thick over the gap. Edges that
         // end there have one, and a platen's own corners are too far.
         const double ends = view.overlap > 1.2e-4 ? 2.0 : 1.0;
@@ -392,9 +394,9 @@ TEST_F(VirtualRock, UnderTheGuidesLawPolygonsHoldOnToTheirPlatensBySegmentPairs)
     EXPECT_EQ(facing, 6 + 5) << "one edge of every cell in the end rows";
     EXPECT_TRUE(within("overlaps with the platens, m", worst, 0.0, 1e-12));
     const TestSetup& setup = test.setup;
-    fmt::print("  {} bonds, mean back-tension {:.4g} N a pair of elements\n", setup.bonds.size(),
-               setup.mean_back_tension);
-    EXPECT_EQ(static_cast<std::int64_t>(setup.bonds.size()), test.world.bonds.initial);
+    fmt::print("  {} bonds, mean back-tension {:.4g} N a pair of elements\n", setup.bonds.points.size(),
+               setup.bonds.mean_back_tension);
+    EXPECT_EQ(static_cast<std::int64_t>(setup.bonds.points.size()), test.world.bonds.initial);
 }
 
 }  // namespace

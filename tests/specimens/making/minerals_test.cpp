@@ -115,8 +115,8 @@ TEST_F(MineralRock, HasWhatItsTableGivesAndTheRestOfMaterial) {
 
 TEST_F(MineralRock, PlatensAreOfMaterialWhateverGrainsLieAtThem) {
     const VirtualTest test = prepare_test(read_case(write(three_minerals)));
-    EXPECT_EQ(test.world.bodies.info(test.setup.top).material, 3);
-    EXPECT_EQ(test.world.bodies.info(test.setup.bottom).material, 3);
+    EXPECT_EQ(test.world.bodies.info(test.setup.apparatus.top).material, 3);
+    EXPECT_EQ(test.world.bodies.info(test.setup.apparatus.bottom).material, 3);
 }
 
 TEST_F(MineralRock, EveryNumberOfMaterialIsAKeyOfAMineral) {
@@ -519,7 +519,7 @@ class LayeredColumn : public MineralRock {
         const auto series = [](double a, double b) { return 2.0 / (1.0 / a + 1.0 / b); };
         const double compliance = 1.0 / series(rock, quartz) + (below - 1) / quartz + 1.0 / between +
                                   (rows - below - 1) / feldspar + 1.0 / series(feldspar, rock);
-        return columns / compliance * setup.height / setup.width;
+        return columns / compliance * setup.specimen.height / setup.specimen.width;
     }
 };
 

@@ -41,20 +41,20 @@ TEST_F(CrackedRock, HasACrackForEachBrokenBondBetweenParticlesByKindAndTime) {
         ContactHistory history;
         double lengths = 0.0;
         std::size_t between_particles = 0;
-        for (PointIndex bond = 0; bond < test.setup.bonds.size(); ++bond) {
+        for (PointIndex bond = 0; bond < test.setup.bonds.points.size(); ++bond) {
             Crack crack;
             crack.bond = bond;
             crack.time = static_cast<double>(bond);
             crack.shear_mode = bond % 3 == 0;
             crack.orientation = -0.5 * std::numbers::pi + 0.2;  // of the normal: the crack at 0.2 rad
             history.cracks.push_back(crack);
-            const ContactPoint point = test.setup.bonds[bond];
-            if (test.setup.is_platen(point.body_i) || test.setup.is_platen(point.body_j)) continue;
+            const ContactPoint point = test.setup.bonds.points[bond];
+            if (test.setup.apparatus.is_platen(point.body_i) || test.setup.apparatus.is_platen(point.body_j)) continue;
             lengths += length_of_face(test.world, test.setup, bond);
             ++between_particles;
         }
-        ASSERT_LT(between_particles, test.setup.bonds.size()) << "platens have bonds, too";
-        const double peak = 0.5 * static_cast<double>(test.setup.bonds.size());
+        ASSERT_LT(between_particles, test.setup.bonds.points.size()) << "platens have bonds, too";
+        const double peak = 0.5 * static_cast<double>(test.setup.bonds.points.size());
         const CrackRoses roses = find_crack_roses(test.world, test.setup, history, peak);
         double length = 0.0;
         std::size_t count = 0;
@@ -82,16 +82,16 @@ TEST_F(CrackedRock, HasFragmentsOfTheSizesOfItsParts) {
     compute_forces(test.world);
     look_at_contacts(test.world, test.state.history);
     Frame frame;
-    take_frame(test.world, test.setup, test.state.history, CurveRow{}, 0, frame);
+    take_frame(test.world, test.setup.bonds, test.state.history, CurveRow{}, 0, frame);
     FragmentSizes whole = measure_fragments(test.world, test.setup, frame);
     EXPECT_EQ(whole.count, 1);
     EXPECT_TRUE(std::isnan(whole.law.size));
     const double disc = std::numbers::pi * testing::rock_radius * testing::rock_radius;
-    const double area = disc * static_cast<double>(test.setup.particles);
+    const double area = disc * static_cast<double>(test.setup.specimen.particles);
     EXPECT_TRUE(agrees("D50 of one fragment, m", whole.median_size, std::sqrt(4.0 * area / std::numbers::pi), 1e-12));
     std::ranges::fill(frame.states, ContactState::broken);
     const FragmentSizes dust = measure_fragments(test.world, test.setup, frame);
-    EXPECT_EQ(dust.count, test.setup.particles);
+    EXPECT_EQ(dust.count, test.setup.specimen.particles);
     EXPECT_TRUE(agrees("D50 of dust, m", dust.median_size, 2.0 * testing::rock_radius, 1e-12));
     EXPECT_EQ(dust.law.pieces, 0u) << "dust is no fragment of the law";
 }

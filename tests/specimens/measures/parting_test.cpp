@@ -13,17 +13,17 @@ namespace {
 /// one's.
 TestSetup chain(double grip) {
     TestSetup setup;
-    setup.height = 1.0;
-    setup.low_end = 2.0;
-    setup.grip = grip;
-    setup.bottom = 10;
-    setup.top = 11;
-    setup.parts = {{10, 2}, {11, 2}};
-    for (int k = 0; k < 10; ++k) setup.start.push_back({0.0, 2.05 + 0.1 * k, 0.0});
-    setup.start.push_back({0.0, 1.9, 0.0});
-    setup.start.push_back({0.0, 3.1, 0.0});
+    setup.specimen.height = 1.0;
+    setup.specimen.low_end = 2.0;
+    setup.bonds.grip = grip;
+    setup.apparatus.bottom = 10;
+    setup.apparatus.top = 11;
+    setup.apparatus.parts = {{10, 2}, {11, 2}};
+    for (int k = 0; k < 10; ++k) setup.bonds.start.push_back({0.0, 2.05 + 0.1 * k, 0.0});
+    setup.bonds.start.push_back({0.0, 1.9, 0.0});
+    setup.bonds.start.push_back({0.0, 3.1, 0.0});
     const auto bond = [&](BodyIndex i, BodyIndex j) {
-        setup.bonds.push_back(PointKind::circle_circle, {i, j, own_circle, own_circle});
+        setup.bonds.points.push_back(PointKind::circle_circle, {i, j, own_circle, own_circle});
     };
     for (BodyIndex k = 0; k < 9; ++k) bond(k, k + 1);
     bond(0, 10);

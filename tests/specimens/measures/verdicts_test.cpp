@@ -22,30 +22,30 @@ using testing::within;
 class Cracked {
   public:
     Cracked(LoadingKind kind, int columns, int rows) : columns_(columns) {
-        setup.kind = kind;
-        setup.uniaxial = kind == LoadingKind::compression || kind == LoadingKind::tension;
-        setup.compression = kind != LoadingKind::tension && kind != LoadingKind::direct_shear;
-        setup.width = columns;
-        setup.height = rows;
-        setup.area = columns * rows;
-        setup.particles = static_cast<std::int64_t>(columns) * rows;
-        setup.middle = 0.5 * (columns - 1);
-        setup.middle_height = 0.5 * (rows - 1);
+        setup.apparatus.kind = kind;
+        setup.apparatus.uniaxial = kind == LoadingKind::compression || kind == LoadingKind::tension;
+        setup.apparatus.compression = kind != LoadingKind::tension && kind != LoadingKind::direct_shear;
+        setup.specimen.width = columns;
+        setup.specimen.height = rows;
+        setup.specimen.area = columns * rows;
+        setup.specimen.particles = static_cast<std::int64_t>(columns) * rows;
+        setup.specimen.middle = 0.5 * (columns - 1);
+        setup.specimen.middle_height = 0.5 * (rows - 1);
         for (int row = 0; row < rows; ++row)
             for (int column = 0; column < columns; ++column)
-                setup.start.push_back({static_cast<double>(column), static_cast<double>(row), 0.0});
-        setup.bottom = static_cast<BodyIndex>(setup.start.size());
-        setup.top = setup.bottom + 1;
-        setup.start.resize(setup.start.size() + 2);
-        setup.parts = {{setup.bottom, 2}, {setup.top, 2}};
+                setup.bonds.start.push_back({static_cast<double>(column), static_cast<double>(row), 0.0});
+        setup.apparatus.bottom = static_cast<BodyIndex>(setup.bonds.start.size());
+        setup.apparatus.top = setup.apparatus.bottom + 1;
+        setup.bonds.start.resize(setup.bonds.start.size() + 2);
+        setup.apparatus.parts = {{setup.apparatus.bottom, 2}, {setup.apparatus.top, 2}};
     }
     BodyIndex at(int column, int row) const { return static_cast<BodyIndex>(row * columns_ + column); }
     void break_between(BodyIndex a, BodyIndex b, double time = 1.0, double energy = 1.0) {
-        setup.bonds.push_back(PointKind::circle_circle, ContactPoint{a, b, 0, 0});
+        setup.bonds.points.push_back(PointKind::circle_circle, ContactPoint{a, b, 0, 0});
         Crack crack;
         crack.time = time;
         crack.energy = energy;
-        crack.bond = static_cast<PointIndex>(setup.bonds.size() - 1);
+        crack.bond = static_cast<PointIndex>(setup.bonds.points.size() - 1);
         history.cracks.push_back(crack);
     }
     /// Breaks a column from its right neighbour, zigzagging so that breaks share particles.
@@ -142,7 +142,7 @@ TEST(Verdicts, ACrackSpansHalfOfWhatTheNotchHasLeft) {
     Cracked beam(LoadingKind::bending, 81, 21);
     beam.split(40, 12, 18);  // 6 of a height of 21
     EXPECT_EQ(beam.verdicts()[0].holds, false) << beam.verdicts()[0].found;
-    beam.setup.notch = 11.0;  // of the 10 left
+    beam.setup.specimen.notch = 11.0;  // of the 10 left
     EXPECT_EQ(beam.verdicts()[0].holds, true) << beam.verdicts()[0].found;
 }
 
@@ -157,7 +157,7 @@ TEST(Verdicts, BoxShearsAlongItsGapOrNot) {
 TEST(Verdicts, SpecimenBetweenPlatensIsWideEnoughAndPartsInTheMiddleOrNot) {
     Cracked good(LoadingKind::tension, 20, 40), bad(LoadingKind::tension, 10, 40);
     good.break_between(good.at(5, 20), good.at(5, 21));
-    bad.break_between(bad.at(5, 0), bad.setup.bottom);
+    bad.break_between(bad.at(5, 0), bad.setup.apparatus.bottom);
     for (const Verdict& verdict : good.verdicts())
         EXPECT_EQ(verdict.holds, true) << verdict.claim << ": " << verdict.found;
     for (const Verdict& verdict : bad.verdicts())

@@ -40,13 +40,13 @@ class PastOfRock : public ::testing::Test {
     static void note_breaks(VirtualTest& test) {
         ContactHistory& history = test.state.history;
         while (history.cracks.size() < test.world.bonds.events.size())
-            note_break(test.setup, test.world.bonds.events[history.cracks.size()], history);
+            note_break(test.setup.bonds, test.world.bonds.events[history.cracks.size()], history);
     }
     static Frame taken(VirtualTest& test) {
         note_breaks(test);
         look_at_contacts(test.world, test.state.history);
         Frame frame;
-        take_frame(test.world, test.setup, test.state.history, observe_row(test.world, test.setup), 0, frame);
+        take_frame(test.world, test.setup.bonds, test.state.history, observe_row(test.world, test.setup), 0, frame);
         return frame;
     }
     PolyData contacts(const VirtualTest& test, const Frame& frame) const {
@@ -79,8 +79,9 @@ class WanderingDisc {
     explicit WanderingDisc(VirtualTest& test) : test_(test) {
         for (BodyIndex b = 0; b < test.world.bodies.size(); ++b) {
             const BodyState& body = test.world.bodies.state[b];
-            if (test.setup.is_platen(b)) continue;
-            if (std::abs(body.y - 0.5 * test.setup.height) < std::abs(at(disc_).y - 0.5 * test.setup.height) + 1e-9 &&
+            if (test.setup.apparatus.is_platen(b)) continue;
+            if (std::abs(body.y - 0.5 * test.setup.specimen.height) <
+                    std::abs(at(disc_).y - 0.5 * test.setup.specimen.height) + 1e-9 &&
                 body.x < at(disc_).x + 1e-9)
                 disc_ = b;
         }
@@ -108,14 +109,14 @@ TEST_F(PastOfRock, AContactHasStateAndAgeThroughBreakAndTouchingAgain) {
     VirtualTest test = prepared({});
     WanderingDisc disc(test);
     std::vector<std::size_t> own;  // bonds of the disc
-    for (std::size_t k = 0; k < test.setup.bonds.size(); ++k) {
-        const ContactPoint point = test.setup.bonds[k];
+    for (std::size_t k = 0; k < test.setup.bonds.points.size(); ++k) {
+        const ContactPoint point = test.setup.bonds.points[k];
         if (point.body_i == disc.disc() || point.body_j == disc.disc()) own.push_back(k);
     }
     ASSERT_GE(own.size(), 2U);
     const auto look = [&] { return contacts(test, taken(test)).cell_data; };
     const auto expect = [&](const char* when, const auto& data, double state, double age) {
-        for (std::size_t k = 0; k < test.setup.bonds.size(); ++k) {
+        for (std::size_t k = 0; k < test.setup.bonds.points.size(); ++k) {
             const bool its = std::find(own.begin(), own.end(), k) != own.end();
             EXPECT_EQ(data.at("state")[k], its ? state : 0.0) << when << ", bond " << k;
             EXPECT_EQ(data.at("age")[k], its ? age : test.world.stepping.time) << when << ", bond " << k;
@@ -134,10 +135,10 @@ TEST_F(PastOfRock, AContactHasStateAndAgeThroughBreakAndTouchingAgain) {
     disc.put(disc.home(), 2.0);
     const auto again = look();
     expect("touching again", again, 3.0, 1.0);
-    EXPECT_EQ(again.at("state").size(), test.setup.bonds.size()) << "not listed again as a contact";
+    EXPECT_EQ(again.at("state").size(), test.setup.bonds.points.size()) << "not listed again as a contact";
     for (const std::size_t k : own) {
         EXPECT_TRUE(agrees("its force, of the whole overlap, N", again.at("normal_force")[k],
-                           1e7 * test.setup.bond_overlaps[k], 1e-6));
+                           1e7 * test.setup.bonds.overlaps[k], 1e-6));
     }
     disc.put(away, 2.5);
     expect("and off", look(), 2.0, 1.5);
@@ -151,7 +152,7 @@ TEST_F(PastOfRock, AContactWithoutABondIsAsOldAsTheLookThatSawItFirst) {
     for (BodyIndex b = 0; b < test.world.bodies.size(); ++b) {
         const BodyState& body = test.world.bodies.state[b];
         const double up = body.y - disc.home().y;
-        if (!test.setup.is_platen(b) && up > 2.5 * testing::rock_radius && up < 4.5 * testing::rock_radius &&
+        if (!test.setup.apparatus.is_platen(b) && up > 2.5 * testing::rock_radius && up < 4.5 * testing::rock_radius &&
             std::abs(body.x - disc.home().x) < 0.5 * testing::rock_radius)
             other = b;
     }
@@ -159,7 +160,7 @@ TEST_F(PastOfRock, AContactWithoutABondIsAsOldAsTheLookThatSawItFirst) {
     const BodyState& partner = test.world.bodies.state[other];
     const double overlap = 1e-5;
     const Vec2 beside{partner.x - 2.0 * testing::rock_radius + overlap, partner.y};
-    const std::size_t bonds = test.setup.bonds.size();
+    const std::size_t bonds = test.setup.bonds.points.size();
     const auto expect_age = [&](double age) {
         const PolyData data = contacts(test, taken(test));
         ASSERT_EQ(data.cells.size(), bonds + 1);
@@ -221,7 +222,7 @@ TEST_F(PastOfRock, CracksAreTheEvents) {
 /// Normal of a bond whose points have not moved yet, from i to j.
 Vec2 normal_at_start(const VirtualTest& test, PointIndex bond) {
     for (PointIndex k = 0; k < test.world.points.size(); ++k) {
-        const ContactPoint point = test.world.points.contact[k], wanted = test.setup.bonds[bond];
+        const ContactPoint point = test.world.points.contact[k], wanted = test.setup.bonds.points[bond];
         if (point.body_i == wanted.body_i && point.body_j == wanted.body_j && point.element_i == wanted.element_i)
             return view_point(test.world, k).normal;
     }
@@ -236,10 +237,10 @@ TEST_F(PastOfRock, OpeningIsTheMotionApartLessTheOverlapThatBonded) {
         VirtualTest test = prepared(wanted);
         const Frame start = taken(test);
         double worst = 0.0, turned_off = 0.0;
-        for (PointIndex bond = 0; bond < test.setup.bonds.size(); ++bond) {
-            const ContactPoint point = test.setup.bonds[bond];
+        for (PointIndex bond = 0; bond < test.setup.bonds.points.size(); ++bond) {
+            const ContactPoint point = test.setup.bonds.points[bond];
             const CrackFace closed = find_crack_face(PlacedFrame(test.world, test.setup, start), bond);
-            worst = std::max(worst, std::abs(closed.opening + test.setup.bond_overlaps[bond]));
+            worst = std::max(worst, std::abs(closed.opening + test.setup.bonds.overlaps[bond]));
             const Vec2 normal = normal_at_start(test, bond);
             Frame frame = start;
             const double way = 1e-3;
@@ -267,7 +268,7 @@ TEST_F(PastOfRock, OpeningIsTheMotionApartLessTheOverlapThatBonded) {
 TEST_F(PastOfRock, SharesOfAFaceMakeUpTheFaceAndCirclesHaveTheirDiameter) {
     VirtualTest discs = prepared({});
     const Frame of_discs = taken(discs);
-    for (PointIndex bond = 0; bond < discs.setup.bonds.size(); ++bond) {
+    for (PointIndex bond = 0; bond < discs.setup.bonds.points.size(); ++bond) {
         const CrackFace face = find_crack_face(PlacedFrame(discs.world, discs.setup, of_discs), bond);
         EXPECT_NEAR(norm(face.end - face.begin), 2.0 * testing::rock_radius, 1e-12);
     }
@@ -279,8 +280,8 @@ TEST_F(PastOfRock, SharesOfAFaceMakeUpTheFaceAndCirclesHaveTheirDiameter) {
         const Frame frame = taken(test);
         const PlacedFrame placed(test.world, test.setup, frame);
         std::map<std::pair<BodyIndex, BodyIndex>, double> faces;  // m, of all shares
-        for (PointIndex bond = 0; bond < test.setup.bonds.size(); ++bond) {
-            const ContactPoint point = test.setup.bonds[bond];
+        for (PointIndex bond = 0; bond < test.setup.bonds.points.size(); ++bond) {
+            const ContactPoint point = test.setup.bonds.points[bond];
             const CrackFace face = find_crack_face(placed, bond);
             faces[std::minmax(point.body_i, point.body_j)] += norm(face.end - face.begin);
         }
@@ -288,8 +289,8 @@ TEST_F(PastOfRock, SharesOfAFaceMakeUpTheFaceAndCirclesHaveTheirDiameter) {
         double worst = 0.0;
         int compared = 0;
         for (const auto& [pair, length] : faces) {
-            if (test.setup.is_platen(pair.first) || test.setup.is_platen(pair.second)) continue;
-            const Vec2 to{test.setup.start[pair.second].x, test.setup.start[pair.second].y};
+            if (test.setup.apparatus.is_platen(pair.first) || test.setup.apparatus.is_platen(pair.second)) continue;
+            const Vec2 to{test.setup.bonds.start[pair.second].x, test.setup.bonds.start[pair.second].y};
             const std::vector<Vec2> corners = element_positions(test.world, pair.first);
             double facing = 0.0, nearest = 1e9;
             for (std::size_t k = 0; k < corners.size(); ++k) {

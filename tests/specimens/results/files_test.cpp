@@ -571,6 +571,17 @@ TEST_F(TestFolder, OfStagedResultsGoesOnceNothingIsKeptInIt) {
     EXPECT_FALSE(is_there(staged));
 }
 
+TEST_F(TestFolder, TablesThatTheNewTestLacksGoWithTheOldResults) {
+    fs::create_directories(scratch_ / "out");
+    for (const char* name : {"curve.csv", "slips.csv", "ae.csv"}) std::ofstream(scratch_ / "out" / name) << "1\n2\n";
+    std::ofstream(scratch_ / "out/case.toml") << resolved_case_mark;
+    OutputFolder folder = OutputFolder::create(scratch_ / "out", Earlier::replaced, {});
+    for (const char* name : {"case.toml", "curve.csv"}) folder.write(name, "new");
+    folder.finish();
+    EXPECT_EQ(read_file(scratch_ / "out/curve.csv"), "new");
+    for (const char* name : {"slips.csv", "ae.csv"}) EXPECT_FALSE(is_there(scratch_ / "out" / name)) << name;
+}
+
 TEST_F(TestFolder, FullDiscIsOneErrorThatNamesTheFile) {
     const OutputFolder folder = OutputFolder::create(scratch_ / "out", Earlier::refused, {});
     std::string message;

@@ -124,14 +124,14 @@ void put_peak(VirtualTest& test) {
 TEST_F(SummaryFigures, OfANotchedBeamAreByHand) {
     VirtualTest test = prepared();
     put_peak(test);
-    test.setup.kind = LoadingKind::bending;
-    test.setup.uniaxial = false;
-    test.setup.notch = 0.05;
-    test.setup.area = 0.04;
-    test.setup.particles = 100;  // 0.02 m each
-    test.setup.stress_intensity = 0.5;
-    test.setup.section = 0.25;
-    test.setup.length = 0.8;
+    test.setup.apparatus.kind = LoadingKind::bending;
+    test.setup.apparatus.uniaxial = false;
+    test.setup.specimen.notch = 0.05;
+    test.setup.specimen.area = 0.04;
+    test.setup.specimen.particles = 100;  // 0.02 m each
+    test.setup.apparatus.stress_intensity = 0.5;
+    test.setup.apparatus.section = 0.25;
+    test.setup.apparatus.length = 0.8;
     test.state.youngs_modulus = 4e9;
     const Json summary = summary_of(test);
     EXPECT_EQ(summary["notch"], 0.05);
@@ -151,12 +151,12 @@ TEST_F(SummaryFigures, OfASprungShearBoxAreByHand) {
     put_peak(test);
     test.state.rows.push_back(test.state.rows[1]);
     test.state.rows[2].lateral_strain = 5e-4;
-    test.setup.kind = LoadingKind::direct_shear;
-    test.setup.uniaxial = false;
-    test.setup.normal_force = 2e5;
-    test.setup.normal_spring = 1e9;
-    test.setup.width = 0.5;
-    test.setup.height = 0.2;
+    test.setup.apparatus.kind = LoadingKind::direct_shear;
+    test.setup.apparatus.uniaxial = false;
+    test.setup.apparatus.normal_force = 2e5;
+    test.setup.apparatus.normal_spring = 1e9;
+    test.setup.specimen.width = 0.5;
+    test.setup.specimen.height = 0.2;
     const Json summary = summary_of(test);
     EXPECT_TRUE(agrees("normal stress", summary["normal_stress"], 4e5, 1e-12));
     EXPECT_TRUE(agrees("at the peak so far", summary["normal_stress_at_peak_so_far"], (2e5 + 1e9 * 4e-5) / 0.5, 1e-12));
@@ -194,7 +194,7 @@ TEST_F(SummaryFigures, OfAMembraneAreTheMembranes) {
 
 TEST_F(SummaryFigures, OfTheRunAreThoseOfItsClocksAndItsWorld) {
     VirtualTest test = prepared();
-    test.setup.particles = 300;
+    test.setup.specimen.particles = 300;
     test.world.stepping.steps = 5000;
     test.world.list.builds = 17;
     TestTiming timing;
@@ -252,9 +252,9 @@ TEST_F(SummaryFigures, HaveTheirUnitsBesideThem) {
 // A specimen of 2 m by 1 m: 50 particles are 0.2 m each, 10 across; 800 are 0.05 m each, 40 across.
 TEST_F(SummaryFigures, OfValidityAreTheClaimsOfTheKind) {
     VirtualTest test = prepared();
-    test.setup.width = 2.0;
-    test.setup.height = 1.0;
-    test.setup.particles = 50;
+    test.setup.specimen.width = 2.0;
+    test.setup.specimen.height = 1.0;
+    test.setup.specimen.particles = 50;
     const Json narrow = summary_of(test);
     ASSERT_EQ(narrow["validity"].size(), 2U);
     EXPECT_EQ(narrow["validity"][0]["claim"], "the specimen is at least 20 particles wide");
@@ -264,7 +264,7 @@ TEST_F(SummaryFigures, OfValidityAreTheClaimsOfTheKind) {
     EXPECT_TRUE(narrow["validity"][1]["holds"].is_null()) << narrow["validity"][1];
     EXPECT_EQ(narrow["validity"][1]["found"], "no bond has broken");
     EXPECT_EQ(narrow["valid"], false) << "whatever is not known yet";
-    test.setup.particles = 800;
+    test.setup.specimen.particles = 800;
     const Json wide = summary_of(test);
     EXPECT_EQ(wide["validity"][0]["holds"], true);
     EXPECT_EQ(wide["validity"][0]["found"], "40 particles");
@@ -274,7 +274,7 @@ TEST_F(SummaryFigures, OfValidityAreTheClaimsOfTheKind) {
 TEST_F(SummaryFigures, OfAProfileAreItsClocks) {
     Profile clocks;
     VirtualTest test = prepared();
-    test.setup.particles = 100;
+    test.setup.specimen.particles = 100;
     test.world.stepping.steps = 50;
     TestTiming timing;
     timing.step_seconds = 10.25;

@@ -178,19 +178,19 @@ TEST_F(ByTolerance, RuleHoldsTheSpecimensOwnScales) {
         const VirtualTest test = prepare_test(by_tolerance(mesh, 0.01));
         const RateRule& rule = test.setup.rate_rule;
         const double modulus = test.small_strain->moduli.youngs_modulus, strain = test.small_strain->yield_strain;
-        const double area = test.setup.width * test.setup.height;
+        const double area = test.setup.specimen.width * test.setup.specimen.height;
         double mass = 0.0, kinetic = 0.0;
         for (BodyIndex b = 0; b < test.world.bodies.size(); ++b) {
             const BodyState& body = test.world.bodies.state[b];
             const double own = test.world.bodies.inertia[b].mass;
-            if (!test.setup.is_platen(b)) mass += own;
+            if (!test.setup.apparatus.is_platen(b)) mass += own;
             kinetic += 0.5 * (own * (body.vx * body.vx + body.vy * body.vy) +
                               test.world.bodies.info(b).moment * body.omega * body.omega);
         }
         EXPECT_EQ(rule.tolerance, 0.01);
         EXPECT_EQ(rule.first_strain, strain);
-        EXPECT_TRUE(
-            agrees("transit time, s", rule.transit_time, test.setup.height * std::sqrt(mass / area / modulus), 1e-12));
+        EXPECT_TRUE(agrees("transit time, s", rule.transit_time,
+                           test.setup.specimen.height * std::sqrt(mass / area / modulus), 1e-12));
         EXPECT_TRUE(agrees("stress at the first strain, N/m", rule.stress_floor, modulus * strain, 1e-12));
         EXPECT_TRUE(agrees("energy stored at it, J", rule.energy_floor, modulus * strain * strain * area / 2.0, 1e-12));
         const double rate = test.state.rate.rate;

@@ -37,9 +37,9 @@ Scene tall_lattice(const Material& material) {
 
 /// Axial strain between the ends of the middle half of the height, by where discs of the left side are and were.
 double strain_of_middle(const TestSetup& setup, const std::vector<double>& rise) {
-    const auto by_height = [&](BodyIndex a, BodyIndex b) { return setup.start[a].y < setup.start[b].y; };
-    const auto [low, high] = std::ranges::minmax_element(setup.left, by_height);
-    return (rise[*high] - rise[*low]) / (setup.start[*high].y - setup.start[*low].y);
+    const auto by_height = [&](BodyIndex a, BodyIndex b) { return setup.bonds.start[a].y < setup.bonds.start[b].y; };
+    const auto [low, high] = std::ranges::minmax_element(setup.gauges.left, by_height);
+    return (rise[*high] - rise[*low]) / (setup.bonds.start[*high].y - setup.bonds.start[*low].y);
 }
 
 TEST(Gauge, GivesThePoissonsRatioOfATriangularLattice) {
@@ -72,7 +72,8 @@ TEST(Gauge, GivesThePoissonsRatioOfATriangularLattice) {
         EXPECT_TRUE(testing::within(fmt::format("ks/kn = {}: of the solve", share),
                                     moduli.poissons_ratio / strain_of_middle(test.setup, rise), expected, 1e-3));
         load_specimen(test);
-        for (std::size_t b = 0; b < rise.size(); ++b) rise[b] = test.setup.start[b].y - test.world.bodies.state[b].y;
+        for (std::size_t b = 0; b < rise.size(); ++b)
+            rise[b] = test.setup.bonds.start[b].y - test.world.bodies.state[b].y;
         const CurveRow &first = test.state.rows.front(), &last = test.state.rows.back();
         EXPECT_TRUE(testing::within(fmt::format("ks/kn = {}: of the run", share),
                                     (last.lateral_strain - first.lateral_strain) / strain_of_middle(test.setup, rise),
@@ -83,25 +84,25 @@ TEST(Gauge, GivesThePoissonsRatioOfATriangularLattice) {
 TEST(Setup, CountsContactsThatTouchAndBondsApart) {
     const testing::ScratchFolder scratch;
     VirtualTest test = prepare_test(read_case(testing::write_small_case(scratch / "", {})));
-    const auto bonds = static_cast<std::int64_t>(test.setup.bonds.size());
-    EXPECT_EQ(test.setup.contacts_initial, bonds);
+    const auto bonds = static_cast<std::int64_t>(test.setup.bonds.points.size());
+    EXPECT_EQ(test.setup.bonds.contacts_initial, bonds);
     for (PointIndex k = 0, loosened = 0; k < test.world.points.size() && loosened < 3; ++k) {
         if ((test.world.points.state[k].flags & point_bonded) == 0) continue;
         test.world.points.state[k].flags &= static_cast<std::uint16_t>(~point_bonded);
         ++loosened;
     }
     Platens platens;
-    platens.bottom_id = test.setup.bottom_id;
-    platens.top_id = test.setup.top_id;
+    platens.bottom_id = test.setup.apparatus.bottom_id;
+    platens.top_id = test.setup.apparatus.top_id;
     const TestSetup again = record_setup(test.world, Specimen{}, platens, LoadingKind::tension, 0.0);
-    EXPECT_EQ(again.contacts_initial, bonds);
-    EXPECT_EQ(static_cast<std::int64_t>(again.bonds.size()), bonds - 3);
+    EXPECT_EQ(again.bonds.contacts_initial, bonds);
+    EXPECT_EQ(static_cast<std::int64_t>(again.bonds.points.size()), bonds - 3);
 }
 
 TEST(CurveRow, CountsSlidingPointsThatCarryMoreThanRounding) {
     const testing::ScratchFolder scratch;
     VirtualTest test = prepare_test(read_case(testing::write_small_case(scratch / "", {})));
-    const double tension = test.setup.mean_back_tension;
+    const double tension = test.setup.bonds.mean_back_tension;
     const std::vector<double> shear{0.9e-9 * tension, 1.1e-9 * tension, -1.1e-9 * tension, 0.5 * tension};
     const std::int64_t before = observe_row(test.world, test.setup).points_sliding;
     EXPECT_EQ(before, 0);

@@ -91,8 +91,8 @@ std::vector<ClaimRow> intact_test_has_the_moduli_of_the_sparse_solve() {
             const std::string name = fmt::format("{} in {}", meshed ? "Voronoi cells" : "circles", name_of(kind));
             rows.relative(name + ": E, N/m", (last.axial_stress - half.axial_stress) / strain,
                           test.state.youngs_modulus, 5e-3, "reference");
-            rows.relative(name + ": ν", test.setup.compression ? lateral : -lateral, test.state.poissons_ratio, 1e-2,
-                          "a difference");
+            rows.relative(name + ": ν", test.setup.apparatus.compression ? lateral : -lateral,
+                          test.state.poissons_ratio, 1e-2, "a difference");
         }
     }
     return rows.take();
@@ -212,8 +212,9 @@ double affine_modulus(const VirtualTest& test) {
     const World& world = test.world;
     const auto face = [&](BodyIndex platen) { return element_positions(world, platen)[0].y; };
     const auto place = [&](BodyIndex b) {
-        if (test.setup.is_platen(b)) return Vec2{0.0, face(b)};
-        return Vec2{world.bodies.state[b].x - world.bodies.state[test.setup.bottom].x, world.bodies.state[b].y};
+        if (test.setup.apparatus.is_platen(b)) return Vec2{0.0, face(b)};
+        return Vec2{world.bodies.state[b].x - world.bodies.state[test.setup.apparatus.bottom].x,
+                    world.bodies.state[b].y};
     };
     double aa = 0.0, ae = 0.0, ee = 0.0;  // energy ½(aa a² + 2 ae aε + ee ε²)
     for (PointIndex k = 0; k < world.points.size(); ++k) {
@@ -229,9 +230,10 @@ double affine_modulus(const VirtualTest& test) {
         add(view.normal_stiffness, view.normal);
         add(view.shear_stiffness, tangent);
     }
-    const double twice_energy = ee - ae * ae / aa, rise = face(test.setup.top) - face(test.setup.bottom);
+    const double twice_energy = ee - ae * ae / aa,
+                 rise = face(test.setup.apparatus.top) - face(test.setup.apparatus.bottom);
     // Energy ½ R D with R = E W D/H.
-    return twice_energy * test.setup.height / (test.setup.width * rise * rise);
+    return twice_energy * test.setup.specimen.height / (test.setup.specimen.width * rise * rise);
 }
 
 /// The affine modulus of an isotropic fabric in the bulk: M k_n(k_n+k_s)/(3k_n+k_s), M = Σl²/A over bonds of discs.
@@ -244,7 +246,7 @@ double isotropic_modulus(const VirtualTest& test) {
         sum += (i.x - j.x) * (i.x - j.x) + (i.y - j.y) * (i.y - j.y);
         kn = view.normal_stiffness, ks = view.shear_stiffness;
     }
-    return sum / (test.setup.width * test.setup.height) * kn * (kn + ks) / (3.0 * kn + ks);
+    return sum / (test.setup.specimen.width * test.setup.specimen.height) * kn * (kn + ks) / (3.0 * kn + ks);
 }
 
 std::vector<ClaimRow> modulus_lies_below_the_affine_bound() {

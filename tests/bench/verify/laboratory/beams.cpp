@@ -32,8 +32,8 @@ std::vector<ClaimRow> beam_bends_as_the_theory_of_elasticity_has_it() {
                                .rows = rows,
                                .loading = bending(fmt::format("span = {}\npad_width = {}\n", span, pad))};
         const VirtualTest test = beam.bonded();
-        const double depth = rows * row_height, ratio = depth / test.setup.span;
-        const double expected = beam.modulus() * std::pow(depth / test.setup.height, 3.0) /
+        const double depth = rows * row_height, ratio = depth / test.setup.apparatus.span;
+        const double expected = beam.modulus() * std::pow(depth / test.setup.specimen.height, 3.0) /
                                 (1.0 + 2.85 * ratio * ratio - 0.84 * ratio * ratio * ratio);
         return test.small_strain->moduli.youngs_modulus / expected;
     };
@@ -62,8 +62,8 @@ NotchedBeam notched_beam(const LatticeCase& lattice, int cut) {
         ++of_pair[std::minmax(spring.i, spring.j)];
     int most = 0;
     for (const auto& [pair, count] : of_pair) most = std::max(most, count);
-    const double load = test.small_strain->moduli.youngs_modulus * setup.section;  // of a strain of 1
-    return {setup.length / load, setup.stress_intensity / setup.section, 0.5 * most};
+    const double load = test.small_strain->moduli.youngs_modulus * setup.apparatus.section;  // of a strain of 1
+    return {setup.apparatus.length / load, setup.apparatus.stress_intensity / setup.apparatus.section, 0.5 * most};
 }
 
 std::vector<ClaimRow> notched_beam_sets_free_the_energy_of_its_stress_intensity() {

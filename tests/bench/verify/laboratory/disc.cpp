@@ -30,7 +30,7 @@ double weight(double distance) {
 double stress_across(const VirtualTest& test, const std::vector<BodyMotion>& displacement) {
     const World& world = test.world;
     // Between discs, not through a row of centres.
-    const double at = test.setup.middle + 0.1 * LatticeCase::spacing, half = 0.5 * test.setup.width;
+    const double at = test.setup.specimen.middle + 0.1 * LatticeCase::spacing, half = 0.5 * test.setup.specimen.width;
     double force = 0.0;
     for (const Spring& spring : springs_of(world, ClosedPoints::bonded)) {
         const BodyState &a = world.bodies.state[spring.i], &b = world.bodies.state[spring.j];
@@ -38,7 +38,7 @@ double stress_across(const VirtualTest& test, const std::vector<BodyMotion>& dis
         const double y = a.y + (at - a.x) / (b.x - a.x) * (b.y - a.y);
         const double pull = spring.stiffness * times(spring, spring.gradient, displacement) * spring.push[0];
         // What the left one pulls with, along -x.
-        force += weight((y - test.setup.middle_height) / (reach * half)) * (a.x < at ? pull : -pull);
+        force += weight((y - test.setup.specimen.middle_height) / (reach * half)) * (a.x < at ? pull : -pull);
     }
     return -force / (reach * half);
 }
@@ -61,7 +61,7 @@ BodyIndex nearest_body(const VirtualTest& test, Vec2 place) {
     for (BodyIndex b = 0; b < test.world.bodies.size(); ++b) {
         const BodyState& body = test.world.bodies.state[b];
         const double away = std::hypot(body.x - place.x, body.y - place.y);
-        if (test.setup.is_platen(b) || away >= least) continue;
+        if (test.setup.apparatus.is_platen(b) || away >= least) continue;
         least = away;
         nearest = b;
     }
@@ -81,8 +81,8 @@ VirtualTest disc(const std::string& jaws) {
 
 std::vector<ClaimRow> disc_under_even_pressure_has_hondros_stress() {
     const VirtualTest test = disc("platens = \"frictional\"\nplaten_friction_angle = 0\n");
-    const double half = 0.5 * test.setup.width;
-    const Vec2 centre{test.setup.middle, test.setup.middle_height};
+    const double half = 0.5 * test.setup.specimen.width;
+    const Vec2 centre{test.setup.specimen.middle, test.setup.specimen.middle_height};
     std::vector<BodyMotion> loads(test.world.bodies.size());
     for (const double side : {1.0, -1.0}) {
         for (int k = 0; k < parts; ++k) {
@@ -108,8 +108,9 @@ std::vector<ClaimRow> disc_under_even_pressure_has_hondros_stress() {
 
 std::vector<ClaimRow> glued_arcs_stretch_the_centre_less() {
     const VirtualTest test = disc("");
-    const double half = 0.5 * test.setup.width;
-    const double force = test.small_strain->moduli.youngs_modulus * test.setup.section;  // of a strain of 1, N
+    const double half = 0.5 * test.setup.specimen.width;
+    const double force =
+        test.small_strain->moduli.youngs_modulus * test.setup.apparatus.section;  // of a strain of 1, N
     const double got = -stress_across(test, test.small_strain->moduli.solution.displacement);
     Rows rows;
     rows.absolute("stress across over Hondros'", got / (hondros() * force / (2.0 * half * std::sin(alpha))), 0.95, 0.02,

@@ -31,7 +31,7 @@ double slip_of(const VirtualTest& test) {
     const auto way = [&](int id) {
         const BodyIndex b = body_of_id(test.world, id);
         const BodyState& body = test.world.bodies.state[b];
-        return body.x - test.setup.start[b].x - (body.angle - test.setup.start[b].angle) * (side - body.y);
+        return body.x - test.setup.bonds.start[b].x - (body.angle - test.setup.bonds.start[b].angle) * (side - body.y);
     };
     return way(2) - way(1);
 }

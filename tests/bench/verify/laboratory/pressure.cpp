@@ -25,16 +25,17 @@ double loss_over_theory(int columns, int rows) {
     const TestSetup& setup = test.setup;
     const auto mean_way = [&](const std::vector<BodyIndex>& side) {
         double sum = 0.0;
-        for (const BodyIndex b : side) sum += test.world.bodies.state[b].x - setup.start[b].x;
+        for (const BodyIndex b : side) sum += test.world.bodies.state[b].x - setup.bonds.start[b].x;
         return sum / static_cast<double>(side.size());
     };
     double left = 0.0, right = 0.0;
-    for (const BodyIndex b : setup.left) left += setup.start[b].x;
-    for (const BodyIndex b : setup.right) right += setup.start[b].x;
+    for (const BodyIndex b : setup.gauges.left) left += setup.bonds.start[b].x;
+    for (const BodyIndex b : setup.gauges.right) right += setup.bonds.start[b].x;
     const double gauge =
-        right / static_cast<double>(setup.right.size()) - left / static_cast<double>(setup.left.size());
-    const double lateral = (mean_way(setup.right) - mean_way(setup.left)) / gauge;
-    const double axial = (test.world.bodies.state[setup.top].y - setup.start[setup.top].y) / setup.height;
+        right / static_cast<double>(setup.gauges.right.size()) - left / static_cast<double>(setup.gauges.left.size());
+    const double lateral = (mean_way(setup.gauges.right) - mean_way(setup.gauges.left)) / gauge;
+    const double axial = (test.world.bodies.state[setup.apparatus.top].y - setup.bonds.start[setup.apparatus.top].y) /
+                         setup.specimen.height;
     const double expected = -2.0 * pressure * (1.0 - test.state.poissons_ratio) / test.state.youngs_modulus;
     return (lateral + axial) / expected;
 }

@@ -149,7 +149,7 @@ RateStudy study_rate(LoadingKind kind, double rate, int packings) {
         study.worst.largest = std::max(study.worst.largest, imbalance.largest);
         const double peak = test.state.failure.peak_stress;
         study.peaks.push_back(peak);
-        study.strength_share += test.setup.mean_back_tension / (peak * test.setup.width) / packings;
+        study.strength_share += test.setup.bonds.mean_back_tension / (peak * test.setup.specimen.width) / packings;
     }
     return study;
 }

@@ -11,7 +11,7 @@ import {plainArray, type ArrayEntry, type NumberArray} from './plain_arrays';
 
 /// Kind of test, as named on the page.
 export type Kind = string;
-const kindNames: Record<string, Kind> = {scb: 'semi-circular bend', direct_shear: 'direct shear'};
+const kindNames: Record<string, Kind> = {scb: 'semi-circular bend'};
 
 export type Role = 'start' | 'peak' | 'end';
 
@@ -185,7 +185,7 @@ async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
         name: entry.name,
         source: entry.kind,
         meanVelocities: entry.velocities === 'mean',
-        kind: kindNames[String(entry.summary['kind'])] ?? String(entry.summary['kind'] ?? 'compression'),
+        kind: kindNames[String(entry.summary['kind'])] ?? String(entry.summary['kind'] ?? 'compression').replaceAll('_', ' '),
         specimen: String(entry.summary['specimen'] ?? 'specimen'),
         failed: entry.summary['failed'] === true,
         summary: entry.summary,

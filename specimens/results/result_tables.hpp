@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The tables that a test writes row by row, each listed once: which tests have it, its columns, its text in FILES.md.
+// A new one is a value of ResultTable and a row in result_tables.cpp.
+// Tested by tests/specimens/results/files_test.cpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "solver/base/names.hpp"
+#include "solver/base/quantity.hpp"
+#include "solver/files/file_mark.hpp"
+#include "specimens/case/test_case.hpp"
+#include "specimens/recordings/stated_files.hpp"
+
+namespace crackle {
+
+/// A table, in the order in which checkpoints keep lengths.
+enum class ResultTable : std::uint8_t { curve, events, slips, ae };
+constexpr auto list_names(ResultTable) { return in_order("curve.csv", "events.csv", "slips.csv", "ae.csv"); }
+inline constexpr std::size_t result_tables = table_of_names<ResultTable>.size();
+
+/// Lengths and hashes of all tables; 0 bytes for one that is not written.
+using TableMarks = std::array<FileMark, result_tables>;
+
+/// Options for the files of a test.
+struct FileOptions {
+    TestCase::Output output = {};
+    bool emission = false;                  ///< whether acoustic events are recorded
+    bool pressed = false, jointed = false;  ///< whether curve and events have the columns for such a test
+    std::size_t large_frame = 200'000;      ///< number of bodies from which the frame at the peak is kept on disk
+};
+
+/// What is known about a table.
+struct ResultTableFacts {
+    const char* holds;    ///< its contents, for lists of files
+    const char* section;  ///< what FILES.md says about it above its columns
+    bool (*wanted)(const FileOptions&);
+    std::string (*header)(const FileOptions&);  ///< first line, including the line end
+    std::vector<Quantity> (*columns)();
+};
+const ResultTableFacts& facts_of(ResultTable table);
+
+/// The tables that a test writes.
+std::vector<ResultTable> tables_of(const FileOptions& options);
+/// Names of these tables with their marks.
+FileMarks named_marks(const std::vector<ResultTable>& tables, const TableMarks& marks);
+
+}  // namespace crackle

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Gauge lengths of a specimen: the particles at their ends, and how far apart these were when loading began.
+// Tested by tests/specimens/setup/setup_test.cpp.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "solver/world/world.hpp"
+#include "specimens/making/specimen.hpp"
+#include "specimens/setup/trace_faces.hpp"
+
+namespace crackle {
+
+/// The bodies at the ends of the two gauge lengths.
+struct Gauges {
+    std::vector<BodyIndex> left, right;  ///< bodies on each side, in the middle half of the height
+    double lateral_length = 0.0;         ///< m, initial distance between their mean x; 0 if a side has no such bodies
+    /// Bonded particles at the two ends of the axial gauge length. It excludes the grips, or without grips the outer
+    /// tenths of the specimen.
+    std::vector<BodyIndex> bottom, top;
+    double axial_length = 0.0;  ///< m, initial distance between their mean y; 0 if an end has no particles
+
+    /// Finds the bodies on the sides. @param uniaxial  only those in the middle half of the height, away from platens
+    void find_sides(const World& world, const Specimen& specimen, bool uniaxial);
+    /// Finds those of the bodies whose centres are within half a particle of the axial gauge's ends.
+    /// @param low, high  m, y of the ends @param particle  m, mean size
+    void find_ends(const World& world, std::span<const BodyIndex> bodies, double low, double high, double particle);
+
+    /// Mean growth of the width, relative; NaN if a side has no particles.
+    double lateral_strain(const World& world) const;
+    /// As lateral_strain(), with medians of the displacements since the start instead of means, so that particles that
+    /// have come off a side do not affect it.
+    double median_lateral_strain(const World& world, std::span<const StartPlace> start) const;
+    /// Mean growth between the axial gauge's ends, relative; NaN if an end has no particles.
+    double axial_growth(const World& world) const;
+    /// Makes the current distances the reference of strains.
+    void strains_begin_at(const World& world);
+};
+
+}  // namespace crackle
