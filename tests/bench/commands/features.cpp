@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle-bench features`: what each feature costs a contact and step, and what is left of those that a scene lacks.
+// `crackle-bench features`: measures the cost of each feature per contact and step, and the remaining cost of absent
+// features.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <fmt/format.h>
@@ -92,8 +93,8 @@ std::string table_of(const std::string& command, const std::vector<FeatureRow>& 
     return text;
 }
 
-/// A bar a row of the first table, discs and polygons side by side: the ratio, for times of different pairs differ by
-/// what else the machine did.
+/// A bar chart of the first table, with discs and polygons side by side. It shows ratios, since absolute times of
+/// different pairs depend on what else the machine was doing.
 std::string script_of(const std::vector<FeatureRow>& rows) {
     const auto data_of = [&](bool discs) {
         std::string data;
@@ -116,7 +117,7 @@ std::string script_of(const std::vector<FeatureRow>& rows) {
         data_of(true), data_of(false));
 }
 
-/// Rows of both tables, tests/bench_tests/commands/bench_test.cpp counts them; only the progress depends on it.
+/// Number of rows in both tables, checked by tests/bench_tests/commands/bench_test.cpp; used only for progress.
 constexpr std::size_t feature_rows = 42;
 
 FeatureStudy study_of(const po::variables_map& given) {

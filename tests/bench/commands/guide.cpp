@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle-bench guide`: the guide's rock on many packings, each of the guide's numbers beside ours.
+// `crackle-bench guide`: tests the guide's rock on many packings and compares each of the guide's numbers with the
+// results.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <fmt/format.h>
@@ -46,7 +47,7 @@ void check_counts(const char* option, const std::vector<std::int64_t>& counts, s
     }
 }
 
-/// One number holds for all; fewer than there are places: the last holds for the rest.
+/// A single number applies to all places. If there are fewer numbers than places, the last one applies to the rest.
 std::vector<std::int64_t> spread_counts(std::vector<std::int64_t> counts, std::size_t places, const char* option) {
     if (counts.size() > places)
         throw InputError(fmt::format("crackle-bench guide: {}: found {} numbers, expected at most {}", option,
@@ -96,7 +97,7 @@ Selection selection_of(const po::variables_map& given) {
     return selection;
 }
 
-/// Adds a test unless it is planned already: circles serve all laws.
+/// List of planned tests without repetition, since tests of circles serve all laws.
 class TestList {
   public:
     void add(const GuideTest& test) {
@@ -108,7 +109,7 @@ class TestList {
     std::vector<GuideTest> tests_;
 };
 
-// The guide gives no tensile strength of its Voronoi specimen.
+// The guide states no tensile strength for its Voronoi specimen.
 const std::vector<std::pair<const char*, const char*>> loaded_tests{{"circles", "tension"},
                                                                     {"circles", "compression"},
                                                                     {"delaunay", "tension"},
@@ -136,7 +137,7 @@ void add_experiments(TestList& list, const Selection& selection) {
             }
         }
     }
-    // Voronoi polygons have one loaded row, and take the longest.
+    // Voronoi polygons take the longest, and only one row needs them loaded.
     for (const std::string of : {"circles", "delaunay"}) {
         for (std::int64_t seed = 1; seed <= selection.experiment_packings[of == "circles" ? 1 : 2]; ++seed) {
             for (const auto& experiment : experiments) {
@@ -149,7 +150,7 @@ void add_experiments(TestList& list, const Selection& selection) {
     }
 }
 
-/// In the order in which a page grows useful: elastic, strengths a packing after the other, experiments.
+/// Tests in order of usefulness: elastic tests, then strengths packing by packing, then experiments.
 std::vector<GuideTest> tests_of(const Selection& selection) {
     TestList list;
     for (std::int64_t seed = 1; seed <= selection.packings; ++seed) {
@@ -158,7 +159,7 @@ std::vector<GuideTest> tests_of(const Selection& selection) {
                 list.add(studies::guide_test(as_shipped, law, specimen, elastic_test, seed));
         }
     }
-    // Voronoi polygons take the longest and serve one row.
+    // Voronoi polygons come last, since they take the longest and only one row needs them.
     for (const bool of_voronoi : {false, true}) {
         for (std::size_t law = 0; law < selection.laws.size(); ++law) {
             for (std::int64_t seed = 1; seed <= selection.strength_packings[law]; ++seed) {
@@ -173,7 +174,7 @@ std::vector<GuideTest> tests_of(const Selection& selection) {
     return list.take();
 }
 
-/// The command without what does not change its numbers.
+/// The command line, without options that do not affect the numbers.
 std::string command_of(const po::variables_map& given, const Selection& selection) {
     std::string text = "crackle-bench guide";
     if (given.contains("quick")) text += " --quick";
@@ -251,7 +252,7 @@ int bench_guide(const Invocation& invocation) {
         throw InputError(fmt::format("crackle-bench guide: --jobs: found {}, expected 1 to 1024", ensemble.jobs));
     const std::vector<GuideTest> tests = tests_of(selection);
     for (const GuideTest& test : tests)
-        static_cast<void>(studies::guide_case(test, ensemble));  // refused before minutes are spent
+        static_cast<void>(studies::guide_case(test, ensemble));  // refuses an invalid case before any test runs
 
     watch_interrupts();
     studies::EnsembleHooks hooks;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle-bench stress`: the scenes of the claims «Stability under stress», for as long as wanted.
+// `crackle-bench stress`: runs the scenes of the claims «Stability under stress» for any number of steps.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle-bench throughput`: the engine's rates beside the machine's limits, taken in the same run.
+// `crackle-bench throughput`: measures the engine's speed and the machine's limits in the same run.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <fmt/format.h>
@@ -41,14 +41,14 @@ struct Row {
     std::string scene;
     std::int64_t particles = 0;
     int threads = 1;
-    double contacts = 0.0;  // a particle
+    double contacts = 0.0;  // per particle
     double rate = 0.0;      // particle-steps / s
-    double bare = 0.0;      // of the bare kernel on the same discs, 0: not measured
-    double bytes = 0.0;     // a particle, 0: unknown
-    double list = 0.0;      // steps that a neighbour list lasted, 0: unknown
+    double bare = 0.0;      // bare kernel on the same discs, particle-steps/s; 0 if not measured
+    double bytes = 0.0;     // per particle; 0 if unknown
+    double list = 0.0;      // number of steps per neighbour list; 0 if unknown
 };
 
-/// Steps until the seconds have gone. @return particle-steps a second
+/// Takes steps for the given time. @return particle-steps per second
 template <class Step>
 double rate_of(std::size_t particles, double seconds, Step step) {
     std::int64_t steps = 0;
@@ -70,7 +70,7 @@ struct Settings {
     std::size_t empty_process;
 };
 
-/// The bare kernel on the discs of a timed test.
+/// Speed of the bare kernel on the discs of a timed test.
 double bare_rate(std::int64_t count, double seconds) {
     World world = build_world(timed_discs(count));
     compute_forces(world);
@@ -87,7 +87,7 @@ Row measure_test(const Settings& settings, const std::string& kind, std::int64_t
         rates.push_back(timed.rate());
         row.particles = timed.particles;
         row.contacts = timed.contacts_per_particle;
-        if (k == 0) row.bytes = timed.bytes_per_particle;  // later ones hold what earlier ones left behind
+        if (k == 0) row.bytes = timed.bytes_per_particle;  // later runs include memory left by earlier ones
         if (with_bare) bares.push_back(bare_rate(count, 0.25 * settings.seconds));
     }
     row.rate = median(rates);
@@ -95,7 +95,7 @@ Row measure_test(const Settings& settings, const std::string& kind, std::int64_t
     return row;
 }
 
-/// Flowing columns, each for as long as it flows, until the seconds have gone.
+/// Runs flowing columns, each for as long as it flows, for the given time in total.
 Row measure_flow(const Settings& settings, bool polygons, std::int64_t count) {
     constexpr int until_in_touch = 100;  // steps
     std::vector<double> rates, lists;
@@ -174,7 +174,7 @@ std::string table_of(const std::string& command, const Limits& limits, const std
     return text;
 }
 
-/// Rate over size, a curve per scene.
+/// Draws speed against size, with one curve per scene.
 std::string script_of(const std::vector<Row>& rows) {
     std::string data, plots;
     const auto add = [&](const std::string& name, const std::string& title, auto chosen, auto value) {
@@ -294,7 +294,7 @@ int bench_throughput(const Invocation& invocation) {
         replace_file(settings.folder / "throughput.md", page_of(command, limits, rows));
         replace_file(settings.folder / "throughput.csv", table_of(command, limits, rows));
     };
-    // Planned first: the progress wants to know how many there are.
+    // All rows are planned before the first is run, because the progress line shows their number.
     struct Planned {
         std::string what;
         std::function<Row()> measure;

@@ -39,7 +39,7 @@ std::vector<Claim> chosen_claims(const std::vector<std::string>& only) {
     return some;
 }
 
-/// Before minutes are spent on a page that cannot be written.
+/// Refuses a page that cannot be written before the claims are checked, which takes minutes.
 void check_writable(const fs::path& page) {
     const fs::path folder = page.has_parent_path() ? page.parent_path() : fs::path(".");
     if (!fs::is_directory(folder) || fs::is_directory(page)) {

@@ -27,7 +27,7 @@ void set_platens(TestCase& test, double friction_angle) {
     test.loading.platen_friction_angle = friction_angle;
 }
 
-/// Overlaps at bonding, of circles and of polygons.
+/// Scales the overlaps at bonding, for circles and polygons.
 void scale_overlap(TestCase& test, double factor) {
     test.packing.mean_overlap = factor * *test.packing.mean_overlap;
     if (test.bond.thick) test.bond.thick = *test.mesh.thick + factor * (*test.bond.thick - *test.mesh.thick);
@@ -47,7 +47,7 @@ const std::vector<GuideExperiment>& guide_experiments() {
          elastic,
          [](TestCase& test) {
              if (test.mesh.kind == MeshKind::delaunay) test.mesh.boundary = Boundary::centres;
-             test.mesh.merge_destroyed = test.has_table("mesh");  // of slivers on the ragged outline
+             test.mesh.merge_destroyed = test.has_table("mesh");  // merges slivers at the uneven outline
          },
          true},
         {"narrow_radii", "radii from 1.8 to 2.2 cm in place of 1.333 to 2.667", everything,

@@ -39,7 +39,7 @@ Spread row_spread(const GuideRow& row, const GuidePage& page, const GuideResults
     return spread_of(values);
 }
 
-/// What an experiment does to a row, on the packings that have it with and without.
+/// Effect of an experiment on a row, from the packings that were tested with and without it.
 struct Effect {
     std::string law, experiment, sentence;
     int packings = 0;
@@ -65,7 +65,7 @@ std::optional<Effect> effect_of(const GuideRow& row, const GuidePage& page, cons
                   guide_experiment(experiment).sentence,
                   a.packings,
                   a.mean,
-                  b.mean,  // A change within the scatter explains nothing, even where it crosses the limit.
+                  b.mean,  // A change smaller than the scatter explains nothing, even if it crosses the limit.
                   reaches_guide(row, b.mean, shipped) && std::abs(b.mean - a.mean) >= shipped.deviation};
 }
 
@@ -97,7 +97,7 @@ std::vector<Effect> effects_on(const GuideRow& row, const GuidePage& page, const
     return effects;
 }
 
-/// What the experiments show, in a sentence: from their numbers alone.
+/// One sentence on the results of the experiments, derived only from their numbers.
 std::string finding(const GuideRow& row, const std::vector<Effect>& effects) {
     std::vector<std::string> reaching;
     const Effect* nearest = nullptr;
@@ -116,7 +116,7 @@ std::string finding(const GuideRow& row, const std::vector<Effect>& effects) {
     return "None moves it towards the guide's value.";
 }
 
-/// Laws under which a row comes out the same, together; rows of circles and of the mesh are so under all.
+/// Groups laws that give the same value in a row. Rows about circles or the mesh have only one group.
 std::vector<std::vector<std::string>> laws_alike(const GuideRow& row, const GuidePage& page,
                                                  const GuideResults& results) {
     std::vector<std::vector<std::string>> groups;
@@ -151,7 +151,7 @@ std::string experiments_of(const GuideRow& row, const GuidePage& page, const Gui
         std::vector<std::string> idle;
         std::string lines;
         for (const Effect& e : effects) {
-            // Below what a page shows of a number: it moves something else.
+            // The change is smaller than the digits that the page prints, so the experiment does not affect this row.
             if (std::abs(e.after - e.before) < 5e-4 * std::abs(e.before)) {
                 idle.push_back("`" + e.experiment + "`");
                 continue;
@@ -188,7 +188,7 @@ std::string table(const GuidePage& page, const GuideResults& results) {
     return head + '\n' + rule + '\n' + text;
 }
 
-/// Tests without a result or without a failure: nothing is left out in silence.
+/// Lists tests that are missing, have no result or did not fail.
 std::string notices(const GuidePage& page, const GuideResults& results) {
     std::string text;
     if (page.tests_missing > 0)

@@ -16,7 +16,7 @@ std::string number(double value, int digits) {
     return std::isnan(value) ? std::string("–") : fmt::format("{:.{}g}", value, digits);
 }
 
-/// Text in a table's cell.
+/// Text escaped for a cell of a Markdown table.
 std::string cell(const std::string& text) {
     std::string safe;
     for (const char c : text) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bonds: what breaks them, what does not, and that every break is booked once.
+// Bonds: which loads break them, which do not, and that every break is recorded once.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -51,7 +51,7 @@ std::vector<ClaimRow> bond_squeezed_to_ten_times_its_strength_holds() {
     return rows.take();
 }
 
-/// A disc thrown against another that it barely touches.
+/// A disc hits another that it barely overlaps.
 Array<BodyState> rebound(double overlap, bool bonded, std::int64_t& broken) {
     Scene scene;
     scene.materials = {rock()};
@@ -80,8 +80,8 @@ std::vector<ClaimRow> bond_of_vanishing_strength_equals_no_bond() {
                                   std::abs(with[b].vy - without[b].vy) / 0.01,
                                   0.02 * std::abs(with[b].omega - without[b].omega) / 0.01});
         }
-        // The bond pulls by k_n δ0 all through the contact, π√(m/2k_n): π√(2k_n/m)δ0 of velocity, of 0.01 m/s; and a
-        // shear limit of as little counts as much again.
+        // The bond pulls with k_n δ0 throughout the contact, π√(m/2k_n), which changes the velocity by π√(2k_n/m)δ0,
+        // relative to 0.01 m/s. The shear limit, which is equally small, adds the same amount.
         const double estimate = 2.0 * 3.2 * std::sqrt(2.0 * 1e7 / 3.14) * overlap / 0.01;
         rows.absolute(fmt::format("overlap {} m: velocities apart, over that of impact", overlap), errors[k], 0.0,
                       estimate, "k_n δ₀ × contact time");
@@ -91,7 +91,7 @@ std::vector<ClaimRow> bond_of_vanishing_strength_equals_no_bond() {
     return rows.take();
 }
 
-/// What distinguishes bonds and breaks of the same bodies: an interface of polygons holds several.
+/// Identifies bonds and breaks between the same two bodies, since an interface of polygons has several.
 using Pair = std::pair<int, int>;
 std::vector<Pair> bonded_pairs(const World& world) {
     std::vector<Pair> pairs;
@@ -149,7 +149,7 @@ std::vector<ClaimRow> splitting_a_run_loses_no_break() {
         int parts = 0;
         for (int n = 0; n < burst_steps; ++n) {
             if (uniform_below(generator, 200) == 0) {
-                if (parts % 2 == 1) compute_forces(split);  // stopped after the force pass, or after the step
+                if (parts % 2 == 1) compute_forces(split);  // stopped either after the force pass or after the step
                 events.insert(events.end(), split.bonds.events.begin(), split.bonds.events.end());
                 split.bonds.events.clear();
                 split = load_world(save_world(split), "memory");

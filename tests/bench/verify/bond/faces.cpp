@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faces in area units by the sparse solve: a column's modulus, and what the points at a face's ends make of a turn.
+// Faces in area units by the sparse solve: the modulus of a column, and the bending stiffness due to points at the ends
+// of a face.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -81,7 +82,7 @@ std::vector<ClaimRow> face_turns_as_its_end_points_do() {
         add_cell(scene, 1, {-width, -0.5 * height}, {0.0, 0.5 * height});
         add_cell(scene, 2, {0.0, -0.5 * height}, {width, 0.5 * height});
         const World world = bonded(std::move(scene));
-        // The cells turn by half each about the middle of their face.
+        // Each cell rotates by half the angle about the middle of the face.
         const double up = 0.25 * turn * width;
         const ElasticSolution solution = solve_elastic(
             world, {{body_of_id(world, 1), {0.0, up, -0.5 * turn}}, {body_of_id(world, 2), {0.0, up, 0.5 * turn}}});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Random factors of strength as the bonds of a lattice have them.
+// Distribution of the random strength factors of a lattice's bonds.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::vector<ClaimRow> random_factors_of_strength_have_their_distribution() {
         for (const double x : drawn) variance += (x - mean) * (x - mean) / (n - 1.0);
         for (const double x : drawn) fourth += std::pow(x - mean, 4) / n;
         rows.absolute(name + ": mean", mean, 1.0, 3.5 * cv / std::sqrt(n), "3.5 standard errors");
-        // Error of a standard deviation s, by the fourth moment.
+        // Standard error of a standard deviation, from the fourth moment.
         const double error = std::sqrt((fourth - variance * variance) / n) / (2.0 * std::sqrt(variance));
         rows.absolute(name + ": coefficient of variation", std::sqrt(variance) / mean, cv, 3.5 * error,
                       "3.5 standard errors");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Beams on two supports by their linear solution: how far they bend, and the stress intensity of a notch by the energy
-// that it sets free.
+// Beams on two supports by their linear solution: deflection, and the stress intensity at a notch from the energy
+// release rate.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -46,11 +46,11 @@ std::vector<ClaimRow> beam_bends_as_the_theory_of_elasticity_has_it() {
 }
 
 struct NotchedBeam {
-    double compliance;        // m/N, way of the load over the load
-    double stress_intensity;  // m^-1/2, over the load, by the formula
-    double points;            // bonded, of the pairs of cells that have most of them
+    double compliance;        // m/N, displacement at the load divided by the load
+    double stress_intensity;  // m^-1/2, by the formula, divided by the load
+    double points;            // largest number of bonded points between two cells
 };
-/// With a notch that ends between the rows of this number and the next.
+/// A beam with a notch that ends between row number `cut` and the next.
 NotchedBeam notched_beam(const LatticeCase& lattice, int cut) {
     LatticeCase beam = lattice;
     const double notch = LatticeCase::radius - LatticeCase::overlap + (cut - 0.25) * row_height;
@@ -62,13 +62,13 @@ NotchedBeam notched_beam(const LatticeCase& lattice, int cut) {
         ++of_pair[std::minmax(spring.i, spring.j)];
     int most = 0;
     for (const auto& [pair, count] : of_pair) most = std::max(most, count);
-    const double load = test.small_strain->moduli.youngs_modulus * setup.section;  // of a strain of 1
+    const double load = test.small_strain->moduli.youngs_modulus * setup.section;  // N/m, load at a strain of 1
     return {setup.length / load, setup.stress_intensity / setup.section, 0.5 * most};
 }
 
 std::vector<ClaimRow> notched_beam_sets_free_the_energy_of_its_stress_intensity() {
     constexpr int depth = 25;
-    // Four times as long as deep between the supports, and half a depth beyond each.
+    // The span is four times the depth, and each end extends half a depth beyond its support.
     const LatticeCase lattice{.columns = static_cast<int>(5.0 * depth * row_height / LatticeCase::spacing),
                               .rows = depth,
                               .loading = bending(""),
@@ -80,7 +80,7 @@ std::vector<ClaimRow> notched_beam_sets_free_the_energy_of_its_stress_intensity(
     rows.exactly("contact points of a face, each a spring along and across", beams.front().points, 4.0);
     for (const std::size_t k : {1U, 2U}) {
         const double released =
-            0.5 * (beams[k + 1].compliance - beams[k - 1].compliance) / (4.0 * row_height);  // of a load of 1
+            0.5 * (beams[k + 1].compliance - beams[k - 1].compliance) / (4.0 * row_height);  // for a load of 1
         rows.relative(fmt::format("K_I of a notch of {} of {} rows", 7 + 2 * k, depth),
                       std::sqrt(lattice.modulus() * released), beams[k].stress_intensity, 0.05,
                       "a quarter row of notch");

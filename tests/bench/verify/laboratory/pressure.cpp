@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A specimen under pressure all round: the area that it loses.
+// Area change of a specimen under pressure on all sides.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <cmath>
@@ -13,9 +13,9 @@ namespace crackle::verification {
 namespace pressure_scenes {
 namespace {
 
-/// Area lost over what a body of the moduli of the specimen's own linear solution would lose.
+/// Area change relative to that computed from the moduli of the specimen's linear solution.
 double loss_over_theory(int columns, int rows) {
-    constexpr double pressure = 1e3;  // N/m, of bonds that bear ten times as much
+    constexpr double pressure = 1e3;  // N/m, a tenth of what the bonds withstand
     const LatticeCase block{.columns = columns,
                             .rows = rows,
                             .loading =
