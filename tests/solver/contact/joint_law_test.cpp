@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a joint puts in place of the rock's law, and what it leaves.
+// Tests which values of the rock's law a joint replaces, and which it keeps.
 
 #include "solver/contact/joint_law.hpp"
 
@@ -129,7 +129,7 @@ TEST(JointLaw, ATurnedOutlineKeepsItsFacesOnTraces) {
     Scene scene = jointed_scene(cells);
     const World straight = build_world(scene);
     for (const Body& body : scene.bodies) {
-        // Clockwise, from the same corner.
+        // The corners in clockwise order, starting at the same corner.
         const auto corners = scene.vertices.begin() + body.first_vertex;
         const auto sides = scene.edge_sides.begin() + body.first_vertex;
         std::reverse(corners + 1, corners + 4);
@@ -148,7 +148,8 @@ TEST(JointLaw, ATurnedOutlineKeepsItsFacesOnTraces) {
     EXPECT_EQ(pairs_across(turned), pairs_across(straight));
     EXPECT_FALSE(pairs_across(turned).empty());
     for (std::size_t e = 0; e < turned.bodies.element_sides.size(); ++e) {
-        // The edge on a trace still is: of cells above the level one the lower edge, left of the upright one the right.
+        // The edge on the trace is still marked: for cells above the horizontal trace it is the lower edge, for cells
+        // left of the vertical trace the right edge.
         const TraceSide side = turned.bodies.element_sides[e];
         if (side == no_side) continue;
         const Element &from = turned.bodies.elements[e], &to = turned.bodies.elements[e % 4 == 3 ? e - 3 : e + 1];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// in_bc.dat, in_cf.dat, in_cf0.dat, the state file and the outputs: layouts, round trips, refusals.
+// Tests in_bc.dat, in_cf.dat, in_cf0.dat, the state file and the outputs: formats, reading back what was written,
+// refusals.
 
 #include <gtest/gtest.h>
 
@@ -118,8 +119,9 @@ TEST(ContactFiles, SegmentsUnderTheGuidesLawComeBackByTheirNumbers) {
     scene.gravity = {3.0, -10.0};
     World world = build_world(scene);
     const std::int64_t bonds = bond_all(world, scene.thick);
-    // The single circle stands over a corner, the end of two segments. Bodies 3 and 4 face each other with edges 2 and
-    // 4, whose ends lie opposite each other and are ends of edges 1 and 3 as well: three more pairs at either end.
+    // The single circle is above a corner, where two segments end. Bodies 3 and 4 face each other with edges 2 and 4.
+    // The ends of these edges are opposite each other and also belong to edges 1 and 3, which gives three more pairs at
+    // either end.
     EXPECT_EQ(bonds, 5 + 1 + 6) << "circles, the facing pair, pairs at its ends";
     std::ostringstream tensions, again;
     write_back_tensions(tensions, scene, world);
@@ -169,7 +171,7 @@ TEST(ContactFiles, SpringsBondsAndFlagsComeBack) {
     std::ostringstream out, again;
     write_contacts(out, scene, world);
     EXPECT_NE(out.str().find("\n-3 "), std::string::npos) << "a contact with the floor or:\n" << out.str();
-    // The scene of a continued run is that of the end; here only the names matter.
+    // A continued run starts from the scene at the end; here only ids matter.
     World copy = build_world(scene);
     DeckReader reader("in_cf.dat", out.str());
     read_contacts(reader, scene, copy);
@@ -236,7 +238,7 @@ TEST(ContactFiles, BondsOfTwoHeldBodiesAreRead) {
     DeckReader contact_reader("in_cf.dat", contacts.str());
     read_contacts(contact_reader, scene, other);
     EXPECT_EQ(other.bonds.initial, 19);
-    scene.circles[scene.bodies[0].first_circle].centre.x -= 1.0;  // away from the second, which is held, too
+    scene.circles[scene.bodies[0].first_circle].centre.x -= 1.0;  // away from the second body, which is also held
     World apart = build_world(scene);
     DeckReader far("in_cf0.dat", tensions.str());
     EXPECT_NE(refusal([&] { read_back_tensions(far, scene, apart); }).find("found no contact"), std::string::npos);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All files of a set are replaced or none, wherever the one who replaces them is stopped.
+// Tests that either all files of a set are replaced or none, wherever the process is stopped.
 #include "solver/files/file_set.hpp"
 
 #include <gtest/gtest.h>

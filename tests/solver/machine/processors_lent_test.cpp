@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Processors are counted as they are lent: by affinity, and by the quota of control groups of both versions.
+// Tests that processors are counted as available to the process: by affinity, and by the quota of control groups of
+// both versions.
 #include "solver/machine/processors_lent.hpp"
 
 #include <gtest/gtest.h>
@@ -69,7 +70,7 @@ TEST_F(ProcessorQuota, IsReadFromVersionOne) {
     EXPECT_EQ(processor_quota(root_), std::nullopt);
 }
 
-// A container sees its own group at the mount, while /proc names it as the machine does.
+// A container sees its own group at the mount, while /proc names it as seen from the machine.
 TEST_F(ProcessorQuota, OfAContainerIsAtItsMount) {
     groups("5:cpu,cpuacct:/docker/a1\n",
            "33 31 0:30 /docker/a1 /sys/fs/cgroup/cpu,cpuacct rw - cgroup cgroup rw,cpu,cpuacct\n");

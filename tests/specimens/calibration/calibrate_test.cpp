@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calibrations of rocks whose keys are known. recovered_rock_test.cpp recovers all of a rock,
-// tests/benchmarks/calibrations ten rocks.
+// Tests calibrations of rocks whose keys are known. recovered_rock_test.cpp recovers all keys of a rock,
+// tests/benchmarks/calibrations those of ten rocks.
 
 #include "specimens/calibration/calibrate.hpp"
 
@@ -38,8 +38,8 @@ TEST_F(CalibrationTest, ElasticKeysComeFromTheLinearSolveOfTheSamePackings) {
         rock_of(target_text("compression", "youngs_modulus", moduli[0], "tolerance = 0.01") +
                 target_text("compression", "poissons_ratio", moduli[1], "tolerance = 0.01") + testing::elastic_keys);
     const CalibrationOutcome outcome = calibrated(rock);
-    // Tests measure moduli beside the linear ones by their loading rate, 1e-3 at most here; a Poisson's ratio follows
-    // the stiffness ratio by half.
+    // Moduli measured in tests differ from linear ones because of the loading rate, by at most 1e-3 here. Poisson's
+    // ratio changes half as much as the stiffness ratio.
     EXPECT_TRUE(agrees("contact modulus", outcome.keys[0].value, true_modulus, 5e-3));
     EXPECT_TRUE(agrees("stiffness ratio", outcome.keys[1].value, true_ratio, 1e-2));
     EXPECT_TRUE(outcome.undetermined.empty());
@@ -65,7 +65,7 @@ TEST_F(CalibrationTest, ALinearSolveNamesAFolderWhoseNameIsNotUtf8) {
 }
 
 TEST_F(CalibrationTest, AllStressesAndModuliTimesALambdaAreTheSameTests) {
-    constexpr double lambda = 4.0;  // a power of two: speeds times sqrt(λ) exactly
+    constexpr double lambda = 4.0;  // a power of two, so that speeds are multiplied by exactly sqrt(λ)
     const Rock rock =
         rock_of(target_text("compression", "peak_stress", 1e7) + target_text("tension", "peak_stress", 1e6) +
                 testing::elastic_keys + testing::strength_keys);
@@ -100,8 +100,8 @@ TEST_F(CalibrationTest, RatiosAndLawsAreThoseOfEachPackingsTests) {
     }
 }
 
-/// Four packings whose results are altered in the ledger: the second lacks the strength under 3 MPa, and the third's
-/// compression did not fail.
+/// Four packings whose results are changed in the ledger: the second has no strength under 3 MPa, and the third did not
+/// fail in compression.
 TEST_F(CalibrationTest, APackingThatLacksAStrengthHasNeitherLawNorModulusAtHalfThePeak) {
     const Rock rock = rock_of(
         std::string(testing::pressed_tests) +
@@ -150,8 +150,8 @@ TEST_F(CalibrationTest, APackingThatLacksAStrengthHasNeitherLawNorModulusAtHalfT
     }
 }
 
-/// Variances of independent errors add up. So twice the laboratory's error adds four times as much to the square of
-/// the interval's half width, whatever the scatter of the packings and the slope.
+/// Variances of independent errors add up. Doubling the laboratory's error therefore adds four times as much to the
+/// square of the interval's half width, whatever the scatter of the packings and the slope.
 TEST_F(CalibrationTest, TheLaboratorysErrorWidensTheIntervalAsItsSquare) {
     const Rock any = rock_of(target_text("compression", "poissons_ratio", 1.0) + testing::elastic_keys);
     const double aim = linear(any, {true_modulus, 2.5})[1];
@@ -172,7 +172,7 @@ TEST_F(CalibrationTest, TheLaboratorysErrorWidensTheIntervalAsItsSquare) {
 TEST_F(CalibrationTest, ANarrowRangeIsSearchedToItsRightEnd) {
     const Rock any = rock_of(target_text("compression", "poissons_ratio", 1.0) + testing::elastic_keys);
     const double aim = linear(any, {true_modulus, 2.68})[1];
-    // Narrower than the first step of the search, and begun at the wrong end.
+    // Bounds narrower than the first step of the search, which starts at the wrong end.
     const Rock rock = rock_of(target_text("compression", "poissons_ratio", aim, "tolerance = 0.002") +
                               "[[free]]\nkey = \"material.stiffness_ratio\"\nfrom = 2.60\nto = 2.70\nstart = 2.60\n");
     EXPECT_TRUE(agrees("stiffness ratio", calibrated(rock).keys[0].value, 2.68, 3e-3));

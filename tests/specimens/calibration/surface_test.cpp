@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces through points of known functions, and smallest squares within bounds.
+// Tests surfaces fitted to points of known functions, and least squares within bounds.
 
 #include "specimens/calibration/surface.hpp"
 
@@ -111,7 +111,7 @@ TEST(CompleteRows, AreEnoughWhereHalfOfThePackingsAndThreeHaveAll) {
     EXPECT_FALSE(are_enough(2, 4)) << "two have no scatter to speak of";
 }
 
-/// r = (x + 2y − 4, x − y), its minimum at (4/3, 4/3).
+/// r = (x + 2y − 4, x − y) has its minimum at (4/3, 4/3).
 const Residuals two_lines = [](const VectorXd& x, VectorXd& r, MatrixXd& jacobian) {
     r = Vector2d(x[0] + 2.0 * x[1] - 4.0, x[0] - x[1]);
     jacobian.resize(2, 2);
@@ -122,7 +122,7 @@ TEST(BoxMinimum, IsWhereTheResidualsVanishOrOnTheBound) {
     const VectorXd inside = box_minimum(two_lines, Vector2d(0.1, 0.2), Vector2d(-9, -9), Vector2d(9, 9));
     EXPECT_TRUE(agrees("x inside", inside[0], 4.0 / 3.0, 1e-7));
     EXPECT_TRUE(agrees("y inside", inside[1], 4.0 / 3.0, 1e-7));
-    // With y ≤ 1 the least squares in x are at (2 + 1)/2.
+    // For y ≤ 1, the least squares in x are at (2 + 1)/2.
     const VectorXd bound = box_minimum(two_lines, Vector2d(0.1, 0.2), Vector2d(-9, -9), Vector2d(9, 1));
     EXPECT_TRUE(agrees("x on the bound", bound[0], 1.5, 1e-7));
     EXPECT_TRUE(agrees("y on the bound", bound[1], 1.0, 1e-7));
@@ -145,7 +145,7 @@ TEST(BoxMinimum, OfOneVariableIsFoundAtAnyScale) {
     }
 }
 
-/// Targets of any tolerance, far off: residuals of up to 1e5.
+/// Targets with any tolerance, far from being reached: residuals are up to 1e5.
 TEST(BoxMinimum, DoesNotDependOnTheScaleOfTheResiduals) {
     for (const double weight : {1e-3, 0.03, 1.0, 25.0, 30.0, 100.0, 1e3, 1e5}) {
         const Residuals scaled = [&](const VectorXd& x, VectorXd& r, MatrixXd& jacobian) {

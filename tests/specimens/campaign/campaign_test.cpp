@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A campaign from its plan to its table: each test once, the figures of the same test run alone, whatever happens.
+// Tests a campaign from its plan to its table: each test runs once and gives the same results as when it runs alone,
+// whatever happens.
 
 #include "specimens/campaign/campaign.hpp"
 
@@ -148,7 +149,7 @@ TEST_F(CampaignTest, WithoutPackingsACaseHasItsOwnSeedAndAnAxisMayHaveIt) {
     EXPECT_THROW(read_plan(folder_ / "plan.toml"), InputError) << "which of the two is it?";
 }
 
-// The parent is killed at moments spread over the campaign; the same command then goes on.
+// The parent process is killed at several moments during the campaign; the same command then resumes it.
 TEST_F(CampaignTest, KilledAtAnyMomentItGoesOnToTheSameTable) {
     write_small_plan(folder_, 3);
     run("undisturbed", 1);

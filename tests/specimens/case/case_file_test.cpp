@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cases are read whole or refused with file, line, key, what was found and what was expected.
+// Tests that cases are read completely, or refused with file, line, key, what was found and what was expected.
 
 #include "specimens/case/case_file.hpp"
 
@@ -305,7 +305,7 @@ std::string repeated(const std::string& text, int times) {
     return all;
 }
 
-// toml++ takes tables apart by recursion: some 50,000 levels use up the stack of the main thread.
+// toml++ parses tables recursively: about 50,000 levels use up the stack of the main thread.
 TEST_F(CaseFile, OfManyLevelsIsRefusedBeforeItIsParsed) {
     EXPECT_NE(refusal("\n" + repeated("a.", 50'000) + "a = 1\n").find("case.toml:2: found a line of 100005 bytes"),
               std::string::npos);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames whose numbers cannot be what they stand for are refused before any is taken for a place in memory.
+// Tests that frames with impossible numbers are refused before any number is used as an index.
 #include "specimens/frames/read_frames.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers that are likely meant otherwise are named with what they may mean; those of rocks are not.
+// Tests that numbers probably given in other units are reported with a suggestion, and that usual values of rocks are
+// not.
 
 #include "specimens/loading/unlikely_numbers.hpp"
 

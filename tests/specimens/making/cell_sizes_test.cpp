@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells of the sizes asked for: mean and spread of their equivalent diameters, recounted from the polygons' areas.
+// Tests cells of requested sizes: mean and spread of their equivalent diameters, computed again from the polygons'
+// areas.
 
 #include "specimens/making/cell_sizes.hpp"
 
@@ -41,7 +42,7 @@ TestCase cells_case(MeshKind kind, double diameter, double spread) {
     return test;
 }
 
-/// From the areas that the scene's bodies have, with hardly a gap between them.
+/// From the areas of the scene's bodies, which have very small gaps.
 CellSizes recounted(const Scene& scene) {
     double sum = 0.0, squares = 0.0;
     for (const Body& body : scene.bodies) {

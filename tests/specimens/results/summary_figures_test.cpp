@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figures of summary.json from events, notches, membranes, clocks and profiles put in by hand: what whole tests seldom
-// come to, or come to by chance.
+// Tests values of summary.json for events, notches, membranes, clocks and profiles set by hand, which whole tests
+// rarely produce.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -37,8 +37,8 @@ class SummaryFigures : public ::testing::Test {
     testing::ScratchFolder scratch_;
 };
 
-/// A source that opens all round (1), slips (0) or closes all round (-1): its scalar moment is that of the
-/// magnitude.
+/// A source that opens in all directions (1), slips (0) or closes in all directions (-1), with the scalar moment of the
+/// given magnitude.
 AcousticEvent event_of(double magnitude, int sense) {
     AcousticEvent event;
     const double moment = std::pow(10.0, 1.5 * (magnitude + 6.0));
@@ -49,9 +49,10 @@ AcousticEvent event_of(double magnitude, int sense) {
     return event;
 }
 
-// Bins of 0.1: the fullest is -6.4 to -6.3, so that Mc = -6.35 + 0.2. Above it 25 magnitudes lie 0.1 beyond and 25 lie
-// 0.5 beyond. Least distance: above -6.37 (10 of 60 lie 0.17 beyond, 25 each 0.32 and 0.72) the law's share at 0.32 is
-// 0.500 where the first ten end at 0.167; above -6.2 its share at the first magnitude is 0.349, above nothing.
+// In bins of 0.1, the largest is -6.4 to -6.3, so Mc = -6.35 + 0.2. Above it, 25 magnitudes exceed it by 0.1 and 25 by
+// 0.5. For the rule of least distance: above -6.37 (excesses of 0.17 for 10 of 60, 0.32 and 0.72 for 25 each) the law's
+// fraction at 0.32 is 0.500, where the first ten end at 0.167. Above -6.2, its fraction at the first magnitude is
+// 0.349, and that of the data is 0.
 TEST_F(SummaryFigures, OfMagnitudesHaveBothRulesForTheirCompleteness) {
     testing::SmallCase wanted;
     wanted.output += "\nemission = true";
@@ -63,14 +64,14 @@ TEST_F(SummaryFigures, OfMagnitudesHaveBothRulesForTheirCompleteness) {
         events.push_back(event_of(-6.05, 0));
         events.push_back(event_of(-5.65, 0));
     }
-    events.resize(events.size() + 2);  // without a moment
+    events.resize(events.size() + 2);  // events without a moment
     const Json summary = summary_of(test);
     const Json& b = summary["b_value"];
     EXPECT_TRUE(agrees("Mc by curvature", b["completeness"], -6.15, 1e-12));
     EXPECT_EQ(b["events"], 50);
     const double mean = 0.3, aki = std::log10(std::numbers::e) / mean, value = aki * 49.0 / 50.0;
     EXPECT_TRUE(agrees("b", b["b"], value, 1e-12));
-    // Each lies 0.2 from the mean.
+    // Each magnitude differs from the mean by 0.2.
     EXPECT_TRUE(agrees("its error", b["error"], std::log(10.0) * value * value * std::sqrt(50.0 * 0.04 / (50.0 * 49.0)),
                        1e-12));
     // Quantiles of χ² with 100 degrees of freedom, by tables: 74.2219 and 129.5612.
@@ -128,7 +129,7 @@ TEST_F(SummaryFigures, OfANotchedBeamAreByHand) {
     test.setup.uniaxial = false;
     test.setup.notch = 0.05;
     test.setup.area = 0.04;
-    test.setup.particles = 100;  // 0.02 m each
+    test.setup.particles = 100;  // each has a size of 0.02 m
     test.setup.stress_intensity = 0.5;
     test.setup.section = 0.25;
     test.setup.length = 0.8;
@@ -145,7 +146,7 @@ TEST_F(SummaryFigures, OfANotchedBeamAreByHand) {
     EXPECT_TRUE(agrees("fracture toughness", summary_of(test)["fracture_toughness"], 1.5e6, 1e-12));
 }
 
-// The spring adds its stiffness times the rise, which is the lateral strain of the height.
+// The spring adds its stiffness times the rise, which is the lateral strain times the height.
 TEST_F(SummaryFigures, OfASprungShearBoxAreByHand) {
     VirtualTest test = prepared();
     put_peak(test);
@@ -249,7 +250,7 @@ TEST_F(SummaryFigures, HaveTheirUnitsBesideThem) {
     EXPECT_EQ(by_area["peak_stress_so_far_pa"], 3e6) << "it is one of an area already";
 }
 
-// A specimen of 2 m by 1 m: 50 particles are 0.2 m each, 10 across; 800 are 0.05 m each, 40 across.
+// A specimen of 2 m by 1 m: 50 particles have a size of 0.2 m, 10 across the length; 800 have 0.05 m, 40 across.
 TEST_F(SummaryFigures, OfValidityAreTheClaimsOfTheKind) {
     VirtualTest test = prepared();
     test.setup.width = 2.0;
@@ -306,7 +307,7 @@ TEST_F(SummaryFigures, OfAProfileAreItsClocks) {
         EXPECT_FALSE(row["meaning"].get<std::string>().empty());
     };
     expect("force", 4.0, 120);
-    expect("  narrow_phase", 0.25 / 4 * 60, 4);  // a sample's time, of every pass
+    expect("  narrow_phase", 0.25 / 4 * 60, 4);  // mean time of a sample times the number of passes
     expect("integrate", 2.5, 50);
     expect("rate", 0.5, 7);
     expect("rest", 10.0 - 4.0 - 2.5 - 0.5, 0);

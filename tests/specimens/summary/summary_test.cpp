@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A summary that is written and read again is the same value.
+// Tests that a summary is unchanged after writing and reading.
 
 #include "specimens/summary/summary.hpp"
 
@@ -86,7 +86,7 @@ TEST(Summary, ListsUnitsOfWhatItStatesInTheSenseOfTheTest) {
     EXPECT_EQ(s.strength.largest_stress.converted, 2.0);
 }
 
-/// Each figure has a meaning or, where the name says it, a unit.
+/// Each result has a meaning or, if its name is sufficient, a unit.
 TEST(Summary, NamesEachKeyAndItsTables) {
     for (const SummaryKey& key : summary_keys()) EXPECT_TRUE(!key.meaning.empty() || !key.unit.empty()) << key.name;
     const auto count = [](const char* name) { return std::ranges::count(summary_keys(), name, &SummaryKey::name); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle elastic` as a user calls it.
+// Tests `crackle elastic` as called by a user.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle joints` as a user calls it: the report, its JSON, the figure and the table of traces, and refusals.
+// Tests `crackle joints` as called by a user: the report, its JSON, the figure and the table of traces, and refusals.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ticks, units and places of axes, by hand.
+// Tests ticks, units and positions of axes against results by hand.
 
 #include "tools/plot/axes.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What reaches a terminal is text: none of its commands, whatever names hold.
+// Tests that a terminal receives only text and no control sequences, whatever names contain.
 
 #include "tools/terminal/printable.hpp"
 

@@ -25,7 +25,7 @@ namespace {
 
 constexpr double pressure = 5e6, friction = 25.0;               // Pa, degrees
 constexpr double platen_rate = 0.05, strain_under_load = 3e-4;  // 1/s; strain at which the full pressure acts
-constexpr double strain_at_most = 2e-3;                         // largest strain if nothing slips
+constexpr double strain_at_most = 2e-3;                         // strain at which the run ends if nothing slips
 // Range of slip in which the stress is measured, relative to the gap between cells. At these slips, corners have left
 // the ends of the faces to which they were bonded. They have not yet reached the rounded ends of the next faces, onto
 // which they would ride up.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The head of the pages of campaigns and calibrations.
+// Tests the head of the pages of campaigns and calibrations.
 
 #include "tools/campaign/page/html_page.hpp"
 
