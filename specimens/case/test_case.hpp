@@ -123,7 +123,7 @@ struct TestCase {
         bool merge_destroyed = false;
     } mesh;
 
-    /// Keys of [material], which minerals and pairs of minerals have, too.
+    /// Keys of [material] that minerals and pairs of minerals also have.
     struct MaterialKeys : BondConstants {
         std::optional<double> density;                 // kg/m2
         std::optional<double> normal_stiffness;        // N/m
@@ -336,7 +336,7 @@ struct TestCase {
     bool uniaxial() const {
         return loading.kind == LoadingKind::compression || loading.kind == LoadingKind::tension || confined();
     }
-    /// What is true of its bonds by their law.
+    /// Properties of the case's bond law.
     const BondLawFacts& bond_facts() const { return facts_of(bond.law); }
     /// Whether stiffness and strengths are given per area, in Pa.
     bool area_units() const { return material.units == StiffnessUnits::area; }

@@ -23,7 +23,7 @@ void write_summary(const OutputFolder& folder, Summary& summary, FileMarks files
 struct FileOptions {
     FramePrecision precision = FramePrecision::single_;  ///< precision of points in frames
     bool slips = false;                                  ///< whether slips.csv is written
-    bool pressed = false, jointed = false;               ///< whether curve and events have the columns for such a test
+    bool pressed = false, jointed = false;               ///< whether curve and events have the columns of such tests
     std::size_t large_frame = 200'000;  ///< number of bodies from which the frame at the peak is kept on disk
 };
 

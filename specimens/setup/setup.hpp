@@ -98,11 +98,11 @@ struct TestSetup {
         return face < 0 ? -1 : trace_faces[static_cast<std::size_t>(face)].trace;
     }
 
-    /// Overlap at which a broken bond bears no force, m.
+    /// Overlap at which a broken bond carries no force, m.
     double rest_overlap(PointIndex bond) const {
         return bond_facts().from_rest_overlap ? std::max(bond_overlaps[bond], 0.0) : 0.0;
     }
-    /// What is true of its bonds by their law.
+    /// Properties of the specimen's bond law.
     const BondLawFacts& bond_facts() const { return facts_of(bond_law); }
 
     /// Whether a pressure acts on its sides.
@@ -117,13 +117,13 @@ struct TestSetup {
     }
     /// 1 if the driving part moves in the negative direction of its axis, else -1.
     double sense() const { return compression ? 1.0 : -1.0; }
-    /// Strain along the driving part's way, positive in the sense of the test.
+    /// Strain along the path of the driving part, positive in the direction of the test.
     double axial_strain(const World& world) const;
     /// Lateral strain; NaN if a side has no particles in the middle half of the height. If the driving part moves along
     /// x, it is the rise of that part divided by the height.
     double lateral_strain(const World& world) const;
-    /// As lateral_strain(), with medians of the displacements since `start` instead of means, so that particles that
-    /// have come off a side do not affect it.
+    /// As lateral_strain(), with medians of the displacements since `start` instead of means: particles that have
+    /// broken off a side do not affect it.
     double median_lateral_strain(const World& world) const;
     /// Axial strain between the ends of the axial gauge length; NaN if an end has no particles.
     double gauge_strain(const World& world) const;
@@ -148,7 +148,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
 struct PartForces {
     double driver = 0.0, supports = 0.0;
 };
-/// Forces of the last pass, N.
+/// Forces of the last calculated step, N.
 PartForces forces_on_parts(const World& world, const TestSetup& setup);
 
 /// Makes the current positions the reference of strains and gauge lengths. The positions in `start` are kept: bonds
