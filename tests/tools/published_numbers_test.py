@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""tests/benchmarks/published_numbers: small studies end with their pages, and another program's results are not taken over."""
+"""Tests tests/benchmarks/published_numbers: small studies write their pages, and results of another program are refused."""
 import csv
 import json
 import os
