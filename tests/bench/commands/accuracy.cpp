@@ -28,7 +28,7 @@ using accuracy::AccuracyStudy;
 
 std::string table_of(const std::vector<AccuracyRow>& rows, const std::string& command) {
     std::string text = fmt::format(
-        "# Made by `{}`. cpu_seconds: processor time, median of 3 (over 0.5 s: of 1).\n"
+        "# Made by `{}`. cpu_seconds: processor time, median of 3 runs (1 run if above 0.5 s).\n"
         "# parameter time_step: value over the stable step [-]; axial_strain_rate: value in 1/s; rate_tolerance [-].\n"
         "study,law,integrator,parameter,value,cpu_seconds [s],error [-]\n",
         command);
@@ -127,22 +127,21 @@ std::vector<const AccuracyStudy*> chosen(const std::vector<std::string>& only) {
 CommandLine describe_bench_accuracy() {
     po::options_description options;
     options.add_options()("output,o", po::value<std::string>()->value_name("DIR")->default_value("."),
-                          "folder for accuracy.csv and its picture")  //
-        ("quick", "fewer and shorter runs")                           //
+                          "folder for accuracy.csv and its figure")  //
+        ("quick", "fewer and shorter runs")                          //
         ("only", po::value<Arguments>()->value_name("STUDY"), "this study; may be given more than once");
     Choices names{"only", {}};
     for (const AccuracyStudy& study : accuracy::accuracy_studies()) names.words.push_back(study.name);
-    return {
-        .synopses = {"crackle-bench accuracy [OPTIONS]"},
-        .description =
-            "What an error costs in processor time, over time step and loading rate, for each contact "
-            "law and integrator.",
-        .options = {{"options", options}},
-        .choices = {names},
-        .verbose = "seconds of each study",
-        .examples = {{"crackle-bench accuracy -o accuracy", "minutes; leaves accuracy.csv, .gp, .svg and .png there"},
-                     {"crackle-bench accuracy -o accuracy --quick", "seconds, with fewer and shorter runs"},
-                     {"crackle-bench accuracy --only bounce_energy"}}};
+    return {.synopses = {"crackle-bench accuracy [OPTIONS]"},
+            .description =
+                "Measures error against processor time, for several time steps and loading rates, and for each contact "
+                "law and integrator.",
+            .options = {{"options", options}},
+            .choices = {names},
+            .verbose = "seconds of each study",
+            .examples = {{"crackle-bench accuracy -o accuracy", "minutes; writes accuracy.csv, .gp, .svg and .png"},
+                         {"crackle-bench accuracy -o accuracy --quick", "seconds, with fewer and shorter runs"},
+                         {"crackle-bench accuracy --only bounce_energy"}}};
 }
 
 int bench_accuracy(const Invocation& invocation) {
@@ -172,7 +171,7 @@ int bench_accuracy(const Invocation& invocation) {
     replace_file(folder / "accuracy.gp", script_of(studies, rows));
     const std::string problem = draw_with_gnuplot(folder / "accuracy.gp");
     if (!problem.empty())
-        messages.notice(problem + ". accuracy.csv is complete; draw it later with gnuplot accuracy.gp");
+        messages.notice(problem + ". accuracy.csv is complete; draw the figure later with gnuplot accuracy.gp");
     return exit_done;
 }
 

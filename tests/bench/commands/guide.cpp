@@ -198,19 +198,22 @@ CommandLine describe_bench_guide() {
         return po::value<std::vector<std::int64_t>>()->multitoken()->value_name(name);
     };
     options.add_options()("packings", po::value<std::int64_t>()->value_name("N"),
-                          "seeds 1 to this (default 20; quick: 2)")  //
+                          "number of packings, with seeds from 1 (default 20; quick: 2)")  //
         ("laws", po::value<Words>()->multitoken()->value_name("LAW"),
          "contact laws of polygons (default rounded demseg demseg_mean)")  //
         ("strength-packings", numbers("N"),
-         "packings that are also loaded until they fail, a number per law (default 5 0 0: the guide's law takes small "
-         "steps)")  //
+         "packings that are also loaded until they fail, a number per law (default 5 0 0, since the guide's law needs "
+         "small steps)")  //
         ("experiment-packings", numbers("N"),
-         "packings of the experiments: elastic, loaded circles, loaded triangles (default 3 2 0)")                  //
-        ("experiments", po::value<Words>()->multitoken()->value_name("NAME"), "only these (default all)")           //
-        ("rate-factor", po::value<double>()->value_name("X")->default_value(1.0, "1"), "times as fast as shipped")  //
+         "packings of the experiments: elastic, loaded circles, loaded triangles (default 3 2 0)")  //
+        ("experiments", po::value<Words>()->multitoken()->value_name("NAME"),
+         "only these experiments (default all)")  //
+        ("rate-factor", po::value<double>()->value_name("X")->default_value(1.0, "1"),
+         "load X times as fast as shipped")  //
         ("minutes", po::value<double>()->value_name("X"),
-         "give up tests not done by then; the page shows what is there")                                      //
-        ("jobs", po::value<int>()->value_name("N")->default_value(2), "tests at a time, each on one thread")  //
+         "stop after this time; the page shows the results so far")  //
+        ("jobs", po::value<int>()->value_name("N")->default_value(2),
+         "number of tests in parallel, each on one thread")  //
         ("cases", po::value<std::string>()->value_name("DIR")->default_value("specimens/guide_rock"),
          "folder of the shipped cases")                                                                               //
         ("output,o", po::value<std::string>()->value_name("DIR")->default_value("out/guide"), "folder for the page")  //
@@ -219,19 +222,17 @@ CommandLine describe_bench_guide() {
     for (const auto& one : studies::guide_experiments()) experiments.words.push_back(one.name);
     return {.synopses = {"crackle-bench guide [OPTIONS]"},
             .description =
-                "Tests the guide's rock on many packings and shows each of the guide's numbers beside mean "
-                "and standard deviation of ours, with a verdict and, for each row outside, the experiments "
-                "that move it.\n\n"
-                "DIR gets guide.md, guide.csv and cache/, a file per test: the same command goes on where a "
-                "stopped one was, and a larger one takes what is there. After a change of the engine, "
-                "remove cache/.",
+                "Tests the guide's rock on many packings and compares each of the guide's numbers with our mean and "
+                "standard deviation. For each row outside, experiments show what changes it.\n\n"
+                "Writes guide.md, guide.csv and cache/ with a file per test into DIR. The same command continues a "
+                "stopped run, and a larger one uses the existing results. After a change of the engine, remove cache/.",
             .options = {{"options", options}},
             .choices = {{"laws", {"rounded", "demseg", "demseg_mean"}}, experiments},
-            .verbose = "each test as it is done",
+            .verbose = "each finished test",
             .examples = {{"crackle-bench guide --quick"},
                          {"crackle-bench guide --strength-packings 5 1 0 --minutes 30 -o out/guide"},
                          {"crackle-bench guide --laws rounded --strength-packings 20 --experiment-packings 3 3"}},
-            .notes = {"exit codes: 0 done, 2 bad input, 130 interrupted (the page shows what is there)"}};
+            .notes = {"exit codes: 0 done, 2 bad input, 130 interrupted (the page shows the results so far)"}};
 }
 
 int bench_guide(const Invocation& invocation) {

@@ -140,16 +140,15 @@ std::string page_of(const std::string& command, const Limits& limits, const std:
     std::string text = fmt::format(
         "# Throughput\n\nMade by `{}` on {}, kernels for {}, {} lanes of doubles, one process. Triad: {:.0f} GB/s in "
         "the first cache, "
-        "{:.0f} in the second, {:.0f} in memory. Rates in million particle-steps a second, of the whole engine as "
-        "`crackle test` runs it (bonds, friction, dashpots, platens, curve, events, frames; a curve row every 100 "
-        "steps); the bare kernel has neither neighbour search nor bonds, ledger, controls or observers. Contacts: "
-        "bonded "
-        "points a particle. Memory: peak resident set while stepping less an empty process. Flowing: a column without "
-        "its right wall in the midst of its collapse, its front as fast as a dam break's, touching points; and how "
-        "many "
-        "steps a neighbour list lasted.\n\n"
-        "| scene | particles | threads | contacts a particle | rate, M/s | bare kernel, M/s | ratio | ns a particle | "
-        "bytes a particle | steps a list |\n"
+        "{:.0f} in the second, {:.0f} in memory. Rates are million particle-steps per second of the whole engine, as "
+        "in `crackle test` (bonds, friction, dashpots, platens, curve, events, frames; a curve row every 100 steps). "
+        "The bare kernel has no neighbour search, bonds, energy balance, controls or observers. Contacts: "
+        "bonded points per particle. Memory: peak resident set while stepping minus that of an empty process. Flowing: "
+        "a "
+        "collapsing column without its right wall, whose front is as fast as that of a dam break; contacts are "
+        "touching points. Steps per list: number of steps for which a neighbour list remains valid.\n\n"
+        "| scene | particles | threads | contacts per particle | rate, M/s | bare kernel, M/s | ratio | ns per "
+        "particle | bytes per particle | steps per list |\n"
         "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
         command, processor_name(), name_of(chosen_set()), lanes_of(chosen_set()), limits.l1, limits.l2, limits.memory);
     for (const Row& row : rows) {
@@ -205,7 +204,7 @@ std::string script_of(const std::vector<Row>& rows) {
     return "# SPDX-License-Identifier: GPL-3.0-or-later\n" + data +
            "set terminal svg size 640,420 font \"DejaVu Sans,11\" background rgb 'white'\nset output "
            "\"throughput.svg\"\nset logscale xy\nset format x \"10^{%L}\"\nset grid lc rgb '#d8d8d8'\n"
-           "set xlabel \"particles\"\nset ylabel \"million particle-steps a second\"\nset key outside right\n"
+           "set xlabel \"particles\"\nset ylabel \"million particle-steps per second\"\nset key outside right\n"
            "plot " +
            plots + "\n";
 }
@@ -217,18 +216,18 @@ CommandLine describe_bench_throughput() {
     options.add_options()("output,o", po::value<std::string>()->value_name("DIR")->default_value("out/throughput"),
                           "folder for throughput.md, .csv, .svg")  //
         ("counts", po::value<std::vector<std::int64_t>>()->multitoken()->value_name("N"),
-         "circles of the scenes (default 300 1000 5000 50000 1000000; quick: 300 5000)")                    //
-        ("seconds", po::value<double>()->value_name("X"), "of stepping, each run (default 2; quick: 0.3)")  //
+         "numbers of circles (default 300 1000 5000 50000 1000000; quick: 300 5000)")                                 //
+        ("seconds", po::value<double>()->value_name("X"), "duration of each run's stepping (default 2; quick: 0.3)")  //
         ("repeats", po::value<int>()->value_name("N"),
-         "runs of a scene, of which the median counts (default 3; quick: 1)")  //
+         "runs of a scene, of which the median is used (default 3; quick: 1)")  //
         ("kinds", po::value<std::vector<std::string>>()->multitoken()->value_name("KIND"),
          "circles, voronoi, delaunay, flowing (default all, polygons up to 50000)")                            //
         ("threads", po::value<std::vector<int>>()->multitoken()->value_name("N"), "of circles (default 1 2)")  //
         ("quick", "small and short");
     return {.synopses = {"crackle-bench throughput [OPTIONS]"},
             .description =
-                "The engine's rates over size, threads and kind of specimen, beside what a bare kernel and "
-                "the memory reach in the same run.",
+                "Measures the engine's rate for several sizes, threads and kinds of specimens, and compares it with a "
+                "bare kernel and the memory's bandwidth in the same run.",
             .options = {{"options", options}},
             .verbose = "seconds of each row",
             .examples = {{"crackle-bench throughput --quick", "seconds: small scenes, half a second each"},
@@ -236,7 +235,8 @@ CommandLine describe_bench_throughput() {
                           "minutes: up to a million circles; throughput.md, .csv, .svg"},
                          {"crackle-bench throughput --counts 300 5000 --repeats 5"},
                          {"crackle-bench throughput --kinds circles voronoi --threads 1"}},
-            .notes = {"Rates are particle-steps a second. Machines are noisy: compare what stands in one table."}};
+            .notes = {
+                "Rates are particle-steps per second. Machines are noisy, so compare only values of the same table."}};
 }
 
 int bench_throughput(const Invocation& invocation) {

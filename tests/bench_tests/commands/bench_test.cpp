@@ -237,7 +237,7 @@ TEST_F(BenchCommand, QuickEnsembleOfTheGuideHasItsElasticRowsAndGoesOnFromItsCac
           // The packing is compressed to exactly this mean overlap.
           "| mean back-tension, circles, kN | 0.774 | 0.774 ±", "| triangles | 537 |", "| about √10 |",
           "| circles' tensile strength over 19.4 kN/m | about 1/4 | – | – |", "(2) | inside |",
-          "(2) | **outside**, +27 % |", "No experiment has been run on it."})
+          "(2) | **outside**, +27 % |", "No experiment has been run for it."})
         EXPECT_NE(page.find(part), std::string::npos) << part << '\n' << page;
     EXPECT_EQ(page.find("no result"), std::string::npos) << page;
 
