@@ -201,22 +201,22 @@ std::vector<Claim> exact_step_claims() {
     return {
         {.name = "exact_step_is_that_of_a_dense_matrix",
          .group = group,
-         .statement = "critical_step() is where 4M - 2Δt·C - Δt²·K becomes singular, growth_per_step() the spectral "
-                      "radius of a step, K and C by finite differences of the forces",
+         .statement = "critical_step() is the step at which 4M - 2Δt·C - Δt²·K becomes singular, and growth_per_step() "
+                      "the spectral radius of a step; K and C are computed by finite differences of the forces",
          .check = exact_step_is_that_of_a_dense_matrix},
         {.name = "exact_step_of_specimens_between_platens",
          .group = group,
-         .statement = "at 0.99 of it random velocities stay bounded, at 1.01 its mode grows as predicted",
+         .statement = "at 0.99 of the exact step random velocities stay bounded; at 1.01 its mode grows as predicted",
          .check = exact_step_of_specimens_between_platens,
-         .note = "Bounded: H = ½v(M - Δt C/2 - Δt²K/4)v + ½x̄Kx̄ never grows; at 0.99 the matrix is at least M/100, so "
-                 "kinetic and strain energy together stay below 100 H + 121 H."},
+         .note = "H = ½v(M - Δt C/2 - Δt²K/4)v + ½x̄Kx̄ never grows. At 0.99 the matrix is at least M/100, so the sum of "
+                 "kinetic and strain energy stays below 100 H + 121 H."},
         {.name = "exact_step_where_materials_are_damped_unevenly",
          .group = group,
-         .statement = "the same with damping ratios of 0.05 and 0.6 side by side",
+         .statement = "the exact step, with damping ratios of 0.05 and 0.6 in one specimen",
          .check = exact_step_where_materials_are_damped_unevenly},
         {.name = "bound_under_the_guides_law_lies_below_the_limit_of_its_unsymmetric_stiffness",
          .group = group,
-         .statement = "step bound ≤ 2/√max|λ(M⁻¹K)|, K by finite differences of the force routine",
+         .statement = "step bound ≤ 2/√max|λ(M⁻¹K)|, with K by finite differences of the force routine",
          .check = bound_under_the_guides_law_lies_below_the_limit_of_its_unsymmetric_stiffness},
     };
 }

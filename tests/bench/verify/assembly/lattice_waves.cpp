@@ -146,12 +146,13 @@ std::vector<Claim> lattice_wave_claims() {
          .group = group,
          .statement = "c_p² = C11/ρ_b, C11 = (√3/4)(3k_n+k_s), ρ_b = ρπ/(2√3)",
          .check = p_waves_of_the_triangular_lattice,
-         .note = "ρ_b is that of touching discs; the lattice's overlap of δ0 raises it by (2R/d)², which is counted."},
+         .note = "ρ_b is the density for touching discs; the expected value includes its increase by (2R/d)² because "
+                 "of the overlap δ0."},
         {.name = "s_waves_of_the_triangular_lattice",
          .group = group,
          .statement = "c_s² = C33/ρ_b, C33 = (√3/4)(k_n+k_s)",
          .check = s_waves_of_the_triangular_lattice,
-         .note = "Discs turn along, by half the wave's own turn for long waves."},
+         .note = "Discs rotate, for long waves by half the rotation of the wave."},
     };
 }
 

@@ -198,19 +198,20 @@ std::vector<Claim> mesh_claims() {
     return {
         {.name = "cell_areas_sum_to_the_domains",
          .group = group,
-         .statement = "areas before the inset sum to the domain's",
+         .statement = "the areas of all cells before the inset add up to that of the domain",
          .check = cell_areas_sum_to_the_domains},
         {.name = "every_gap_equals_the_thickness",
          .group = group,
-         .statement = "facing edges of neighbours are `thick` apart",
+         .statement = "the distance between facing edges of neighbours is `thick`",
          .check = every_gap_equals_the_thickness},
         {.name = "no_cell_is_lost",
          .group = group,
-         .statement = "one Voronoi cell a seed; 2n - 2 - h triangles of n seeds, h of them on the outer chain",
+         .statement = "there is one Voronoi cell per seed, and there are 2n - 2 - h triangles for n seeds, h of them "
+                      "on the outer chain",
          .check = no_cell_is_lost},
         {.name = "voronoi_edges_are_orthogonal_to_their_duals",
          .group = group,
-         .statement = "a Voronoi edge halves the line between its two seeds at a right angle",
+         .statement = "a Voronoi edge lies on the perpendicular bisector of its two seeds",
          .check = voronoi_edges_are_orthogonal_to_their_duals},
     };
 }

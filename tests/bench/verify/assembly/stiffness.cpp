@@ -275,13 +275,12 @@ std::vector<Claim> stiffness_claims() {
     return {
         {.name = "sparse_solve_is_that_of_the_force_routine",
          .group = group,
-         .statement =
-             "K u = f of the specimen's own bonds and platens, exact: the same springs found by finite differences "
-             "of the forces that a step feels",
+         .statement = "K u = f for the specimen's bonds and platens is exact: finite differences of the forces in a "
+                      "step give the same springs",
          .check = sparse_solve_is_that_of_the_force_routine},
         {.name = "sparse_solve_is_that_of_the_force_routine_under_the_guides_law",
          .group = group,
-         .statement = "the same with the unsymmetric stiffness k b ∇δᵀ of the guide's contact of segments",
+         .statement = "K u = f with the unsymmetric stiffness k b ∇δᵀ of the guide's law for segments",
          .check = sparse_solve_is_that_of_the_force_routine_under_the_guides_law},
         {.name = "intact_test_has_the_moduli_of_the_sparse_solve",
          .group = group,
@@ -289,17 +288,15 @@ std::vector<Claim> stiffness_claims() {
          .check = intact_test_has_the_moduli_of_the_sparse_solve},
         {.name = "slow_run_measures_the_stiffness_of_the_sparse_solve",
          .group = group,
-         .statement =
-             "with bonds that neither break nor slip, platen force over displacement of a slow run is the sparse "
-             "solve's",
+         .statement = "if bonds neither break nor slip, the stiffness in a slow run (platen force over displacement) "
+                      "is that of the sparse solve",
          .check = slow_run_measures_the_stiffness_of_the_sparse_solve},
         {.name = "modulus_lies_below_the_affine_bound",
          .group = group,
-         .statement = "E ≤ the least energy of u = (a x, ε y) without rotation, over a, platen bonds included",
+         .statement = "E ≤ the minimum over a of the energy of u = (a x, ε y) without rotation, including platen bonds",
          .check = modulus_lies_below_the_affine_bound,
-         .note =
-             "Circle packings of 120 circles between bonded platens; any admissible motion stores at least the true "
-             "energy, so no tolerance is needed."},
+         .note = "Packings of 120 circles between bonded platens. Any admissible motion stores at least the true "
+                 "energy, so no tolerance is needed."},
     };
 }
 

@@ -374,43 +374,45 @@ std::vector<Claim> stress_claims() {
     return {
         {.name = "loose_bodies_in_a_box_keep_their_account",
          .group = group,
-         .statement = "discs and polygons thrown into a box: stiffness and mass 1 to 1e6, thickness 1e-4 to 0.5 of the "
-                      "size, needles, thousands at once; 4000 steps at 0.9 of the derived one leave at most 2 % open",
+         .statement = "discs and polygons thrown into a box have a closing error of at most 2 % after 4000 steps at "
+                      "0.9 of the derived step. Stiffness and mass ratios go up to 1e6, thicknesses from 1e-4 to 0.5 "
+                      "of the size; there are needles, and thousands of bodies",
          .check = loose_bodies_in_a_box_keep_their_account},
         {.name = "loose_bodies_in_a_box_keep_their_account_for_long",
          .group = group,
-         .statement = "the same for 50 000 steps; crackle-bench stress goes on for as long as wanted",
+         .statement = "as above for 50 000 steps; crackle-bench stress runs any number of steps",
          .check = loose_bodies_in_a_box_keep_their_account_for_long,
          .slow = true},
         {.name = "given_steps_up_to_the_bound_are_bounded_or_named",
          .group = group,
-         .statement =
-             "at 0.3 of the bound the same scenes keep their account, first order in the step; at 0.9 they do, or "
-             "end with an error that says that new contacts took the bound below the step, and where",
+         .statement = "at 0.3 of the bound, the energy balance of the same scenes closes to first order in the step. "
+                      "At 0.9 it closes too, or the run ends with an error: it states that new contacts lowered the "
+                      "bound below the step, and where",
          .check = given_steps_up_to_the_bound_are_bounded_or_named},
         {.name = "bound_stays_near_the_exact_step_at_extreme_ratios",
          .group = group,
-         .statement = "stiffnesses and masses a million times apart leave the guaranteed bound above half the exact "
-                      "step",
+         .statement = "the guaranteed bound is more than half the exact step even if stiffnesses and masses differ by "
+                      "a factor of a million",
          .check = bound_stays_near_the_exact_step},
         {.name = "impacts_rebound_or_are_named",
          .group = group,
-         .statement = "from 1 m/s to 1e6 m/s no body gets through another, a segment or a wall in silence",
+         .statement =
+             "at speeds from 1 m/s to 1e6 m/s, no body passes through another, a segment or a wall without an error",
          .check = impacts_rebound_or_are_named,
-         .note = "Two circles are not looked at; packing presses them deep."},
+         .note = "Pairs of circles are not checked, because packing overlaps them deeply."},
         {.name = "stacks_stay_at_rest",
          .group = group,
-         .statement = "a column, a wall and a heap settle by their own weight and creep no further",
+         .statement = "a column, a wall and a heap settle under their own weight and do not creep",
          .check = stacks_stay_at_rest},
         {.name = "degenerate_shapes_are_refused_or_handled",
          .group = group,
-         .statement = "what has no length or area is refused by name; corners, faces and centres that coincide neither "
-                      "make energy nor momentum",
+         .statement = "shapes without length or area are refused with their names; coinciding corners, faces and "
+                      "centres create neither energy nor momentum",
          .check = degenerate_shapes_are_refused_or_handled},
         {.name = "bonded_specimens_turn_round_unharmed",
          .group = group,
-         .statement = "a free bonded specimen turns by 360 degrees: no bond breaks, momenta to rounding, every body "
-                      "back at its place but for the stretch by its spin",
+         .statement = "after a free bonded specimen has rotated by 360 degrees, no bond is broken and momenta are kept "
+                      "to rounding. Every body is back in its place except for the stretch by the spin",
          .check = bonded_specimens_turn_round_unharmed},
     };
 }

@@ -199,12 +199,12 @@ std::vector<Claim> conservation_claims() {
     return {
         {.name = "free_bonded_specimen_keeps_momentum_and_energy",
          .group = group,
-         .statement = "momentum and angular momentum to 1e-12, energy to second order, no bond breaks",
+         .statement = "momentum and angular momentum are kept to 1e-12, energy to second order, and no bond breaks",
          .check = free_bonded_specimen_keeps_momentum_and_energy},
         {.name = "rigid_turn_of_360_degrees_gives_no_force",
          .group = group,
          .statement =
-             "a rigid turn imposed step by step strains nothing and breaks nothing, to second order in the angle",
+             "an imposed rigid rotation causes no forces, to second order in the angle per step, and no breaks",
          .check = rigid_turn_of_360_degrees_gives_no_force},
         {.name = "free_slow_spin_feels_the_centripetal_force_alone",
          .group = group,
@@ -212,7 +212,7 @@ std::vector<Claim> conservation_claims() {
          .check = free_slow_spin_feels_the_centripetal_force_alone},
         {.name = "frictionless_motion_runs_backwards",
          .group = group,
-         .statement = "n steps, v := -(v + a dt), n steps: back at the start",
+         .statement = "n steps, v := -(v + a dt), n steps return to the initial state",
          .check = frictionless_motion_runs_backwards},
     };
 }

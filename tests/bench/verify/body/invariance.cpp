@@ -274,13 +274,15 @@ std::vector<Claim> invariance_claims() {
     return {
         {.name = "physics_does_not_depend_on_order_and_numbers",
          .group = group,
-         .statement = "renumber and reorder bodies, start outlines elsewhere: the same to 1e-9",
+         .statement = "results do not change by more than 1e-9 if bodies are renumbered or reordered, or outlines "
+                      "start at another corner",
          .check = physics_does_not_depend_on_order_and_numbers,
-         .note = "Bodies are numbered along space inside the engine, so that the input's order leaves not even a bit."},
+         .note =
+             "The engine numbers bodies by their positions, so the order of the input does not change a single bit."},
         {.name = "physics_does_not_depend_on_the_axes",
          .group = group,
-         .statement =
-             "swap i and j, mirror, turn by 90 degrees, shift: the same to 1e-9 (shift: to the digits that are left)",
+         .statement = "results do not change by more than 1e-9 after swapping i and j, mirroring, rotating by 90 "
+                      "degrees, or shifting (shifts: to the remaining digits)",
          .check = physics_does_not_depend_on_the_axes},
         {.name = "physics_does_not_depend_on_the_units",
          .group = group,

@@ -315,14 +315,15 @@ std::vector<Claim> one_body_claims() {
          .group = group,
          .statement = "e = exp(-πh/√(1-h²)) and contact time π/(ω₀√(1-h²)), whatever the speed; the dashpot may pull",
          .check = restitution_with_a_lagged_dashpot,
-         .note = "The dashpot sees v(n-½), as the guide's does: first order. Above h 0.215 the tolerance is the "
-                 "estimate of that lag, π²h²/(2n(1-h²)²) + 2πh/(n√(1-h²)) of e at n steps a contact."},
+         .note =
+             "The dashpot uses v(n-½), as in the guide, so the error is of first order. Above h 0.215 the tolerance is "
+             "the estimated effect of this lag on e, π²h²/(2n(1-h²)²) + 2πh/(n√(1-h²)) with n steps per contact."},
         {.name = "restitution_with_a_centred_dashpot",
          .group = group,
-         .statement = "the same to second order in dt",
+         .statement = "restitution as with a lagged dashpot, to second order in dt",
          .check = restitution_with_a_centred_dashpot,
          .offered = false,
-         .note = "The engine keeps to the guide's lagged dashpot alone."},
+         .note = "The engine offers only the guide's lagged dashpot."},
         {.name = "restitution_with_a_clamped_dashpot",
          .group = group,
          .statement = "f_n ≥ 0, w = √(1-h²): h < 1/√2: e = exp(-(h/w)(π - atan(2hw/(w²-h²)))), above: "
@@ -332,11 +333,12 @@ std::vector<Claim> one_body_claims() {
          .note = "The engine's dashpot may pull, as the guide's restitution formula assumes."},
         {.name = "free_fall_bounce_and_rest",
          .group = group,
-         .statement = "parabolas in flight, in contact a damped oscillator about the sag mg/k with gravity inside",
+         .statement = "parabolas in flight; in contact, a damped oscillator about the sag mg/k",
          .check = free_fall_bounce_and_rest},
         {.name = "two_discs_stacked_between_walls",
          .group = group,
-         .statement = "equilibrium overlaps s/3 + mg/k, s/3, s/3 - mg/k (s squeezed in all); modes √(k/m), √(3k/m)",
+         .statement =
+             "equilibrium overlaps s/3 + mg/k, s/3, s/3 - mg/k with the total overlap s; modes √(k/m), √(3k/m)",
          .check = two_discs_stacked_between_walls},
     };
 }

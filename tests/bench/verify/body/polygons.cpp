@@ -347,24 +347,23 @@ std::vector<Claim> polygon_claims() {
          .check = polygon_spins_freely_about_its_centroid},
         {.name = "polygons_colliding_keep_momentum_and_energy",
          .group = group,
-         .statement =
-             "linear and angular momentum to rounding; without friction energy to second order in dt, no jump as "
-             "a corner passes a corner",
+         .statement = "linear and angular momentum are kept to rounding; without friction, energy to second order in "
+                      "dt, without a jump when a corner passes a corner",
          .check = polygons_colliding_keep_momentum_and_energy},
         {.name = "polygons_colliding_with_friction_close_the_account",
          .group = group,
-         .statement =
-             "momenta to rounding; kinetic + stored + lost to friction stays what it was, to the order in which a "
-             "contact's beginning and its slip are found",
+         .statement = "momenta are kept to rounding. The sum of kinetic energy, stored energy and friction loss is "
+                      "constant, to the order with which the start of a contact and its slip are resolved",
          .check = polygons_colliding_with_friction_close_the_account},
         {.name = "polygons_colliding_under_the_guides_law_keep_momentum_and_close_the_account",
          .group = group,
-         .statement = "momenta to rounding; with the springs' own work booked, energy to second order in dt",
+         .statement =
+             "momenta are kept to rounding; if the work of the springs is counted, energy to second order in dt",
          .check = polygons_colliding_under_the_guides_law_keep_momentum_and_close_the_account},
         {.name = "free_end_under_the_guides_law_takes_energy_whatever_the_step",
          .group = group,
-         .statement = "a block that slides off a free end loses what does not depend on dt under the guide's law, and "
-                      "nothing under the rounded one",
+         .statement = "a block that slides off a free end loses an energy that does not depend on dt under the guide's "
+                      "law, and none under the rounded law",
          .check = free_end_under_the_guides_law_takes_energy_whatever_the_step},
     };
 }

@@ -187,11 +187,12 @@ std::vector<Claim> bond_claims() {
          .check = bond_of_vanishing_strength_equals_no_bond},
         {.name = "break_list_is_the_difference_of_bond_sets",
          .group = group,
-         .statement = "one event for every bond that is gone, and for no other",
+         .statement = "there is one event for every broken bond, and no other",
          .check = break_list_is_the_difference_of_bond_sets},
         {.name = "splitting_a_run_loses_no_break",
          .group = group,
-         .statement = "a run stopped, saved and gone on with has the breaks of the run in one, to the bit",
+         .statement =
+             "a run that is stopped, saved and continued has the same breaks as an uninterrupted run, to the bit",
          .check = splitting_a_run_loses_no_break},
     };
 }

@@ -186,23 +186,22 @@ std::vector<Claim> bundle_claims() {
     using namespace bundle_scenes;
     constexpr const char* group = "Bonds with strengths of their own";
     constexpr const char* statement =
-        "N discs between two platens, bonds of Weibull strengths to one of them: the mean largest load is that of "
-        "order "
-        "statistics, of N sorted strengths the largest x_(i) (N - i + 1)";
+        "N discs between two platens have bonds with Weibull strengths to one of them: the mean largest load follows "
+        "from order statistics, as the largest x_(i) (N - i + 1) of N sorted strengths";
     return {
         {.name = "small_bundles_have_the_strength_of_daniels",
          .group = group,
          .statement = statement,
          .check = small_bundles_have_the_strength_of_daniels,
-         .note = "20 bundles each against 4,000 of sorted numbers."},
+         .note = "20 bundles each are compared with 4,000 sets of sorted numbers."},
         {.name = "bundles_have_the_strength_of_daniels",
          .group = group,
          .statement = statement,
          .check = bundles_have_the_strength_of_daniels,
          .slow = true,
-         .note =
-             "200 bundles each against 4,000 of sorted numbers; the limit (m e)^(-1/m) of N → ∞ and Daniels' term of "
-             "finite N are shown beside, which is itself off by up to two standard errors at N = 100."},
+         .note = "200 bundles each are compared with 4,000 sets of sorted numbers. The limit (m e)^(-1/m) for N → ∞ "
+                 "and Daniels' term for finite N are reported too; at N = 100, the latter differs by up to two "
+                 "standard errors."},
     };
 }
 

@@ -277,25 +277,25 @@ std::vector<Claim> coulomb_bond_claims() {
     return {
         {.name = "coulomb_bond_breaks_on_its_envelope",
          .group = group,
-         .statement = "loaded along a straight way from rest a bond breaks at f_n = -T or |f_t| = C + μ f_n, whichever "
-                      "comes first, in the mode of that limit",
+         .statement = "a bond loaded along a straight path from rest breaks at f_n = -T or |f_t| = C + μ f_n, "
+                      "whichever comes first, and in the mode of that limit",
          .check = coulomb_bond_breaks_on_its_envelope,
-         .note = "Angles from the push along the normal; means over 16 loadings that meet the envelope at places "
-                 "spread evenly over a step. The bond has a random factor of its own."},
+         .note = "Angles are measured from compression along the normal. Means are over 16 loadings that reach the "
+                 "envelope at times evenly distributed over a step. The bond has a random strength factor."},
         {.name = "coulomb_bond_of_its_overlap_is_a_back_tension_bond",
          .group = group,
-         .statement = "with T = k_n δ₀ and C = μ k_n δ₀ a lattice moves as one bonded by back-tension until the first "
-                      "slip, which is the first break of the other in the same step",
+         .statement = "with T = k_n δ₀ and C = μ k_n δ₀, a lattice moves as one with back-tension bonds until their "
+                      "first slip; in the same step, its first bond breaks",
          .check = coulomb_bond_of_its_overlap_is_a_back_tension_bond},
         {.name = "coulomb_bond_cycled_below_its_envelope_loses_nothing",
          .group = group,
-         .statement = "a bond pulled, sheared, let go and sheared back below its envelope takes no work",
+         .statement =
+             "a bond that is pulled, sheared, released and sheared back below its envelope dissipates no energy",
          .check = coulomb_bond_cycled_below_its_envelope_loses_nothing},
         {.name = "shear_breaks_under_pressure_close_the_account",
          .group = group,
-         .statement =
-             "bonds that break in shear under pressure and rub on leave the account of energy closed to second "
-             "order in the step, and no break gains energy",
+         .statement = "if bonds break in shear under pressure and continue to slide, the energy balance closes to "
+                      "second order in the step, and no break gains energy",
          .check = shear_breaks_under_pressure_close_the_account},
     };
 }

@@ -106,15 +106,15 @@ std::vector<Claim> face_claims() {
     return {
         {.name = "column_of_cells_has_the_contact_modulus",
          .group = group,
-         .statement = "in area units a column of cells between platens has E = E_c whatever their number",
+         .statement = "in area units, a column of cells between platens has E = E_c for any number of cells",
          .check = column_of_cells_has_the_contact_modulus},
         {.name = "face_turns_as_its_end_points_do",
          .group = group,
-         .statement =
-             "two cells bent against each other turn as stiffly as k s²/4, s the distance of the points at the "
-             "ends of their face",
+         .statement = "two cells have the bending stiffness k s²/4, where s is the distance of the points at the ends "
+                      "of their face",
          .check = face_turns_as_its_end_points_do,
-         .note = "Three times a uniform face, but for the inset: the price of rigid cells that touch at corners."},
+         .note = "Apart from the inset, this is three times that of a uniform face, because rigid cells touch only at "
+                 "corners."},
     };
 }
 

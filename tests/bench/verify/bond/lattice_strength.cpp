@@ -169,12 +169,12 @@ std::vector<Claim> lattice_strength_claims() {
          .group = group,
          .statement = "σ = √3(k_n+k_s)F_b/[R(3k_n+k_s)] with and without slip, if μ > k_s/(√3 k_n)",
          .check = first_break_pulled_along_a_bond_row,
-         .note = "At the break the bonds at 60° carry |T| = √3 k_s F_b/(3k_n+k_s) and are relieved by |T|/√3, so they "
-                 "hold while √3 k_s ≤ 3μk_n: the reference's μ > 0.144 and 0.577."},
+         .note = "At the break, the bonds at 60° carry |T| = √3 k_s F_b/(3k_n+k_s), and their normal force is reduced "
+                 "by |T|/√3. They hold while √3 k_s ≤ 3μk_n, which gives the reference's μ > 0.144 and 0.577."},
         {.name = "first_break_pulled_across_a_bond_row",
          .group = group,
          .statement =
-             "σ = √3F_b/(2R) with Coulomb's limit, which vanishes as δ → 0; √3(k_n+k_s)F_b/[R(2k_n+k_s)] without",
+             "σ = √3F_b/(2R) with Coulomb's limit, which vanishes as δ → 0; √3(k_n+k_s)F_b/[R(2k_n+k_s)] without slip",
          .check = first_break_pulled_across_a_bond_row},
     };
 }

@@ -69,10 +69,11 @@ std::vector<ClaimRow> random_factors_of_strength_have_their_distribution() {
 }  // namespace
 
 std::vector<Claim> strength_factor_claims() {
-    return {{.name = "random_factors_of_strength_have_their_distribution",
-             .group = "Bonds with strengths of their own",
-             .statement = "10,000 bonds have strengths of the mean, the variation and the distribution asked for",
-             .check = random_factors_of_strength_have_their_distribution}};
+    return {
+        {.name = "random_factors_of_strength_have_their_distribution",
+         .group = "Bonds with strengths of their own",
+         .statement = "the strengths of 10,000 bonds have the given mean, coefficient of variation and distribution",
+         .check = random_factors_of_strength_have_their_distribution}};
 }
 
 }  // namespace crackle::verification

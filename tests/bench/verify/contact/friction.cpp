@@ -168,13 +168,14 @@ std::vector<Claim> friction_claims() {
          .group = group,
          .statement = "tan θ ≤ 3μ: rolls, a = ⅔g sin θ; else slides, a = g(sin θ - μ cos θ)",
          .check = disc_on_a_slope,
-         .note = "The arm ends midway between the surfaces, R - δ/2: 5e-5 of the acceleration here."},
+         .note = "The lever arm ends midway between the surfaces, at R - δ/2, which changes the acceleration by 5e-5 "
+                 "here."},
         {.name = "oblique_rebound_sliding_throughout",
          .group = group,
          .statement = "tan θ > max(3μ(1+e), μk_n/k_s): v_t' = v_t - μ(1+e)v_n, rω' = 2μ(1+e)v_n",
          .check = oblique_rebound_sliding_throughout,
-         .note = "Coulomb's limit counts the spring alone; its impulse is m v_n(1+e), for c∫dδ = 0 over a contact "
-                 "whose dashpot may pull. Here tan θ is 5, the limits 0.8 to 1.1 and 0.7."},
+         .note = "Coulomb's limit contains only the spring force. Its impulse is m v_n(1+e), since c∫dδ = 0 over a "
+                 "contact whose dashpot may pull. Here tan θ is 5; the limits are 0.8 to 1.1 and 0.7."},
     };
 }
 

@@ -322,19 +322,21 @@ std::vector<Claim> contact_opening_claims() {
         {.name = "bouncing_disc_keeps_its_energy",
          .group = group,
          .statement = "consistent integrator: the same energy after 1000 bounces, up to the stable limit; leapfrog: "
-                      "E'/E = (1 - κs(1-s))/(1 - κs'(1-s')) a bounce, κ = 4λ², a random walk",
+                      "E'/E = (1 - κs(1-s))/(1 - κs'(1-s')) per bounce, κ = 4λ², a random walk",
          .check = bouncing_disc_keeps_its_energy,
-         .note = "λ is the step over 2√(m/k); s and s' say where in a step the contact begins and ends."},
+         .note =
+             "λ is the step over 2√(m/k); s and s' are the fractions of a step at which the contact begins and ends."},
         {.name = "colliding_chain_keeps_its_energy_bounded",
          .group = group,
          .statement = "ten discs with gaps between two walls, consistent integrator: the closing error stays bounded",
          .check = colliding_chain_keeps_its_energy_bounded,
-         .note = "The account's kinetic energy goes by mean velocities, which in a closed contact miss ⅛m(a dt)², at "
-                 "most λ² of the energy, and give it back. Leapfrog at 0.8 is stopped at 100 times its energy."},
+         .note = "The energy balance uses mean velocities. In a closed contact, their kinetic energy is too small by "
+                 "⅛m(a dt)², at most λ² of the energy, until the contact opens. Leapfrog at 0.8 is stopped at 100 "
+                 "times its initial energy."},
         {.name = "spinning_square_in_a_box_keeps_its_energy",
          .group = group,
          .statement =
-             "a square thrown with spin among four walls, consistent integrator: the closing error stays small",
+             "a spinning square thrown between four walls, consistent integrator: the closing error stays small",
          .check = spinning_square_in_a_box_keeps_its_energy},
         {.name = "oblique_sliding_rebound_has_the_closed_form",
          .group = group,

@@ -153,23 +153,24 @@ std::vector<Claim> joint_compliance_claims() {
     return {
         {.name = "persistent_set_adds_its_compliance",
          .group = group,
-         .statement = "of one persistent set 1/E_a = 1/E + cos⁴t/(K_n S) + sin²t cos²t/(K_s S) and 1/G' = 1/G + "
-                      "1/(K_s S), t between load and the joints' normal",
+         .statement = "with one persistent set 1/E_a = 1/E + cos⁴t/(K_n S) + sin²t cos²t/(K_s S) and 1/G' = 1/G + "
+                      "1/(K_s S), where t is the angle between the load and the joints' normal",
          .check = persistent_set_adds_its_compliance,
-         .note = "E and G are those of the same mesh with its traces welded, S the height over 8 joints; sparse solve "
-                 "under uniform tractions."},
+         .note = "E and G are those of the same mesh with welded traces, and S is the height over 8 joints. Sparse "
+                 "solve under uniform tractions."},
         {.name = "joint_among_circles_adds_its_compliance",
          .group = group,
-         .statement = "so does a joint among circles, to 0.8 of a circle over the spacing",
+         .statement = "a joint among circles adds its compliance as well, with an error of up to 0.8 of a circle over "
+                      "the spacing",
          .check = joint_among_circles_adds_its_compliance,
-         .note = "By flat faces (solver/MODEL.md 5.4). E and G are those with joints of K = 1e24 Pa/m. Circles bear by "
-                 "chains of forces: beside a joint that gives way a row carries less, along the joint most of all."},
+         .note = "With flat faces (solver/MODEL.md 5.4). E and G are those with joints of K = 1e24 Pa/m. Circles carry "
+                 "loads by force chains, so rows next to a soft joint carry less, most of all along the joint."},
         {.name = "persistent_sets_add_up",
          .group = group,
          .statement =
              "compliances of several persistent sets add to that of the rock, S + Σ Rᵀ diag(1/K_n S, 1/K_s S) R",
          .check = persistent_sets_add_up,
-         .note = "Three sets that cross; S of a set is the area over the length of its traces."},
+         .note = "Three sets that cross; the spacing S of a set is the area over the length of its traces."},
     };
 }
 

@@ -252,18 +252,17 @@ std::vector<Claim> weakness_plane_claims() {
          .check = plane_of_weakness_slips_at_its_strength,
          .slow = true,
          .note = "Jaeger 1960, without cohesion; frictionless platens, dead loads on the sides, height twice the "
-                 "width, β between plane and load. Mean axial stress while it slips by 0.3 to 0.7 of the gap between "
-                 "cells: farther on corners ride up the rounded ends of the next faces, under much stress by some "
-                 "degrees."},
+                 "width, β is the angle between plane and load. The axial stress is the mean over slips of 0.3 to 0.7 "
+                 "of the gap between cells. At larger slips, corners climb the rounded ends of the next faces, by "
+                 "several degrees at high stress."},
         {.name = "plane_among_circles_slips_on_and_on",
          .group = "Joints",
-         .statement = "an open joint among circles slips at that strength for more than a diameter, and no circle "
-                      "interlocks",
+         .statement =
+             "an open joint among circles slips at this strength over more than a diameter, without interlocking",
          .check = plane_among_circles_slips_on_and_on,
          .slow = true,
-         .note = "As above, by flat faces of circles (solver/MODEL.md 5.4), from a tenth of a diameter to 1.2 of them; "
-                 "the pressure is what "
-                 "is on the upper block's circles."},
+         .note = "As above, with flat faces of circles (solver/MODEL.md 5.4), over slips of 0.1 to 1.2 diameters; the "
+                 "pressure is that on the circles of the upper block."},
     };
 }
 

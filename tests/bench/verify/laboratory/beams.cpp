@@ -100,13 +100,13 @@ std::vector<Claim> beam_claims() {
          .statement = "δ = PS³/(48EI) [1 + 2.85 (W/S)² − 0.84 (W/S)³] (Timoshenko & Goodier, art. 23)",
          .check = beam_bends_as_the_theory_of_elasticity_has_it,
          .note =
-             "a row stands for √3/2 of a spacing; outer rows are softer, an error that goes with their share, so that "
-             "two lattices say what a fine one does; pads press themselves in by 2/π ln(W/c) P/E each, 1 to 2 %"},
+             "A row represents √3/2 of a spacing. Outer rows are softer; this error is proportional to their share, so "
+             "the result is extrapolated from two lattices. Each pad indents the beam by 2/π ln(W/c) P/E, 1 to 2 %."},
         {.name = "notched_beam_sets_free_the_energy_of_its_stress_intensity",
          .group = group,
-         .statement = "K² = E P²/2 dC/da is (P S/W^1.5 f(a/W))² (ASTM E399), C the compliance of the sparse solve",
+         .statement = "K² = E P²/2 dC/da is (P S/W^1.5 f(a/W))² (ASTM E399), with the compliance C of the sparse solve",
          .check = notched_beam_sets_free_the_energy_of_its_stress_intensity,
-         .note = "hexagons, 25 rows deep, S = 4W; dC over four rows"},
+         .note = "Hexagons, 25 rows deep, S = 4W; dC over four rows."},
     };
 }
 

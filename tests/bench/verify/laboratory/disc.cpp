@@ -128,12 +128,13 @@ std::vector<Claim> disc_claims() {
          .group = group,
          .statement = "σ_θ = (2p/π)(A − B) on the loaded diameter of a disc, p over 20°",
          .check = disc_under_even_pressure_has_hondros_stress,
-         .note = "60 hexagons across, by the sparse solve"},
+         .note = "Disc of 60 hexagons across, by the sparse solve."},
         {.name = "glued_arcs_stretch_the_centre_less",
          .group = group,
-         .statement = "Jaws that are glued press unevenly and hold the disc across: a twentieth less than Hondros",
+         .statement = "Glued jaws press unevenly and restrain the disc laterally: the stress is a twentieth smaller "
+                      "than that of Hondros",
          .check = glued_arcs_stretch_the_centre_less,
-         .note = "60 hexagons across, by the sparse solve"},
+         .note = "Disc of 60 hexagons across, by the sparse solve."},
     };
 }
 

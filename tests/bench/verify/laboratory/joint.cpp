@@ -104,9 +104,10 @@ std::vector<Claim> joint_claims() {
     return {
         {.name = "plane_joint_slips_at_its_friction_and_yields_by_its_shear_stiffness",
          .group = "Laboratory",
-         .statement = "a joint without strength in the shear box slips at σ_n tan φ; before, τ over its own way is k_s",
+         .statement = "in the shear box, a joint without strength slips at σ_n tan φ; before slip, τ over its shear "
+                      "displacement is k_s",
          .check = plane_joint_slips_at_its_friction_and_yields_by_its_shear_stiffness,
-         .note = "two cells, one in either half box; faces over the boxes are in series with the joint"},
+         .note = "Two cells, one in each half box; their faces to the boxes are in series with the joint."},
     };
 }
 

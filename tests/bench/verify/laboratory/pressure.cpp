@@ -54,9 +54,9 @@ std::vector<Claim> pressure_claims() {
     return {
         {.name = "block_under_pressure_loses_the_area_of_its_moduli",
          .group = "Laboratory",
-         .statement = "ΔA/A = −2p(1 − ν)/E under a pressure p all round",
+         .statement = "ΔA/A = −2p(1 − ν)/E under a pressure p on all sides",
          .check = block_under_pressure_loses_the_area_of_its_moduli,
-         .note = "a lattice of discs under its membrane; its boundary leaves an error of the order d/W"},
+         .note = "A lattice of discs under its membrane; the boundary causes an error of the order d/W."},
     };
 }
 

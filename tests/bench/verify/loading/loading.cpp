@@ -218,18 +218,17 @@ std::vector<Claim> loading_claims() {
              "dt",
          .check = energy_of_a_run_to_failure_closes,
          .slow = true,
-         .note =
-             "At 0.8 of the bound, the default, single packings may exceed the reference's 1e-3: the worst is shown."},
+         .note = "At 0.8 of the bound, the default, single packings may exceed the reference's 1e-3, so the worst one "
+                 "is only reported."},
         {.name = "slow_loading_is_quasi_static",
          .group = group,
-         .statement =
-             "rate, rate/2, rate/4: the peak converges; the platens' forces differ by less than 1 % of the peak "
-             "before it",
+         .statement = "with the rate, half and a quarter of it the peak converges; before the peak, the platens' "
+                      "forces differ by less than 1 % of it",
          .check = slow_loading_is_quasi_static,
          .slow = true,
-         .note = "In so small a specimen one bond carries a good share of the force at peak. What its break sets free "
-                 "reaches one platen before the other at any rate, so that the largest difference before the peak is "
-                 "no measure of the rate and is only shown: it exceeds the reference's 1 %."},
+         .note = "In such a small specimen one bond carries a considerable part of the peak force. At any rate, the "
+                 "force released by its break reaches one platen before the other. The largest difference before the "
+                 "peak therefore does not measure the rate; it exceeds the reference's 1 % and is only reported."},
     };
 }
 
