@@ -37,7 +37,7 @@ std::vector<ClaimRow> account_of(std::int64_t steps) {
         const Endured endured = endure(world, steps);
         rows.exactly(scene.name + (endured.error.empty() ? ": steps done" : ": " + endured.error),
                      static_cast<double>(endured.steps), static_cast<double>(steps));
-        rows.absolute(scene.name + ": account left open over the energy", endured.closing_error, 0.0, open_account,
+        rows.absolute(scene.name + ": closing error over the energy", endured.closing_error, 0.0, open_account,
                       "loose_step_share");
     }
     return rows.take();
@@ -62,10 +62,10 @@ std::vector<ClaimRow> given_steps_up_to_the_bound_are_bounded_or_named() {
             if (share < 0.5) {  // errors grow with the step, beginning with that at a derived step
                 rows.exactly(name + (endured.error.empty() ? ": steps done" : ": " + endured.error),
                              static_cast<double>(endured.steps), 3000.0);
-                rows.at_most(name + ": account left open over the energy", endured.closing_error,
+                rows.at_most(name + ": closing error over the energy", endured.closing_error,
                              open_account * share / (0.9 * loose_step_share), "first order");
             } else if (endured.error.empty()) {  // check_health() accepts an error as large as the energy supplied
-                rows.at_most(name + ": account left open over the energy", endured.closing_error, 1.0, "or named");
+                rows.at_most(name + ": closing error over the energy", endured.closing_error, 1.0, "or named");
             } else {
                 rows.exactly(name + ": " + endured.error,
                              endured.error.find("is above the stable bound") != std::string::npos ? 1.0 : 0.0, 1.0);
@@ -220,11 +220,11 @@ std::vector<ClaimRow> stacks_stay_at_rest() {
         // Every contact of a column is compressed by the weight above it, twice as much after a sudden start. The same
         // amount is allowed sideways.
         const double settled = 4.0 * 0.5 * tallest * tallest * mass * 9.81 / 1e7 + 4.0 * mass * 9.81 / 1e7;
-        rows.at_most(name + (rest.error.empty() ? "" : ", " + rest.error) + ": way from the start, m", rest.sunk,
-                     settled, "its own weight");
+        rows.at_most(name + (rest.error.empty() ? "" : ", " + rest.error) + ": displacement from the start, m",
+                     rest.sunk, settled, "its own weight");
         // The remaining motion of a column's slowest mode after 0.3 s of damping, and round-off, 1e-16 m per step.
         rows.at_most(name + ": creep in the second half, m", rest.creep, 1e-3 * settled, "no creep");
-        rows.at_most(name + ": largest speed in the end, m/s", rest.speed, 1e-6, "at rest");
+        rows.at_most(name + ": largest speed at the end, m/s", rest.speed, 1e-6, "at rest");
         rows.shown(name + ": bodies", count);
     };
     Scene column = floor_scene();
@@ -278,11 +278,11 @@ std::vector<ClaimRow> degenerate_shapes_are_refused_or_handled() {
         const Endured endured = endure(world, 4000);
         rows.exactly(name + (endured.error.empty() ? ": steps done" : ": " + endured.error),
                      static_cast<double>(endured.steps), 4000.0);
-        rows.absolute(name + ": account left open over the energy", endured.closing_error, 0.0, open_account,
+        rows.absolute(name + ": closing error over the energy", endured.closing_error, 0.0, open_account,
                       "loose_step_share");
         const Momentum now = momentum_of(world);
         // Relative to the current momenta, since nothing may move at the start.
-        rows.absolute(name + ": momentum over what moves",
+        rows.absolute(name + ": momentum over that of the moving bodies",
                       std::hypot(now.x - start.x, now.y - start.y) / (now.scale + 1e-12), 0.0, 1e-10, "rounding");
     };
     const auto open_scene = [] {
@@ -347,7 +347,7 @@ std::vector<ClaimRow> bonded_specimens_turn_round_unharmed() {
         rows.exactly(name + (endured.error.empty() ? ": steps done" : ": " + endured.error),
                      static_cast<double>(endured.steps), static_cast<double>(steps));
         rows.exactly(name + ": bonds broken", static_cast<double>(world.bonds.broken), 0.0);
-        rows.absolute(name + ": account left open over the energy", endured.closing_error, 0.0, 1e-3, "(ω dt)²");
+        rows.absolute(name + ": closing error over the energy", endured.closing_error, 0.0, 1e-3, "(ω dt)²");
         const double turn = spin * world.stepping.time;
         double off = 0.0, farthest = 0.0;
         for (std::size_t b = 0; b < before.size(); ++b) {

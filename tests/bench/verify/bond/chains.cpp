@@ -166,10 +166,10 @@ std::vector<ClaimRow> bonded_chain_hangs_as_a_catenary() {
     // Forces are stiffnesses times differences of coordinates, so their round-off is k_n·eps·1 m = 2e-9 N.
     rows.absolute("horizontal tension of any bond against the catenary's, over it", horizontal / shape.horizontal, 0.0,
                   1e-9, "rounding");
-    rows.absolute("vertical tension of any bond against the weights below, over the whole weight",
+    rows.absolute("vertical tension of any bond against the weights below, over the total weight",
                   vertical / (weight * (count - 2)), 0.0, 1e-9, "rounding");
     rows.relative("weight on both ends, N", -ends.y, weight * (count - 2), 1e-9, "rounding");
-    rows.absolute("places against the discrete catenary, over the spacing", off / spacing, 0.0, 1e-9, "rounding");
+    rows.absolute("positions against the discrete catenary, over the spacing", off / spacing, 0.0, 1e-9, "rounding");
     rows.shown("sag over span", -shape.place[(count - 1) / 2].y / shape.place.back().x);
     return rows.take();
 }

@@ -120,8 +120,8 @@ void check(Rows& rows, const std::string& name, const FirstBreak& got, double ex
     // The error is one increment of stress, 1/increments, since the break is found after it. The delayed lateral strain
     // adds the same amount, and the change of shape is added as well.
     rows.relative(name + ": stress, N/m", got.stress, expected, 3.0 / increments + overlap / radius, "increment");
-    rows.exactly(name + ": breaks bonds of the expected rows alone", got.right_bonds ? 1.0 : 0.0, 1.0);
-    rows.absolute(name + ": lateral stress on the way, over that", got.lateral / expected, 0.0, 3.0 / increments,
+    rows.exactly(name + ": breaks only bonds of the expected rows", got.right_bonds ? 1.0 : 0.0, 1.0);
+    rows.absolute(name + ": lateral stress during loading, over that", got.lateral / expected, 0.0, 3.0 / increments,
                   "increment");
     rows.absolute(name + ": force on an inner disc, over F_b", got.unbalanced / strength, 0.0, 1e-9, "symmetry");
 }

@@ -75,7 +75,7 @@ std::vector<ClaimRow> block_stays_on_a_slope_below_friction() {
         // block by mg sin θ / 2k_s. The block also tilts because its normal springs are compressed unequally, and slips
         // slightly where the upper corner is unloaded.
         const double sag = world.bodies.inertia[block].mass * gravity * std::sin(slope) / (2.0 * 0.5e8);
-        rows.at_most(fmt::format("{}: way over that of its springs", name_of(ground)),
+        rows.at_most(fmt::format("{}: displacement over that of its springs", name_of(ground)),
                      (world.bodies.state[block].x - start) / sag, 4.0, "springs and lean");
         rows.absolute(fmt::format("{}: speed, m/s", name_of(ground)), world.bodies.state[block].vx, 0.0, 1e-9, "rest");
     }

@@ -139,7 +139,7 @@ std::vector<ClaimRow> bouncing_disc_keeps_its_energy() {
             least = std::min(least, change);
             most = std::max(most, change);
         }
-        rows.absolute(fmt::format("leapfrog, {} of the limit: E'/E of a bounce against the formula, 16 starts", share),
+        rows.absolute(fmt::format("leapfrog, {} of the limit: E'/E per bounce against the formula, 16 starts", share),
                       worst, 0.0, 1e-9, "rounding");
         rows.shown("least E'/E", least);
         rows.shown("largest E'/E", most);

@@ -219,8 +219,8 @@ std::vector<ClaimRow> plane_among_circles_slips_on_and_on() {
         const double expected = got.pressed * strength_of_plane(beta * degrees_of_arc);
         const std::string name = fmt::format("{:.0f} degrees: ", beta);
         rows.relative(name + "axial stress, Pa", got.stress, expected, 1e-3, "inertia");
-        rows.relative(name + "least of it, Pa", got.least, expected, 2e-3, "inertia");
-        rows.relative(name + "most of it, Pa", got.most, expected, 2e-3, "inertia");
+        rows.relative(name + "smallest axial stress, Pa", got.least, expected, 2e-3, "inertia");
+        rows.relative(name + "largest axial stress, Pa", got.most, expected, 2e-3, "inertia");
         rows.absolute(name + "closing error of energy over work", got.energy_error, 0.0, 1e-3, "reference");
         rows.exactly(name + "bonds broken", got.broken, 0.0);
     }

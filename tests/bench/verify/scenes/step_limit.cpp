@@ -137,7 +137,7 @@ void check_step_limit(Rows& rows, const std::string& name, const World& rest) {
     // much, which changes the projection by 1 % of that.
     rows.relative(name + ": growth a step at 1.01, less 1", growth.per_step - 1.0, predicted - 1.0, 1e-4,
                   "other modes");
-    rows.exactly(name + ": bonds broken meanwhile", static_cast<double>(growth.broken), 0.0);
+    rows.exactly(name + ": bonds broken during the run", static_cast<double>(growth.broken), 0.0);
 }
 
 }  // namespace crackle::verification
