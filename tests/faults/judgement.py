@@ -8,12 +8,12 @@ from program import CAUSES, OF_A_PATH, contents, differences
 
 # Good outcomes.
 UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, REFUSED = (
-    "results right all the same", "not reached", "said so, then right", "stopped by the signal, then right", "repeated, it goes one part further",
-    "right, a file left over", "refused until the folder is moved away")
+    "results correct despite the fault", "not reached", "reported, then correct", "stopped by the signal, then correct", "repeated, continues by one part",
+    "correct, a file left over", "refused until the folder is moved away")
 GOOD = (UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, REFUSED)
 # Bad outcomes, worst first.
 SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE = (
-    "exit 0, results wrong", "earlier results lost", "went on from a mixture", "hung", "aborted", "not right afterwards", "words", "exit code")
+    "exit 0, results wrong", "earlier results lost", "continued from a mixture", "hung", "aborted", "not correct afterwards", "wrong message", "wrong exit code")
 BAD = (SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE)
 OF_TESTS = ("failed by the system", "ended with a system error")  # messages about tests of a campaign or calibration do not state the cause
 
