@@ -159,9 +159,9 @@ void compare_with_dense(Rows& rows, const std::string& name, Scene scene, double
     // divided by the move. Under the guide's law the move must stay within one case, so it is a tenth of that for other
     // polygons.
     const double tolerance = symmetric ? 1e-8 : 1e-7;
-    rows.absolute(name + ": displacements off, over the largest", worst_u / largest_u, 0.0, tolerance,
+    rows.absolute(name + ": error of displacements, over the largest", worst_u / largest_u, 0.0, tolerance,
                   "finite differences");
-    rows.absolute(name + ": reactions off, over the largest", worst_f / largest_f, 0.0, tolerance,
+    rows.absolute(name + ": error of reactions, over the largest", worst_f / largest_f, 0.0, tolerance,
                   "finite differences");
     rows.relative(name + ": energy, J", sparse.energy, 0.5 * u.dot(reactions), tolerance, "finite differences");
     const double asymmetry =

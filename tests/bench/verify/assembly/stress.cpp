@@ -360,7 +360,7 @@ std::vector<ClaimRow> bonded_specimens_turn_round_unharmed() {
         // When released, it stretches by up to twice its static strain, and its moment of inertia grows by twice that,
         // so that the rotation lags.
         const double strain = 2500.0 * spin * spin * farthest * farthest / 2.0 / 1e7;
-        rows.at_most(name + ": farthest body from its place after the turn, m", off,
+        rows.at_most(name + ": largest distance of a body from its place after the rotation, m", off,
                      (2.0 + 4.0 * pi) * strain * farthest, "stretched by its spin");
         rows.absolute(name + ": momenta", momentum_error(start, momentum_of(world)), 0.0, 1e-10, "rounding");
     }

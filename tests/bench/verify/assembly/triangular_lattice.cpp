@@ -101,9 +101,10 @@ std::vector<ClaimRow> stiffness_of_the_triangular_lattice() {
         rows.absolute(label + "ν", c12 / c11, (1.0 - share) / (3.0 + share), 1e-9, "rounding");
         rows.relative(label + "C22/k_n", across.yy / 1e-4 / kn, std::sqrt(3.0) / 4.0 * (3.0 + share), 1e-9, "rounding");
         rows.relative(label + "C33/k_n", shear.xy / 2e-4 / kn, std::sqrt(3.0) / 4.0 * (1.0 + share), 1e-9, "rounding");
-        rows.absolute(label + "shear stress, its two components apart, over C33ε", (shear.xy - shear.yx) / shear.xy,
-                      0.0, 1e-9, "rounding");
-        rows.absolute(label + "inner discs off the affine motion, over it", worst, 0.0, 1e-9, "rounding");
+        rows.absolute(label + "difference of the two shear stress components, over C33ε",
+                      (shear.xy - shear.yx) / shear.xy, 0.0, 1e-9, "rounding");
+        rows.absolute(label + "difference of inner discs from the affine motion, over it", worst, 0.0, 1e-9,
+                      "rounding");
     }
     return rows.take();
 }

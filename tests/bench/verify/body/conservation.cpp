@@ -111,8 +111,8 @@ std::vector<ClaimRow> rigid_turn_of_360_degrees_gives_no_force() {
         const double by = 2.0 * std::numbers::pi / 8000, reach = 0.08;
         const double estimate = 2.5e6 * std::numbers::pi * by * by * reach / 3.0 / (1e7 * 8e-5);
         const std::string name = name_of(kind);
-        rows.absolute(name + ": largest force on the way over the mean strength, 8000 steps", fine, 0.0, estimate,
-                      "πα²D/3 a turn");
+        rows.absolute(name + ": largest force during the rotation over the mean strength, 8000 steps", fine, 0.0,
+                      estimate, "πα²D/3 a turn");
         rows.converging({coarse, fine, 8.0, 2.0});
         rows.exactly(name + ": bonds broken", static_cast<double>(broken), 0.0);
     }
@@ -185,7 +185,7 @@ std::vector<ClaimRow> frictionless_motion_runs_backwards() {
         for (int n = 0; n < steps; ++n) step(world);
         const std::string name = name_of(kind);
         rows.at_least(name + fmt::format(": way after {} steps, m", steps), way, 1e-6, "it moves");
-        rows.absolute(name + ": distance from the start after going back, over 0.04 m", farthest() / 0.04, 0.0, 1e-10,
+        rows.absolute(name + ": distance from the start after running back, over 0.04 m", farthest() / 0.04, 0.0, 1e-10,
                       "reference");
         rows.absolute(name + ": the same over the way", farthest() / way, 0.0, 1e-8, "rounding");
     }

@@ -143,7 +143,7 @@ Scene mapped(const Scene& scene, const std::function<Vec2(Vec2)>& map, double ha
 std::vector<ClaimRow> physics_does_not_depend_on_order_and_numbers() {
     Rows rows;
     const Scene scene = busy_scene();
-    rows.at_least("bonds that break on the way", static_cast<double>(plain_story().broken), 6.0, "not tame");
+    rows.at_least("bonds that break during the run", static_cast<double>(plain_story().broken), 6.0, "not tame");
     for (const std::uint64_t seed : {3u, 4u}) {
         std::mt19937_64 generator(seed);
         std::vector<std::size_t> order(scene.bodies.size());
@@ -210,7 +210,7 @@ std::vector<ClaimRow> physics_does_not_depend_on_the_axes() {
                   return Fate{mirror(f.centre), mirror(f.velocity), -f.turn, -f.spin};
               },
               1.0));
-    rows.at_least("bonded pairs of which i and j have traded places", traded(scene, mirrored), 10.0, "swapped");
+    rows.at_least("bonded pairs with i and j exchanged", traded(scene, mirrored), 10.0, "swapped");
     Scene turned = mapped(scene, perpendicular, 1.0);
     turned.controls[0].x = {Drive::force, -30.0};
     turned.controls[0].y = {Drive::velocity, 0.02};

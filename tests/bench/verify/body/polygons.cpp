@@ -242,7 +242,7 @@ std::vector<ClaimRow> free_end_under_the_guides_law_takes_energy_whatever_the_st
                   "where the step meets the jump");
     rows.at_most("guide's law: closing error over that at 16 times the step",
                  guide[2].closing_error / guide[0].closing_error, 0.5, "shrinks");
-    rows.exactly("rounded law: taken", rounded[2].taken, 0.0);
+    rows.exactly("rounded law: energy loss", rounded[2].taken, 0.0);
     rows.absolute("rounded law: closing error over the largest strain energy", rounded[2].closing_error, 0.0, 1e-4,
                   "(ω dt)²");
     rows.converging({rounded[0].closing_error, rounded[2].closing_error, 16.0, 2.0});

@@ -83,7 +83,7 @@ std::vector<ClaimRow> bond_of_vanishing_strength_equals_no_bond() {
         // The bond pulls with k_n δ0 throughout the contact, π√(m/2k_n), which changes the velocity by π√(2k_n/m)δ0,
         // relative to 0.01 m/s. The shear limit, which is equally small, adds the same amount.
         const double estimate = 2.0 * 3.2 * std::sqrt(2.0 * 1e7 / 3.14) * overlap / 0.01;
-        rows.absolute(fmt::format("overlap {} m: velocities apart, over that of impact", overlap), errors[k], 0.0,
+        rows.absolute(fmt::format("overlap {} m: velocity of separation over that of impact", overlap), errors[k], 0.0,
                       estimate, "k_n δ₀ × contact time");
         rows.exactly(fmt::format("overlap {} m: bonds broken", overlap), static_cast<double>(broken), 1.0);
     }
@@ -126,7 +126,7 @@ std::vector<ClaimRow> break_list_is_the_difference_of_bond_sets() {
         std::set_symmetric_difference(lost.begin(), lost.end(), broken.begin(), broken.end(), std::back_inserter(off));
         const std::string name = name_of(kind);
         rows.at_least(name + ": bonds broken", static_cast<double>(broken.size()), 20.0, "it bursts");
-        rows.at_least(name + ": bonds that hold", static_cast<double>(after.size()), 20.0, "not all of it");
+        rows.at_least(name + ": bonds that hold", static_cast<double>(after.size()), 20.0, "some bonds hold");
         rows.exactly(name + ": bonds lost without an event, or events without a lost bond",
                      static_cast<double>(off.size()), 0.0);
         rows.exactly(name + ": counted as broken", static_cast<double>(world.bonds.broken),
@@ -167,7 +167,7 @@ std::vector<ClaimRow> splitting_a_run_loses_no_break() {
         const std::string name = name_of(kind);
         rows.at_least(name + ": parts of the run", parts, 5.0, "it is split");
         rows.at_least(name + ": breaks", static_cast<double>(straight.bonds.events.size()), 20.0, "it bursts");
-        rows.exactly(name + ": breaks that differ from those of the run in one", static_cast<double>(off), 0.0);
+        rows.exactly(name + ": breaks that differ from those of the uninterrupted run", static_cast<double>(off), 0.0);
     }
     return rows.take();
 }

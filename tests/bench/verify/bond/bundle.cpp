@@ -184,7 +184,7 @@ std::vector<ClaimRow> bundles_have_the_strength_of_daniels() { return bundles({1
 
 std::vector<Claim> bundle_claims() {
     using namespace bundle_scenes;
-    constexpr const char* group = "Bonds with strengths of their own";
+    constexpr const char* group = "Bonds with given strengths";
     constexpr const char* statement =
         "N discs between two platens have bonds with Weibull strengths to one of them: the mean largest load follows "
         "from order statistics, as the largest x_(i) (N - i + 1) of N sorted strengths";

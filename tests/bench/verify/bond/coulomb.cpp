@@ -148,9 +148,9 @@ std::vector<ClaimRow> coulomb_bond_of_its_overlap_is_a_back_tension_bond() {
     }
     rows.at_least("steps to the first slip or break", static_cast<double>(steps), 20.0, "it moves");
     // k(δ - δ0) and kδ - kδ0 differ by 1e-16 of kδ0 in each step.
-    rows.absolute("apart until then, over the overlap", farthest / bond_overlap, 0.0, 1e-10, "rounding");
-    rows.exactly("slips or breaks in that step by back-tension", begun(by_overlap) ? 1.0 : 0.0, 1.0);
-    rows.exactly("breaks in that step of the coulomb bond", begun(by_strength) ? 1.0 : 0.0, 1.0);
+    rows.absolute("difference until then, over the overlap", farthest / bond_overlap, 0.0, 1e-10, "rounding");
+    rows.exactly("back-tension bond: slips or breaks in this step", begun(by_overlap) ? 1.0 : 0.0, 1.0);
+    rows.exactly("coulomb bond: breaks in this step", begun(by_strength) ? 1.0 : 0.0, 1.0);
     return rows.take();
 }
 
@@ -260,9 +260,9 @@ std::vector<ClaimRow> shear_breaks_under_pressure_close_the_account() {
     rows.converging({pair_sheared_under_pressure(500, nullptr), pair, 2.0, 2.0});
     const ShearedLattice coarse = lattice_sheared_under_pressure(0.2), fine = lattice_sheared_under_pressure(0.05);
     rows.at_least("lattice: bonds broken", fine.broken, 20.0, "it breaks");
-    rows.at_least("lattice: of them in shear", fine.in_shear, 5.0, "under pressure");
-    rows.at_least("lattice: least energy of a break, J", std::min(coarse.least_energy, fine.least_energy), 0.0,
-                  "strain energy before less after");
+    rows.at_least("lattice: bonds broken in shear", fine.in_shear, 5.0, "under pressure");
+    rows.at_least("lattice: smallest energy of a break, J", std::min(coarse.least_energy, fine.least_energy), 0.0,
+                  "decrease of the strain energy");
     rows.absolute("lattice: closing error over the work", fine.closing, 0.0, 1e-5, "second order");
     rows.converging({coarse.closing, fine.closing, 4.0, 2.0});
     return rows.take();
@@ -273,7 +273,7 @@ std::vector<ClaimRow> shear_breaks_under_pressure_close_the_account() {
 
 std::vector<Claim> coulomb_bond_claims() {
     using namespace coulomb_scenes;
-    constexpr const char* group = "Bonds with strengths of their own";
+    constexpr const char* group = "Bonds with given strengths";
     return {
         {.name = "coulomb_bond_breaks_on_its_envelope",
          .group = group,

@@ -102,7 +102,7 @@ std::vector<ClaimRow> face_turns_as_its_end_points_do() {
 
 std::vector<Claim> face_claims() {
     using namespace faces_scenes;
-    constexpr const char* group = "Bonds with strengths of their own";
+    constexpr const char* group = "Bonds with given strengths";
     return {
         {.name = "column_of_cells_has_the_contact_modulus",
          .group = group,

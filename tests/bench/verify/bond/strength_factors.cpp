@@ -45,7 +45,7 @@ std::vector<ClaimRow> random_factors_of_strength_have_their_distribution() {
         }
         const std::string name = name_of(kind);
         rows.exactly(name + ": bonds", static_cast<double>(drawn.size()), n);
-        rows.exactly(name + ": tensile strength and cohesion with factors of their own", apart, 0.0);
+        rows.exactly(name + ": tensile strength and cohesion with different factors", apart, 0.0);
         double mean = 0.0, variance = 0.0, fourth = 0.0;
         for (const double x : drawn) mean += x / n;
         for (const double x : drawn) variance += (x - mean) * (x - mean) / (n - 1.0);
@@ -71,7 +71,7 @@ std::vector<ClaimRow> random_factors_of_strength_have_their_distribution() {
 std::vector<Claim> strength_factor_claims() {
     return {
         {.name = "random_factors_of_strength_have_their_distribution",
-         .group = "Bonds with strengths of their own",
+         .group = "Bonds with given strengths",
          .statement = "the strengths of 10,000 bonds have the given mean, coefficient of variation and distribution",
          .check = random_factors_of_strength_have_their_distribution}};
 }

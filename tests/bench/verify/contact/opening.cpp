@@ -298,7 +298,7 @@ std::vector<ClaimRow> oblique_sliding_rebound_has_the_closed_form() {
             }
             const std::string where = fmt::format("{}, {} of the limit: ", name_of(integrator), share);
             if (integrator == Integrator::leapfrog) {
-                rows.shown(where + "speed off the wall, off by (over v_n)", worst.normal);
+                rows.shown(where + "error of the speed off the wall, over v_n", worst.normal);
                 continue;
             }
             rows.absolute(where + "speed off the wall against v_n, over it", worst.normal, 0.0, 1e-9, "rounding");

@@ -40,7 +40,8 @@ std::vector<ClaimRow> beam_bends_as_the_theory_of_elasticity_has_it() {
     const double coarse = over_theory(118, 13, 0.224, 0.006), fine = over_theory(226, 25, 0.43, 0.0115);
     Rows rows;
     rows.shown("nominal modulus over theory, 13 rows", coarse);
-    rows.at_most("25 rows, off theory", std::abs(fine - 1.0), std::abs(coarse - 1.0), "share of outer rows");
+    rows.at_most("25 rows, difference from theory", std::abs(fine - 1.0), std::abs(coarse - 1.0),
+                 "share of outer rows");
     rows.absolute("towards many rows", fine + (fine - coarse) * 13.0 / 12.0, 1.0, 0.02, "pads press in");
     return rows.take();
 }

@@ -100,7 +100,7 @@ std::vector<ClaimRow> disc_under_even_pressure_has_hondros_stress() {
     // The disc is held at its centre and in rotation; the reaction there is 0.
     const ElasticSolution solution = solve_elastic(test.world, {{nearest_body(test, centre), {}}}, loads);
     Rows rows;
-    rows.absolute("force at the held centre over the load", solution.reaction[0].y / half, 0.0, 1e-6, "symmetry");
+    rows.absolute("force at the fixed centre over the load", solution.reaction[0].y / half, 0.0, 1e-6, "symmetry");
     rows.relative("stress across the load line at the centre", stress_across(test, solution.displacement), hondros(),
                   0.02, "a mean over 9 cells");
     return rows.take();
