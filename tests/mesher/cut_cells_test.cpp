@@ -57,7 +57,7 @@ TEST(CutCells, OfCrowdedTracesAreCountedAndNotTooSmall) {
             ++cut;
             double least = 1e300;
             for (const Cell& cell : mesh.cells) least = std::min(least, cell.area);
-            EXPECT_GT(least, 0.002 * spacing * spacing) << "where no other way gives a mesh, small pieces stay";
+            EXPECT_GT(least, 0.002 * spacing * spacing) << "if no other way gives a mesh, small pieces remain";
             if (least > 0.02 * spacing * spacing) ++fair;  // rows of cells are at least a fifth of a spacing wide
             double asked = 0.0;
             for (const auto& trace : traces) asked += length_of(trace);

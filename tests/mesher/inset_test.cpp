@@ -79,7 +79,7 @@ TEST(Inset, StraightCornerThatIsKeptIsOneAndConvex) {
         EXPECT_TRUE(within("place off it", result[1].y, depth, 1e-14));
         const Point in{result[1].x - result[0].x, result[1].y - result[0].y},
             out{result[2].x - result[1].x, result[2].y - result[1].y};
-        EXPECT_GT(cross(in, out), 0.0) << "the solver takes it for convex";
+        EXPECT_GT(cross(in, out), 0.0) << "the solver treats the union as convex";
     }
 }
 

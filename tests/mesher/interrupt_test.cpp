@@ -54,7 +54,7 @@ TEST(MeshInterrupt, IsHeardThroughoutAndChangesNothingWhereItDoesNotCome) {
         for (const int last : {1, questions / 2, questions}) {
             const auto [none, asked] = meshed(way.request, last);
             EXPECT_FALSE(none.has_value()) << "of question " << last;
-            EXPECT_EQ(asked, last) << "no more is asked once the answer was yes";
+            EXPECT_EQ(asked, last) << "after the first positive answer, no further question is asked";
         }
     }
 }

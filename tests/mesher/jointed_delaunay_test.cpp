@@ -38,7 +38,7 @@ TEST(JointedDelaunay, EveryTraceIsAChainOfEdgesOnItsLine) {
             EXPECT_TRUE(agrees("length of a trace", found.length.at(static_cast<int>(t)), length_of(traces[t]), 1e-12));
         }
         EXPECT_TRUE(agrees("length reported", mesh.report.trace_length, sum, 1e-12));
-        EXPECT_TRUE(found.paired) << "each edge has a triangle on either side, which both know the trace";
+        EXPECT_TRUE(found.paired) << "each edge has a triangle on either side, and both refer to the trace";
         EXPECT_TRUE(agrees("areas", testing::sum_of_areas(mesh), 2.0, 1e-12));
         EXPECT_TRUE(testing::convex_and_counter_clockwise(mesh, 2.0));
         EXPECT_GT(found.smallest_angle, 20.0);

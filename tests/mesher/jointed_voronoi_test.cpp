@@ -36,7 +36,7 @@ TEST(JointedVoronoi, EveryTraceIsAChainOfEdgesOnItsLine) {
             for (std::size_t t = 0; t < traces.size(); ++t)
                 EXPECT_TRUE(
                     agrees("length of a trace", found.length.at(static_cast<int>(t)), length_of(traces[t]), 1e-9));
-            EXPECT_TRUE(found.paired) << "each edge has a cell on either side, which both know the trace";
+            EXPECT_TRUE(found.paired) << "each edge has a cell on either side, and both refer to the trace";
             EXPECT_TRUE(agrees("areas", testing::sum_of_areas(mesh), 2.0, 1e-12));
             EXPECT_TRUE(testing::convex_and_counter_clockwise(mesh, 2.0));
         }

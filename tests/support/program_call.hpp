@@ -67,7 +67,7 @@ class ProgramCall : public ::testing::Test {
         EXPECT_NE(answer.err.find(says), std::string::npos) << "expected: " << says << "\ngot: " << answer.err;
         EXPECT_EQ(std::count(answer.err.begin(), answer.err.end(), '\n'), 1) << answer.err;
         EXPECT_TRUE(answer.out.empty()) << answer.out;
-        EXPECT_TRUE(snapshot() == before) << "files were made, changed or lost";
+        EXPECT_TRUE(snapshot() == before) << "files were created, changed or lost";
     }
 
     static constexpr const char *out_ = "out.txt", *err_ = "err.txt";

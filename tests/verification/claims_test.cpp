@@ -114,7 +114,7 @@ TEST(Claims, StandOnTheShippedPage) {
         for (std::size_t at = page.find("\n### "); at != std::string::npos; at = page.find("\n### ", at + 1)) ++count;
         return count;
     }();
-    EXPECT_EQ(sections, claims().size()) << "the page has claims that are none";
+    EXPECT_EQ(sections, claims().size()) << "the page has claims that do not exist";
     EXPECT_EQ(page.find("FAILS"), std::string::npos);
 }
 

@@ -83,7 +83,7 @@ void expect_round_trip(const fs::path& out, const Stages& stages) {
     const double strength = largest_force(pulled);
     EXPECT_TRUE(within("largest force on a plate before loading, over the largest when pulled",
                        largest_force(specimen) / strength, 0.0, 1e-3));
-    EXPECT_GT(largest_force(squeezed), strength) << "rock is stronger when squeezed";
+    EXPECT_GT(largest_force(squeezed), strength) << "rock is stronger in compression";
     // The left plate is held, and the right one moves the full distance.
     for (const auto& [part, sign] : {std::pair{pulled, 1.0}, {squeezed, -1.0}}) {
         const Rows rows = read_rows(part / "f-d_curve.dat");
@@ -96,7 +96,7 @@ void expect_round_trip(const fs::path& out, const Stages& stages) {
             left = std::max(left, sign * row[1]);
             right = std::max(right, -sign * row[2]);
         }
-        EXPECT_GT(left, 0.5 * right) << "what the right plate does goes through the specimen";
+        EXPECT_GT(left, 0.5 * right) << "the work of the right plate passes through the specimen";
     }
     // Contacts of circles are identified by two columns, those that involve a segment by four.
     const Scene scene = read_geometry(specimen / "in_gm.dat");
@@ -118,7 +118,7 @@ void expect_round_trip(const fs::path& out, const Stages& stages) {
         ++lists[row.size()];
     }
     EXPECT_EQ(lists[2] > 0, std::string(stages.kind) == "circles");
-    EXPECT_GT(lists[4], 0) << "plates are bonded, too";
+    EXPECT_GT(lists[4], 0) << "plates are bonded";
     // The specimen separates in tension.
     const Rows forces = forces_on_plates(pulled);
     EXPECT_LT(std::abs(forces.back()[1]), 0.5 * strength);

@@ -147,7 +147,7 @@ TEST(Controls, DrivenBodiesPassThroughEachOtherWhereTheyAreToldTo) {
         while (world.stepping.time < 1.0) step(world);
         compute_forces(world);
         const double speed = world.bodies.state[0].vx;
-        EXPECT_EQ(speed == 0.0, !touch) << "the block that nothing drives goes with " << speed << " m/s";
+        EXPECT_EQ(speed == 0.0, !touch) << "the undriven block moves with " << speed << " m/s";
     }
 }
 

@@ -228,7 +228,7 @@ TEST_F(BenchCommand, QuickEnsembleOfTheGuideHasItsElasticRowsAndGoesOnFromItsCac
         std::string("guide --quick --cases '") + CRACKLE_SOURCE_DIR + "/specimens/guide_rock' -o ";
     const testing::Answer answer = call(words + "guide");
     ASSERT_EQ(answer.code, 0) << answer.err;
-    EXPECT_TRUE(answer.err.empty()) << "no progress beside a terminal\n" << answer.err;
+    EXPECT_TRUE(answer.err.empty()) << "no progress without a terminal\n" << answer.err;
     const std::string page = read("guide/guide.md");
     EXPECT_EQ(answer.out, page);
     EXPECT_TRUE(page.starts_with("# The guide's rock, as an ensemble\n\nMade by `crackle-bench guide --quick")) << page;

@@ -60,10 +60,11 @@ TEST(GuideEnsemble, TestsThatAnExperimentDoesNotTouchAreTheShippedOnes) {
     results[guide_test("smooth_platens", "demseg", "circles", "compression", 3)] = peak(5.0);
     results[guide_test("low_friction", "demseg", "circles", "compression", 3)] = peak(5.0);
     const GuideRow& row = row_named("circles_compressive_over_tensile");
-    EXPECT_DOUBLE_EQ(row_value(row, results, as_shipped, "rounded", 3), 3.0) << "circles serve all laws";
+    EXPECT_DOUBLE_EQ(row_value(row, results, as_shipped, "rounded", 3), 3.0)
+        << "results of circles are used for all laws";
     EXPECT_DOUBLE_EQ(row_value(row, results, "smooth_platens", "demseg", 3), 2.5)
         << "platens that only touch cannot pull";
-    EXPECT_TRUE(std::isnan(row_value(row, results, "low_friction", "demseg", 3))) << "its tension is not there";
+    EXPECT_TRUE(std::isnan(row_value(row, results, "low_friction", "demseg", 3))) << "its tension test is missing";
     EXPECT_TRUE(std::isnan(row_value(row, results, as_shipped, "demseg", 4)));
 }
 
@@ -97,7 +98,7 @@ TEST(GuideEnsemble, CirclesAreNearlyTheSameUnderEveryLaw) {
         // One of about 300 circles may touch the end of a platen's face, where the laws differ.
         EXPECT_NEAR(guide.at(quantity) / rounded.at(quantity), 1.0, 1e-3) << quantity;
     }
-    EXPECT_NEAR(rounded.at("mean_back_tension"), 774.0, 0.5) << "N, what the packing is compressed to";
+    EXPECT_NEAR(rounded.at("mean_back_tension"), 774.0, 0.5) << "N, the value to which the packing is compressed";
 }
 
 TEST(GuideEnsemble, TrianglesBetweenTheCentresAloneAreCountedWithoutPlatens) {

@@ -53,7 +53,7 @@ TEST(LeastStep, GivesTheBytesOfTheEnginesStep) {
     frictionless.friction = false;
     least_step(least, frictionless);
     step(by_engine);
-    EXPECT_FALSE(same_bodies(by_engine, least)) << "features make no difference";
+    EXPECT_FALSE(same_bodies(by_engine, least)) << "unused features must not change results";
 }
 
 TEST(LeastStep, KernelsWithFeaturesThatAreNotThereChangeNothing) {

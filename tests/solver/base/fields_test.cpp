@@ -75,7 +75,7 @@ TEST(Fields, OneMoreIsCarriedToTheNextList) {
     const auto carried = [](auto points) {
         std::vector<Remembered> all;
         visit_remembered(points, [&](auto& values, Remembered remembered) {
-            EXPECT_NE(static_cast<const void*>(&values), &points.root_mass) << "is found again, not carried";
+            EXPECT_NE(static_cast<const void*>(&values), &points.root_mass) << "is recomputed, not carried over";
             all.push_back(remembered);
         });
         return all;

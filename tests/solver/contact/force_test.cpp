@@ -141,7 +141,7 @@ TEST(Force, OfEachLawIsZeroAtItsBondAndThenThatOfItsSprings) {
         row.bodies[3].vy = 2.0;
         row.pass();
         EXPECT_NEAR(row.normal(2), 1e-4 * k_n, exact);
-        EXPECT_NEAR(row.shear(2), 2.0 * row.drift * k_s, 1e-3) << "the turn of the normal is left out";
+        EXPECT_NEAR(row.shear(2), 2.0 * row.drift * k_s, 1e-3) << "the rotation of the normal is neglected";
         EXPECT_EQ(row.total.broken, 0U);
     }
 }

@@ -51,7 +51,7 @@ TEST(JointLaw, NumbersStandInPlaceOfTheRocks) {
     EXPECT_DOUBLE_EQ(law.tensile_strength, 0.5e6);
     EXPECT_DOUBLE_EQ(law.cohesion, 1.5e6);
     EXPECT_DOUBLE_EQ(law.bond_friction, tangent_of_degrees(20.0));
-    EXPECT_DOUBLE_EQ(law.friction, tangent_of_degrees(20.0)) << "residual is the joint's own";
+    EXPECT_DOUBLE_EQ(law.friction, tangent_of_degrees(20.0)) << "the residual friction is that of the joint";
     EXPECT_DOUBLE_EQ(law.dilation, tangent_of_degrees(4.0));
     joint.residual_friction_angle = 15.0;
     joint.tensile_strength = 0.0;
@@ -61,7 +61,7 @@ TEST(JointLaw, NumbersStandInPlaceOfTheRocks) {
     EXPECT_EQ(law.tensile_strength, std::numeric_limits<double>::min()) << "holds without force, breaks when pulled";
     EXPECT_EQ(law.cohesion, 1e5);
     law = law_across(rock_law(), joint, {true, true, true});
-    EXPECT_EQ(law.tensile_strength, 2e6) << "nothing breaks: the rock's law says so";
+    EXPECT_EQ(law.tensile_strength, 2e6) << "the rock's bonds do not break";
     EXPECT_EQ(law.friction, rock_law().friction);
 }
 

@@ -55,7 +55,7 @@ TEST(DeckReader, TakesValuesAsFortranWritesThem) {
 TEST(DeckReader, AReadTakesAsManyLinesAsItNeedsAndTheNextStartsOnANewOne) {
     EXPECT_EQ(reads("1\n\n2 3 x\n4 y\n5", {3, 1, 1}), (std::vector<Values>{{1, 2, 3}, {4}, {5}}));
     EXPECT_EQ(reads("1 2 3\n4 5 6\n", {2, 3}), (std::vector<Values>{{1, 2}, {4, 5, 6}}));
-    EXPECT_EQ(reads("6*2\n1", {2, 1}), (std::vector<Values>{{2, 2}, {1}})) << "repeats end with their READ";
+    EXPECT_EQ(reads("6*2\n1", {2, 1}), (std::vector<Values>{{2, 2}, {1}})) << "a repeat count ends with its READ";
 }
 
 TEST(DeckReader, NotesAreIgnoredInCp932AndUtf8WithFullWidthBlanks) {

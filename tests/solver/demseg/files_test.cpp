@@ -98,7 +98,8 @@ TEST(ContactFiles, BackTensionsOfEveryKindOfPointComeBack) {
     const std::int64_t bonds = bond_all(world, scene.thick);
     EXPECT_EQ(bonds, 8) << "circle on clump, three circles on the square, four corners between the squares";
     write_back_tensions(bonded, scene, world);
-    EXPECT_EQ(unbonded.str(), bonded.str()) << "without bonds the file holds what the overlaps would give";
+    EXPECT_EQ(unbonded.str(), bonded.str())
+        << "without bonds, the file contains the back-tensions that follow from the overlaps";
 
     World copy = build_world(scene);
     DeckReader reader("in_cf0.dat", bonded.str());
@@ -267,7 +268,7 @@ TEST(ContactFiles, AContactListedFromItsOtherBodyIsTheSame) {
     ASSERT_EQ(contacts_refusal("1 0\n2 0\n3 0\n4 1\n3 0 2 5.5 0 1\n", &from_other), "accepted");
     double shear = 0.0;
     for (const double force : from_other.points.shear_force) shear += force;
-    EXPECT_EQ(shear, 5.5) << "a spring without a bond";
+    EXPECT_EQ(shear, 5.5) << "the spring of a point without a bond";
 }
 
 TEST(ContactFiles, UnknownContactsDuplicatesAndBondedWallsAreRefusedWithTheirLine) {

@@ -123,7 +123,7 @@ TEST_F(GuidePrinted, LimitOfTheStepAndTopOfABounce) {
     take(printed("circle/in_gm.dat"), "in_gm.dat");
     take(printed("circle/in_bc.dat"), "in_bc.dat");
     const double limit = DeckRun(options(deck_, "unused")).world().stepping.step_bound;
-    EXPECT_TRUE(agrees("limit of the step, s", limit, 1.123e-3, 2e-3)) << "the guide rounds m";
+    EXPECT_TRUE(agrees("limit of the step, s", limit, 1.123e-3, 2e-3)) << "the guide rounds the exponent m";
     EXPECT_TRUE(stands_in_table("limit of the step of ex01-1, s", "1.123e-3", fmt::format("{:.3f}e-3", 1e3 * limit)));
     double top = 0.0;
     for (const DeckFrame& frame : read_frames(run() / "output.dat")) {

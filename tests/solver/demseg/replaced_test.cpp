@@ -94,7 +94,7 @@ TEST_F(ReplacedDeck, IsWholeUntilTheNewRunCanBeGoneOnWith) {
 
     DeckRun(going_on(new_steps - earlier_steps)).run();
     const Contents after = contents(folder_);
-    EXPECT_TRUE(after == new_) << "of the earlier run, gone on with; and nothing of the one that was stopped";
+    EXPECT_TRUE(after == new_) << "the continued earlier run, and nothing of the stopped run";
 }
 
 TEST_F(ReplacedDeck, IsReplacedByTheNextRunWhateverAStoppedOneLeft) {
@@ -111,7 +111,7 @@ TEST_F(ReplacedDeck, GivesWayWithTheFirstSave) {
             EXPECT_TRUE(named() == earlier_);
         }
         if (world.stepping.steps == 1) {
-            EXPECT_EQ(DeckFrames(folder_).heads().back().step, 0) << "of the new run";
+            EXPECT_EQ(DeckFrames(folder_).heads().back().step, 0) << "files of the new run";
         }
         if (world.stepping.steps == 200) throw Killed();
         return true;
@@ -147,7 +147,7 @@ TEST_F(ReplacedDeck, IsReadWhileItsRunReplacesTheFilesToGoOnWith) {
     const FolderLock running(folder_);
     write_journal(deck_journal(folder_), files);
     EXPECT_EQ(DeckFrames(folder_).heads().back().step, earlier_steps);
-    EXPECT_TRUE(fs::exists(deck_journal(folder_))) << "left to the run";
+    EXPECT_TRUE(fs::exists(deck_journal(folder_))) << "only a run completes it";
 }
 
 TEST_F(ReplacedDeck, KeepsItsFilesWhereTheNewRunIsUnstable) {
@@ -163,7 +163,7 @@ TEST_F(ReplacedDeck, KeepsItsFilesWhereTheNewRunIsUnstable) {
     };
     try {
         DeckRun(options).run(spoil);
-        ADD_FAILURE() << "ran to its end";
+        ADD_FAILURE() << "ran to the end";
     } catch (const UnstableRun& error) {
         EXPECT_EQ(std::string(error.what()),
                   "unstable at step 50, body 1: as a test has it; earlier outputs in " + folder_.string() +

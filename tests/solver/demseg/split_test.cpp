@@ -220,7 +220,7 @@ TEST_F(StoppedDeck, WhoseFilesAreCopiedByHandIsToldToCopyThemAgain) {
     options.folder = folder;
     options.output = scratch_ / "next";
     EXPECT_THROW(DeckRun{options}, InputError);
-    EXPECT_NO_THROW(DeckRun{options}) << "said once: they are complete now";
+    EXPECT_NO_THROW(DeckRun{options}) << "reported once; the results are then complete";
 }
 
 TEST_F(StoppedDeck, TwoRunsDoNotShareAFolder) {
@@ -239,7 +239,7 @@ TEST_F(StoppedDeck, TwoRunsDoNotShareAFolder) {
     }
     const DeckRun one(options);
     options.output = scratch_ / "apart too";
-    EXPECT_NO_THROW(DeckRun{options}) << "two may go on from one folder in others";
+    EXPECT_NO_THROW(DeckRun{options}) << "two runs may continue from one folder into others";
 }
 
 TEST_F(StoppedDeck, ALinkAmongItsOutputsIsRefusedAndNothingIsCutOff) {

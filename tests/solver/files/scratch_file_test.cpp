@@ -56,7 +56,7 @@ TEST(ScratchArray, RefusesAFolderThatTakesNoFile) {
     std::ofstream(scratch / "file") << "no folder";
     try {
         const ScratchFile file(scratch / "file");
-        FAIL() << "went through";
+        FAIL() << "accepted";
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find("cannot be written (Not a directory)"), std::string::npos);
     }

@@ -47,9 +47,9 @@ TEST(AcrossJoint, WhereTracesCrossTheFirstOfThoseThatPartTheBodiesCounts) {
     cells.right_of_column = {{1, 0}};
     cells.joints = {of_friction(20.0), of_friction(25.0)};
     const World world = jointed_world(cells);
-    EXPECT_EQ(between(world, 6, 10), 1) << "across the level one";
-    EXPECT_EQ(between(world, 6, 7), 0) << "across the upright one";
-    EXPECT_EQ(between(world, 6, 11), 1) << "across both: that of the first trace";
+    EXPECT_EQ(between(world, 6, 10), 1) << "across the horizontal trace";
+    EXPECT_EQ(between(world, 6, 7), 0) << "across the vertical trace";
+    EXPECT_EQ(between(world, 6, 11), 1) << "across both traces: the first one";
     EXPECT_EQ(between(world, 5, 10), 1);
     EXPECT_EQ(between(world, 5, 6), no_joint);
 }

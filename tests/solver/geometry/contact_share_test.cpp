@@ -95,7 +95,7 @@ TEST(ContactShare, OfAFaceWhoseCornersOverhangAfterTheInsetGoesByTheGapOfTheFace
                          true);
     const World world = bonded(scene, thick, 0.05 * thick);
     const FaceSum face = face_between(world, 1, 2);
-    ASSERT_EQ(face.points, 4) << "those that overhang are bonded, too";
+    ASSERT_EQ(face.points, 4) << "overhanging ones are bonded too";
     const BodyState &a = world.bodies.state[body_of_id(world, 1)], &b = world.bodies.state[body_of_id(world, 2)];
     const double distance = std::hypot(a.x - b.x, a.y - b.y);
     EXPECT_TRUE(agrees("k_n, N/m", face.stiffness, modulus * length / distance, 1e-6));

@@ -115,7 +115,7 @@ TEST(FlatFaces, AreOfCirclesThatTheirSideHolds) {
             EXPECT_GE(neighbours, 2) << "a circle at " << body.x << ", " << body.y;
         }
         std::cout << degrees << " degrees: " << over << " of " << world.bodies.flat_faces.size()
-                  << " circles have gone over to the other side, " << without << " have none of the trace\n";
+                  << " circles have changed sides, " << without << " have none of the trace\n";
     }
 }
 
@@ -466,7 +466,7 @@ TEST(FlatFaces, BrokenBondsRubAtTheResidualAngleOfTheJoint) {
     const double start = world.stepping.time;
     while (speed * (world.stepping.time - start) < 0.02) step(world);
     compute_forces(world);
-    EXPECT_EQ(world.bonds.broken, bonds) << "the joint's, and no other";
+    EXPECT_EQ(world.bonds.broken, bonds) << "only that of the joint";
     EXPECT_NEAR(pull_on(world) / (pressed * std::tan(15.0 * std::numbers::pi / 180.0)), 1.0, 0.01);
 }
 

@@ -173,7 +173,7 @@ TEST(SegmentPairs, FacesAMillimetreApartCarryTheirFourDiscsTwice) {
             continue;
         }
         const bool sum = law == SegmentLaw::demseg;
-        ASSERT_EQ(overlaps.size(), 3u) << "face with face, and each corner's other edge with the other's face";
+        ASSERT_EQ(overlaps.size(), 3u) << "the two faces, and each corner's other edge with the opposite face";
         EXPECT_TRUE(agrees("facing pair", overlaps[0], sum ? 2.0 * once : once, 1e-11));
         EXPECT_TRUE(agrees("edge at right angles", overlaps[1], once, 1e-11));
         EXPECT_TRUE(agrees("edge at right angles", overlaps[2], once, 1e-11));

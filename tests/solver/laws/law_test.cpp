@@ -126,7 +126,7 @@ TEST(TwoMaterials, DampedInDifferentWaysAreRefused) {
     by_dashpot.normal_damping = 100.0;
     try {
         two_discs(by_ratio, by_dashpot, 1e-5, 0.0, 1e-7);
-        ADD_FAILURE() << "accepted: they would not be damped at all";
+        ADD_FAILURE() << "expected an error: the discs would not be damped";
     } catch (const InputError& error) {
         fmt::print("  {}\n", error.what());
         EXPECT_NE(std::string(error.what()).find("found a damping ratio in one and dashpot coefficients in another"),

@@ -54,7 +54,7 @@ TEST_F(ProcessorQuota, IsTheSmallestOfTheGroupsAbove) {
 }
 
 TEST_F(ProcessorQuota, IsNothingWhereNoneIsSet) {
-    EXPECT_EQ(processor_quota(root_), std::nullopt) << "no control groups at all";
+    EXPECT_EQ(processor_quota(root_), std::nullopt) << "without control groups";
     groups("0::/\n", unified);
     EXPECT_EQ(processor_quota(root_), std::nullopt) << "no file";
     write("sys/fs/cgroup/cpu.max", "max 100000\n");

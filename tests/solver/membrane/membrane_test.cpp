@@ -167,7 +167,7 @@ TEST(Membrane, FollowsWhatComesOff) {
     compute_forces(world);
     EXPECT_EQ(world.membrane.wrapped, 2);
     EXPECT_EQ(norm(Vec2{membrane_force_on(world, off).fx, membrane_force_on(world, off).fy}), 0.0)
-        << "a particle that has left carries no load";
+        << "a particle that has left the specimen carries no load";
     for (const MembranePoint& point : world.membrane.points) EXPECT_NE(point.body, off);
     EXPECT_TRUE(agrees("area without one of a hundred discs, m2", membrane_area(world), before, 0.02));
     const BodyForce sum = resultant(world);

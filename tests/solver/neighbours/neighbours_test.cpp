@@ -275,7 +275,7 @@ SkinTrace trace_of_skin(Scene scene, double thick, double share) {
     EXPECT_EQ(stays.list.skin, widest);
     const double own =
         follows.list.own_half_skins.empty() ? 0.0 : *std::ranges::max_element(follows.list.own_half_skins);
-    EXPECT_GT(own, 0.6 * widest) << "no fast body has a wider skin of its own";
+    EXPECT_GT(own, 0.6 * widest) << "no fast body has a larger skin";
     EXPECT_LT(follows.list.builds, stays.list.builds);
     fmt::print("  flying apart: skin {:.3g} m, {} bonds broken, {} rebuilds against {}\n", widest_again,
                follows.bonds.broken, follows.list.builds, stays.list.builds);
@@ -410,7 +410,7 @@ TEST(NeighbourList, IntactBondsOfAWholeSpecimenKeepTheirOrderWhenItIsBlownUp) {
         EXPECT_TRUE(bonds() == before) << "blown up by " << scale;
         double sum = 0.0, size = 0.0;
         for (const BodyForce& force : world.bodies.force) sum += force.fx, size += std::abs(force.fx);
-        EXPECT_LE(std::abs(sum), 1e-12 * size) << "action and reaction, blown up by " << scale;
+        EXPECT_LE(std::abs(sum), 1e-12 * size) << "action and reaction, scaled by " << scale;
         world.bodies.state = start;
     }
 }

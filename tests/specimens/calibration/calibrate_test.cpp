@@ -44,11 +44,11 @@ TEST_F(CalibrationTest, ElasticKeysComeFromTheLinearSolveOfTheSamePackings) {
     EXPECT_TRUE(agrees("stiffness ratio", outcome.keys[1].value, true_ratio, 1e-2));
     EXPECT_TRUE(outcome.undetermined.empty());
     EXPECT_TRUE(outcome.frontier.empty());
-    EXPECT_EQ(outcome.tests, 2 * 2 * 4) << "of both tests, one point on fit and on fresh packings: "
+    EXPECT_EQ(outcome.tests, 2 * 2 * 4) << "both tests, one point with fit packings and with fresh ones: "
                                         << calibration_text(rock, outcome);
     const LedgerTable seeds = CampaignLedger::read(folder_ / "out" / "fresh" / "campaign.sqlite")
                                   .query("SELECT min(seed), max(seed) FROM plan");
-    EXPECT_EQ(std::get<double>(seeds.rows[0][0]), 5.0) << "fresh packings are none of those that it was fitted to";
+    EXPECT_EQ(std::get<double>(seeds.rows[0][0]), 5.0) << "fresh packings differ from those of the fit";
     EXPECT_EQ(std::get<double>(seeds.rows[0][1]), 8.0);
 }
 
@@ -57,7 +57,7 @@ TEST_F(CalibrationTest, ALinearSolveNamesAFolderWhoseNameIsNotUtf8) {
     const Rock any = rock_of(target_text("compression", "youngs_modulus", 1.0) + testing::elastic_keys);
     try {
         linear(any, {true_modulus, true_ratio}, "\xff");
-        ADD_FAILURE() << "packings were written into a file";
+        ADD_FAILURE() << "packings were written to a path that is a file";
     } catch (const OutputError& error) {
         EXPECT_NE(std::string_view(error.what()).find((folder_ / "\xff").string()), std::string_view::npos)
             << error.what();
@@ -142,8 +142,9 @@ TEST_F(CalibrationTest, APackingThatLacksAStrengthHasNeitherLawNorModulusAtHalfT
     const Eigen::MatrixXd after = measured();
     for (Eigen::Index k = 0; k < 4; ++k) {
         EXPECT_EQ(std::isnan(after(k, 0)), k == 2) << "no window at half the peak: " << k;
-        EXPECT_EQ(after(k, 1), before(k, 1)) << "the largest stress needs no failure: " << k;
-        EXPECT_EQ(std::isnan(after(k, 2)), k == 1 || k == 2) << "a law of three strengths is another's: " << k;
+        EXPECT_EQ(after(k, 1), before(k, 1)) << "the largest stress does not require failure: " << k;
+        EXPECT_EQ(std::isnan(after(k, 2)), k == 1 || k == 2)
+            << "a fit to three strengths would be a different law: " << k;
         if (k == 0 || k == 3) {
             EXPECT_EQ(after(k, 2), before(k, 2)) << k;
         }
@@ -183,9 +184,9 @@ TEST_F(CalibrationTest, WhatTargetsDoNotDetermineIsNamed) {
     const CalibrationOutcome outcome = calibrated(rock);
     const std::string text = calibration_text(rock, outcome);
     fmt::print("{}", text);
-    ASSERT_EQ(outcome.undetermined.size(), 1U) << "a tensile strength says nothing of the cohesion";
+    ASSERT_EQ(outcome.undetermined.size(), 1U) << "a tensile strength does not determine the cohesion";
     EXPECT_FALSE(outcome.keys[1].determined);
-    EXPECT_EQ(outcome.keys[1].high, 6.0) << "its interval is that of its bounds";
+    EXPECT_EQ(outcome.keys[1].high, 6.0) << "its interval equals its bounds";
     EXPECT_NE(text.find("not determined by the targets: "), std::string::npos);
 }
 

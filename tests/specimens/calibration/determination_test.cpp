@@ -93,7 +93,7 @@ TEST(Determination, StatesTheLargestChangeOfATargetAlongTheStep) {
 
 TEST(Determination, AnIntervalThatIsItsBoundsSaysNothing) {
     EXPECT_TRUE(fills(-1.0, 9.0, 0.0, 8.0)) << "beyond both";
-    EXPECT_TRUE(fills(0.3, 9.0, 0.0, 8.0)) << "all but a hundredth";
+    EXPECT_TRUE(fills(0.3, 9.0, 0.0, 8.0)) << "all except a hundredth";
     EXPECT_FALSE(fills(2.0, 9.0, 0.0, 8.0)) << "a quarter is ruled out";
     EXPECT_FALSE(fills(3.0, 5.0, 0.0, 8.0));
 }

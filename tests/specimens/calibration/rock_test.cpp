@@ -48,7 +48,7 @@ TEST_F(RockFile, IsReadWithItsDefaults) {
     const TestCase test = rock.case_of(1, std::vector<double>{4e6, 2.5});
     EXPECT_EQ(test.loading.kind, LoadingKind::tension);
     EXPECT_EQ(test.material.tensile_strength, 4e6);
-    EXPECT_EQ(test.material.cohesion, 2.5 * 4e6) << "the search is for the ratio";
+    EXPECT_EQ(test.material.cohesion, 2.5 * 4e6) << "the search varies the ratio";
 }
 
 TEST_F(RockFile, VariablesGoBothWaysAndStayWithinTheBounds) {
@@ -142,7 +142,7 @@ TEST_F(RockFile, TargetsAreRatiosAndLawsOfSeveralTests) {
     EXPECT_EQ(rock.targets[4].unit(true), "deg");
     EXPECT_EQ(rock.targets[0].unit(true), "Pa");
     const SearchSpace space(rock);
-    EXPECT_TRUE(space.linear_targets.empty()) << "a modulus over a strength is no modulus";
+    EXPECT_TRUE(space.linear_targets.empty()) << "the ratio of a modulus and a strength is not a linear target";
     ASSERT_GE(space.level_key, 0);
     EXPECT_TRUE(space.goes_with_level(0));
     EXPECT_FALSE(space.goes_with_level(1)) << "the pressure stays as it is";

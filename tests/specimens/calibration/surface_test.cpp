@@ -46,7 +46,7 @@ TEST(Surface, GivesBackALinearFunction) {
     const Surface surface(Vector2d(1.0, -2.0), points,
                           values_of(points, [](double x, double y) { return 3.0 + 0.5 * x - 2.0 * y; }),
                           VectorXd::Constant(2, unknown));
-    EXPECT_FALSE(surface.quadratic()) << "five points do not pay for six terms";
+    EXPECT_FALSE(surface.quadratic()) << "five points cannot determine six terms";
     const Vector2d far(1.7, -1.0);
     EXPECT_TRUE(agrees("value", surface.value(far), 3.0 + 0.85 + 2.0, 1e-12));
     EXPECT_TRUE(agrees("slope", surface.gradient(far)[1], -2.0, 1e-12));
@@ -92,7 +92,7 @@ TEST(Surface, TooFewPointsAreRefused) {
     line << 0, 1, 2, 3, 0, 1, 2, 3;
     EXPECT_THROW(Surface(Vector2d::Zero(), line, VectorXd::Zero(4), VectorXd::Constant(2, unknown)),
                  std::invalid_argument)
-        << "they lie on a line";
+        << "the points lie on a line";
 }
 
 TEST(CompleteRows, AreThoseOfPackingsThatHaveAllFigures) {
@@ -108,7 +108,7 @@ TEST(CompleteRows, AreEnoughWhereHalfOfThePackingsAndThreeHaveAll) {
     EXPECT_TRUE(are_enough(5, 10));
     EXPECT_FALSE(are_enough(4, 10));
     EXPECT_TRUE(are_enough(3, 4));
-    EXPECT_FALSE(are_enough(2, 4)) << "two have no scatter to speak of";
+    EXPECT_FALSE(are_enough(2, 4)) << "two values give no usable scatter";
 }
 
 /// r = (x + 2y − 4, x − y) has its minimum at (4/3, 4/3).

@@ -139,7 +139,7 @@ TEST_F(LedgerTest, OfAnEarlierVersionIsReadAsItIsAndGoneOnWith) {
     EXPECT_EQ(run("out").run, 0);
     EXPECT_EQ(table("out"), before) << "gone on with";
     write_small_plan(folder_, 2, "[run]\nkeep = \"curves\"\n");
-    EXPECT_EQ(run("out").run, 4) << "the second packing alone";
+    EXPECT_EQ(run("out").run, 4) << "only the second packing";
     change(file, "UPDATE figures SET peak_stress = 9e9 WHERE identity = (SELECT identity FROM plan WHERE row = 7)");
     EXPECT_NE(refusal_of(ledger("out")).find("row 7"), std::string::npos) << "new rows have hashes";
 }

@@ -102,8 +102,8 @@ TEST(PointTable, EachColumnIsWhatItsNameSays) {
     // The packing that did not fail has no tangent modulus at half the peak.
     EXPECT_EQ(number("tangent_modulus_50", "packings"), 2.0);
     EXPECT_TRUE(agrees("mean of those that failed", number("tangent_modulus_50", "mean"), 11.5, 1e-12));
-    EXPECT_EQ(points[0].values.at("tangent_modulus_50"), (std::vector{10.0, 13.0})) << "what a figure draws";
-    EXPECT_EQ(number("youngs_modulus", "packings"), 3.0) << "which needs no peak";
+    EXPECT_EQ(points[0].values.at("tangent_modulus_50"), (std::vector{10.0, 13.0})) << "values of a drawn figure";
+    EXPECT_EQ(number("youngs_modulus", "packings"), 3.0) << "Young's modulus needs no peak";
     EXPECT_EQ(rows_of(points_csv(summarise(three_packings("point"), figures), figures)).at("peak_stress").at("unit"),
               "N/m");
 }

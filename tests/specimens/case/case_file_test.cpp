@@ -67,7 +67,7 @@ TEST_F(CaseFile, ReadsWhatIsWrittenAndFillsInDefaults) {
     EXPECT_EQ(test.packing.count, 50);
     EXPECT_EQ(test.material.density, 2500.0) << "a whole number is a number";
     EXPECT_EQ(test.loading.kind, LoadingKind::tension);
-    EXPECT_EQ(test.loading.platens, PlatenKind::glued) << "what pulls is stronger than the rock";
+    EXPECT_EQ(test.loading.platens, PlatenKind::glued) << "glued platens are stronger than the rock";
     EXPECT_EQ(test.loading.grip, default_grip);
     EXPECT_EQ(test.loading.strength_drop, 0.1);
     EXPECT_EQ(test.loading.stop_at_share_of_peak, 0.5);

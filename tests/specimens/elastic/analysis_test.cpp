@@ -227,7 +227,7 @@ TEST(ElasticAnalysis, NamesAMechanismWhichHasNoModulus) {
         test.loading.rate_tolerance = 0.01;
         try {
             prepare_test(test);
-            ADD_FAILURE() << "a rate came of it";
+            ADD_FAILURE() << "expected an error, got a rate";
         } catch (const InputError& error) {
             fmt::print("  {}\n", error.what());
             EXPECT_NE(std::string(error.what()).find("found a mechanism"), std::string::npos) << error.what();

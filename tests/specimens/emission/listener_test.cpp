@@ -162,7 +162,7 @@ TEST_F(Clustering, JoinsWhatIsNearInPlaceAndTime) {
 TEST_F(Clustering, PartsWhatIsFarInPlaceOrTime) {
     hear(10.0, {{0.0, 0.0}, {1.01, 0.0}});
     EXPECT_EQ(emission_.open.size(), 2U) << "beyond the disc";
-    EXPECT_EQ(hear(10.51, {{0.0, 0.3}}), 2U) << "both windows are over";
+    EXPECT_EQ(hear(10.51, {{0.0, 0.3}}), 2U) << "both windows have ended";
     ASSERT_EQ(emission_.events.size(), 2U);
     EXPECT_EQ(emission_.events[1].centre.x, 1.01);
     EXPECT_EQ(emission_.open.size(), 1U);
@@ -252,7 +252,7 @@ TEST(EmissionRule, OfAMeanFieldIsNoSlowerThanThatOfTheModuli) {
         for (const BodyPair& bond : test.setup.bonds.pairs)
             of_platens += test.setup.is_platen(bond.body_i) || test.setup.is_platen(bond.body_j) ? 1 : 0;
         const double left_out = static_cast<double>(of_platens) / static_cast<double>(test.setup.bonds.size());
-        EXPECT_GE(over, 1.0 - left_out) << "Voigt's bound, less the platens' share of the bonds";
+        EXPECT_GE(over, 1.0 - left_out) << "Voigt's bound, without the bonds to platens";
         EXPECT_LT(over, 1.5);
     }
 }

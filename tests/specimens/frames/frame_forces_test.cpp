@@ -193,7 +193,7 @@ TEST_F(FrameForcesOfRock, OfFlatFacesAreThoseOfTheirPoints) {
     });
     fmt::print("  {} flat faces; turning has taken up to {:.3g} of the largest force\n", flat, turned / largest);
     EXPECT_GT(flat, 50U);
-    EXPECT_GT(turned, 0.01 * largest) << "else the test cannot fail";
+    EXPECT_GT(turned, 0.01 * largest) << "otherwise the test cannot fail";
     EXPECT_TRUE(within("largest difference over the largest force", worst / largest, 0.0, 1e-9));
 }
 
@@ -240,7 +240,7 @@ TEST_F(FrameForcesOfRock, FragmentsAreNumberedByAreaThenById) {
         if (!test.setup.is_platen(b)) by_id.emplace_back(test.world.bodies.info(b).id, dust[b]);
     std::sort(by_id.begin(), by_id.end());
     for (std::size_t k = 0; k < by_id.size(); ++k)
-        EXPECT_EQ(by_id[k].second, static_cast<std::int32_t>(k)) << "equal discs, all alone, go by their ids";
+        EXPECT_EQ(by_id[k].second, static_cast<std::int32_t>(k)) << "fragments of equal size are ordered by ids";
 }
 
 TEST_F(FrameForcesOfRock, FragmentsAreWhatSpreadingAlongIntactBondsReaches) {
@@ -274,7 +274,7 @@ TEST_F(FrameForcesOfRock, FragmentsAreWhatSpreadingAlongIntactBondsReaches) {
         fmt::print("  {}: {} fragments\n", *mesh == '\0' ? "circles" : mesh, groups.size());
         EXPECT_GT(groups.size(), *mesh == '\0' ? 0U : 1U);
         EXPECT_EQ(numbers.size(), groups.size());
-        EXPECT_EQ(pairs.size(), groups.size()) << "a fragment for a group";
+        EXPECT_EQ(pairs.size(), groups.size()) << "one fragment per group";
         EXPECT_EQ(*numbers.rbegin(), static_cast<std::int32_t>(groups.size()) - 1);
     }
 }

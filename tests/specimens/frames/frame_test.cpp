@@ -129,7 +129,7 @@ TEST_F(Frames, ContactsHaveTheForcesAndStatesOfTheirPoints) {
             EXPECT_EQ(data.cell_data.at("body_j")[k], test.world.bodies.info(point.body_j).id);
             if (touches) touching.erase(held);
         }
-        ASSERT_EQ(data.cells.size(), bonds.size() + touching.size()) << "what is left was never bonded";
+        ASSERT_EQ(data.cells.size(), bonds.size() + touching.size()) << "the remaining points were never bonded";
         std::size_t cell = bonds.size();
         for (const auto& [name, view] : touching) {  // sorted by kind and key, in the order of writing
             EXPECT_EQ(data.cell_data.at("state")[cell], 4.0);
@@ -192,7 +192,8 @@ TEST_F(Frames, OutlinesAndBondsLieWhereTheBodiesAre) {
                    mesh.empty() ? "circles" : mesh, farthest, turned, longest);
         EXPECT_LT(farthest, rounding);
         EXPECT_GT(turned, 1e-4);
-        EXPECT_LT(longest, mesh.empty() ? 1.01 * testing::rock_radius : 1.2e-3) << "a radius; the gap";
+        EXPECT_LT(longest, mesh.empty() ? 1.01 * testing::rock_radius : 1.2e-3)
+            << "largest distance: a radius, or the gap of the mesh";
     }
 }
 

@@ -63,7 +63,7 @@ class Triangles : public ::testing::Test {
         write(arrays);
         try {
             read();
-            ADD_FAILURE() << "went through, expected: " << says;
+            ADD_FAILURE() << "accepted, expected: " << says;
         } catch (const InputError& error) {
             EXPECT_NE(std::string(error.what()).find(file_.string() + ": " + says), std::string::npos) << error.what();
         }

@@ -143,7 +143,7 @@ TEST(CleanTraces, NothingMovesFurtherThanSnap) {
     }
     fmt::print("  largest displacement {:.3f} snap, narrowest gap {:.3g} snap; {} windows with one below 0.2\n",
                most_moved, narrowest, narrow);
-    EXPECT_GT(most_moved, 0.3) << "windows in which something moves";
+    EXPECT_GT(most_moved, 0.3) << "in some windows, points must move";
     EXPECT_LE(narrow, 2) << "a fiftieth";
 }
 
@@ -207,7 +207,7 @@ TEST(CleanTraces, ANodeOffAnUnmovedTraceLeavesNoGapWhereAThirdCrosses) {
 TEST(CleanTraces, TracesOnEachOtherAreTheFirst) {
     std::vector<JointTrace> traces = traces_of({{{0.1, 0.5}, {0.9, 0.5}}, {{0.0, 0.501}, {0.8, 0.5}, {0.8, 0.9}}});
     const Cleaning report = clean_traces(traces, box(1.0, 1.0), 0.005, 0.0);
-    ASSERT_EQ(traces.size(), 3U) << "beside the first two, the part before it and the one that leaves it";
+    ASSERT_EQ(traces.size(), 3U) << "the first two, and the parts of the second before and after the shared line";
     double length = 0.0;
     for (const JointTrace& trace : traces) length += trace.length();
     EXPECT_TRUE(testing::agrees("coincident", report.coincident, 0.7, 1e-3));

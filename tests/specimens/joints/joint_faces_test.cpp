@@ -38,7 +38,7 @@ TEST(JointFaces, EveryFaceOnATraceHasOneBodyOnEitherSide) {
         const Specimen specimen = make_specimen(test, {});
         const Scene& scene = specimen.scene;
         ASSERT_EQ(scene.edge_sides.size(), scene.vertices.size());
-        ASSERT_EQ(scene.joints.size(), 1u) << "the second trace is as the rock";
+        ASSERT_EQ(scene.joints.size(), 1u) << "the second trace has the rock's properties";
         EXPECT_EQ(scene.trace_joints, (std::vector<std::int32_t>{0, -1}));
         const std::vector<Vec2> bent{{0.0, 0.1}, {0.15, 0.2}, {0.3, 0.42}};
         std::map<TraceSide, double> length;

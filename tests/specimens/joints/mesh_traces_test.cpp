@@ -104,7 +104,7 @@ TEST(JointedSpecimen, WhatCannotHaveJointsIsRefused) {
                   .find("mesh.merge_destroyed: found true with joints"),
               std::string::npos);
     EXPECT_EQ(refused("[mesh]\nkind = \"delaunay\"\nthick = 1e-3\n[bond]\nthick = 1.1e-3\n", ""), "accepted")
-        << "circles have joints, too";
+        << "circles can have joints";
     EXPECT_NE(refused("thick = 1e-3\n", "thick = 1e-3\nboundary = \"seeds\"\n").find("mesh.boundary"),
               std::string::npos);
     EXPECT_NE(refused("\"compression\"", "\"brazilian\"").find("loading.kind: found \"brazilian\" with joints"),

@@ -108,7 +108,7 @@ TEST(OrientationLaw, FewLinesLieBeyondTheStretch) {
     }
     EXPECT_EQ(OrientationLaw::fixed(0.3).stretch(), 1.0);
     EXPECT_TRUE(agrees("all lines within", OrientationLaw::uniform(0.3, 60.0 * degree).stretch(), 2.0, 1e-12));
-    EXPECT_LE(OrientationLaw::von_mises(0.3, 10.0).stretch(), 4.0) << "no more lines than it takes";
+    EXPECT_LE(OrientationLaw::von_mises(0.3, 10.0).stretch(), 4.0) << "the bound may not be larger than necessary";
 }
 
 TEST(OrientationLaw, FittedKappaSolvesTheLikelihoodEquation) {

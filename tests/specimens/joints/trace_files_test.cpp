@@ -71,7 +71,7 @@ TEST(TraceFiles, HeightsAreNamed) {
                              "# x1 y1 x2 y2\n0.2 0.3 101.1 1.8 1.5 101.4\n"})
         EXPECT_EQ(parse_traces("a.txt", text, "").front().size(), 3U) << text;
     EXPECT_EQ(parse_traces("a.txt", "# x1 y1 x2 y2 in m, section at z = 12\n0.1 0.2 0.9 0.8\n", "").front().size(), 2U)
-        << "a remark about heights";
+        << "a comment with a section height";
 }
 
 TEST(TraceFiles, OtherKindsOfFileAreNamed) {

@@ -48,7 +48,7 @@ TEST(TestCheck, CountsGrainsStepsAndSeconds) {
     EXPECT_TRUE(
         agrees("stress of the estimate", check.strength->stress, check.youngs_modulus * check.strength->strain, 1e-12));
     EXPECT_GE(check.strength->strain, check.first_break->strain);
-    EXPECT_EQ(check.rate, check.slowest_rate) << "a rate that is given stays";
+    EXPECT_EQ(check.rate, check.slowest_rate) << "a given rate is not changed";
 }
 
 TEST(TestCheck, EstimatesNoStrengthUnderAPressure) {

@@ -155,7 +155,8 @@ TEST_F(Confined, SpecimenBetweenWallsHasTheModulusOfItsSolutionAndIsNoSofterThan
         const double modulus = (last.axial_stress - first.axial_stress) / last.axial_strain;
         EXPECT_TRUE(agrees("slope, N/m", modulus, solved, 2e-3));
         EXPECT_GE(solved, test.state.youngs_modulus);
-        EXPECT_LT(solved, 1.1 * test.state.youngs_modulus) << "free to widen, walls hinder nothing but unevenness";
+        EXPECT_LT(solved, 1.1 * test.state.youngs_modulus)
+            << "the specimen widens freely, so walls restrain only its unevenness";
     }
 }
 
@@ -224,7 +225,7 @@ TEST_F(Confined, PressureBeyondTheRockIsRefusedWhateverThePlatens) {
     for (const char* loading : {"", "platens = \"frictional\"\nplaten_friction_angle = 10"}) {
         try {
             prepare_test(described("", 1e7, loading));
-            ADD_FAILURE() << "goes on without its pressure: " << loading;
+            ADD_FAILURE() << "continues without its pressure: " << loading;
         } catch (const InputError& error) {
             const std::string message = error.what();
             EXPECT_NE(message.find("confinement.pressure: found no equilibrium"), std::string::npos) << message;

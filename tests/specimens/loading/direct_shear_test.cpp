@@ -148,7 +148,7 @@ TEST_F(Kinds, NormalStiffnessMakesTheNormalForceGrowWithTheRise) {
     const double rise = test.state.rows.back().lateral_strain * test.setup.height;
     EXPECT_TRUE(
         agrees("force on the upper box, N", test.world.bodies.force[test.setup.top].fy, force + spring * rise, 1e-3));
-    EXPECT_GT(spring * highest, 0.1 * force) << "the box has hardly risen: nothing was shown";
+    EXPECT_GT(spring * highest, 0.1 * force) << "the box has hardly risen, so the test shows nothing";
     const CurveRow& last = test.state.rows.back();
     EXPECT_TRUE(within("energy error over the work", last.energy_error / last.platen_work, 0.0, 5e-3));
 }

@@ -98,7 +98,7 @@ TEST_F(WidenedRock, BreakingSpecimenWidensNoFasterThanItsTarget) {
         EXPECT_TRUE(within("energy left open over the platens' work", last.energy_error / last.platen_work, 0.0, 1e-3));
         return (last.lateral_strain - peak.lateral_strain) / (last.time - peak.time);
     };
-    EXPECT_LT(widening(true), 0.5 * widening(false)) << "mean rate of lateral strain beyond the peak";
+    EXPECT_LT(widening(true), 0.5 * widening(false)) << "mean rate of lateral strain after the peak";
 }
 
 TEST_F(WidenedRock, ControlThatMakesNoSenseIsRefused) {

@@ -137,7 +137,7 @@ TEST_F(OwnLoading, EndsLoadingByTolerance) {
     set_platen_speed(test, speed);
     load_specimen(test);
     EXPECT_EQ(platen_speed(test), speed);
-    EXPECT_EQ(test.state.rate.slowest, test.state.rate.fastest) << "no rule has chosen since";
+    EXPECT_EQ(test.state.rate.slowest, test.state.rate.fastest) << "the rule must not change the rate";
 }
 
 TEST_F(OwnLoading, RefusesASpeedWhereTheCaseTurnsThePlaten) {

@@ -80,7 +80,7 @@ TEST(UnlikelyNumbers, MillimetresAreNoMetres) {
     EXPECT_EQ(notices_of(mass, large), "") << "blocks between joints may be large";
     TestCase soft = granite();
     soft.material.contact_modulus = 1e8;
-    EXPECT_EQ(notices_of(soft, large), "") << "as stiff as soil";
+    EXPECT_EQ(notices_of(soft, large), "") << "a modulus as low as that of soil";
 }
 
 TEST(UnlikelyNumbers, OfAMineralAreItsOwn) {

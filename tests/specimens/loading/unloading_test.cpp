@@ -134,7 +134,7 @@ TEST_F(UnloadedRock, ElasticSpecimenHasItsModulusInEveryCycle) {
         for (const CurveRow& row : first.rows)
             ASSERT_NEAR(row.axial_stress, test.state.youngs_modulus * row.axial_strain,
                         0.01 * cycles[1].stress + 0.02 * test.state.youngs_modulus * row.axial_strain);
-        EXPECT_FALSE(test.state.failure.failed) << "unloading is no failure";
+        EXPECT_FALSE(test.state.failure.failed) << "unloading is not failure";
     }
 }
 

@@ -205,7 +205,8 @@ TEST_F(VirtualRock, EnergyOfARunToFailureClosesBetterWithTheStep) {
         fmt::print("  {} of the bound: {:.3g} of the work\n", share, errors.back());
     }
     EXPECT_LT(std::abs(errors[0]), 1e-4);
-    EXPECT_LT(std::abs(errors[2]), 0.3 * std::abs(errors[0])) << "a sixteenth, but for where single breaks fall";
+    EXPECT_LT(std::abs(errors[2]), 0.3 * std::abs(errors[0]))
+        << "second order gives a sixteenth, apart from the times of single breaks";
 }
 
 TEST_F(VirtualRock, NoTermOfTheAccountOfEnergyCouldBeMissing) {

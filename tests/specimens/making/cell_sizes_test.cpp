@@ -137,7 +137,7 @@ TEST(DerivedGap, IsAFiftiethOfTheMeanCellSize) {
     EXPECT_TRUE(agrees("mesh.thick", specimen.mesh_thick, 0.02 * size, 1e-12));
     EXPECT_EQ(specimen.mesh_gap, specimen.mesh_thick);
     test.mesh.inset = 2e-5;
-    EXPECT_EQ(make_specimen(test, {}).mesh_gap, 4e-5) << "twice the inset, where that is given";
+    EXPECT_EQ(make_specimen(test, {}).mesh_gap, 4e-5) << "twice the inset, if it is given";
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST_F(MineralRock, HasWhatItsTableGivesAndTheRestOfMaterial) {
     EXPECT_FALSE(mineral_material(test, 1).normal_stiffness.has_value()) << "the file's";
     const Specimen rock = make_specimen(test, {});
     const auto& materials = rock.scene.materials;
-    ASSERT_EQ(materials.size(), 4u) << "the last is the platens'";
+    ASSERT_EQ(materials.size(), 4u) << "the last one is that of the platens";
     EXPECT_EQ(materials[0].normal_stiffness, 2e7);
     EXPECT_EQ(materials[0].shear_stiffness, 2.5e6);
     EXPECT_EQ(materials[1], materials[3]);
@@ -157,7 +157,7 @@ TEST_F(MineralRock, OwnListStandsInPlaceOfTheIncludedFiles) {
     const TestCase test = read_case(scratch_ / "own.toml");
     ASSERT_EQ(test.mineral.size(), 1u);
     EXPECT_EQ(test.mineral[0].name, "olivine");
-    EXPECT_FALSE(test.mineral[0].area_share.has_value()) << "quartz's, which stood at this place";
+    EXPECT_FALSE(test.mineral[0].area_share.has_value()) << "the area share of quartz, which had this position";
     EXPECT_FALSE(test.position.contains("mineral[1].area_share"));
 }
 
@@ -188,7 +188,7 @@ TEST_F(MineralRock, SameSeedGivesTheSameGrainsInAnyOrderOfTheFile) {
     EXPECT_EQ(of_seed(1), first);
     std::set<std::map<int, int>> all;
     for (int seed = 0; seed < 8; ++seed) all.insert(of_seed(seed));
-    EXPECT_EQ(all.size(), 8u) << "each seed its own";
+    EXPECT_EQ(all.size(), 8u) << "each seed gives another result";
     const TestCase test = read_case(write(std::string("[minerals]\nseed = 1\n") + three_minerals));
     Scene scene = testing::small_rock_scene();
     for (CircleElement& circle : scene.circles) circle.radius = testing::rock_radius;
@@ -442,7 +442,7 @@ TEST_F(MineralRock, FileWithMaterialsOfItsOwnIsRefused) {
 TEST_F(MineralRock, TwoMineralsOfEqualPropertiesGiveTheBytesOfOne) {
     constexpr double stiffness = odd_stiffness;
     volatile double k = stiffness;
-    ASSERT_NE(2.0 * k * k / (k + k), k) << "springs in series differ from it in the last bit";
+    ASSERT_NE(2.0 * k * k / (k + k), k) << "springs in series differ from a single one in the last bit";
     for (const char* mesh : {"", "voronoi"}) {
         std::vector<std::string> curves, events;
         for (const bool minerals : {false, true}) {

@@ -39,7 +39,7 @@ TEST(Specimen, DashpotsOfTheCaseReplaceTheRatioThatAPackingHasByItself) {
     test.material.normal_damping = 120.0;
     test.material.shear_damping = 40.0;
     const Material stated = make_specimen(test, {}).scene.materials.at(0);
-    EXPECT_FALSE(stated.damping_ratio.has_value()) << "it would be taken in place of the dashpots";
+    EXPECT_FALSE(stated.damping_ratio.has_value()) << "a damping ratio would replace the dashpots";
     EXPECT_EQ(stated.normal_damping, 120.0);
     EXPECT_EQ(stated.shear_damping, 40.0);
     test.damping_scale = 0.5;  // as in a companion test of --verify

@@ -53,7 +53,7 @@ TEST_F(CrackedRock, HasACrackForEachBrokenBondBetweenParticlesByKindAndTime) {
             lengths += length_of_face(test.world, test.setup, bond);
             ++between_particles;
         }
-        ASSERT_LT(between_particles, test.setup.bonds.size()) << "platens have bonds, too";
+        ASSERT_LT(between_particles, test.setup.bonds.size()) << "platens have bonds";
         const double peak = 0.5 * static_cast<double>(test.setup.bonds.size());
         const CrackRoses roses = find_crack_roses(test.world, test.setup, history, peak);
         double length = 0.0;
@@ -93,7 +93,7 @@ TEST_F(CrackedRock, HasFragmentsOfTheSizesOfItsParts) {
     const FragmentSizes dust = measure_fragments(test.world, test.setup, frame);
     EXPECT_EQ(dust.count, test.setup.particles);
     EXPECT_TRUE(agrees("D50 of dust, m", dust.median_size, 2.0 * testing::rock_radius, 1e-12));
-    EXPECT_EQ(dust.law.pieces, 0u) << "dust is no fragment of the law";
+    EXPECT_EQ(dust.law.pieces, 0u) << "tiny fragments are not part of the fit";
 }
 
 }  // namespace

@@ -205,9 +205,9 @@ TEST(PlatensOutOfBalance, IsTheLargestDifferenceUpToThePeak) {
     EXPECT_DOUBLE_EQ(platen_out_of_balance(rows, 3), 0.3);
     rows[2].stress_top = 6;
     rows[2].stress_bottom = 10;
-    EXPECT_DOUBLE_EQ(platen_out_of_balance(rows, 3), 0.4) << "without its sign";
+    EXPECT_DOUBLE_EQ(platen_out_of_balance(rows, 3), 0.4) << "absolute value";
     rows[4].stress_top = 100;
-    EXPECT_DOUBLE_EQ(platen_out_of_balance(rows, 3), 0.4) << "not behind the peak";
+    EXPECT_DOUBLE_EQ(platen_out_of_balance(rows, 3), 0.4) << "not after the peak";
 }
 
 }  // namespace

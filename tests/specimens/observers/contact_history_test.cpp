@@ -212,7 +212,7 @@ TEST_F(PastOfRock, CracksAreTheEvents) {
                    events.size(), farthest, widest);
         // Under the guide's law, a point without overlap has no position, so its events may be elsewhere on the cell.
         EXPECT_LT(farthest, (law == std::string("demseg") ? 2.0 : 1.0) * testing::rock_radius)
-            << "a share of a face may lie beside its point";
+            << "a point's share of a face may lie next to it";
         EXPECT_GT(widest, 0.0);
         EXPECT_LT(widest, testing::rock_radius);
     }

@@ -38,7 +38,7 @@ TEST(Failure, IsATenthOfThePeakStrainBelowHalfThePeak) {
     }
     EXPECT_TRUE(agrees("peak stress", tracker.peak_stress, 5e3, 1e-12));
     EXPECT_TRUE(agrees("peak strain", tracker.peak_strain, 1e-3, 1e-12));
-    EXPECT_NEAR(static_cast<double>(row - 1), 111.0, 1.0) << "below from row 101 on, for ten rows";
+    EXPECT_NEAR(static_cast<double>(row - 1), 111.0, 1.0) << "below from row 101, for ten rows";
 }
 
 TEST(Failure, DoesNotComeFromTheFirstTrembling) {
@@ -53,7 +53,7 @@ TEST(Failure, DoesNotComeFromTheFirstTrembling) {
 
 TEST(Failure, DoesNotComeAboveTheShareNorAfterARecovery) {
     EXPECT_FALSE(tracked(straight_curve(5e6, 1e-3, 0.51, 0.3, 100)).collapsed);
-    EXPECT_TRUE(tracked(straight_curve(5e6, 1e-3, 0.51, 0.3, 100), 0.6).collapsed) << "the share is settable";
+    EXPECT_TRUE(tracked(straight_curve(5e6, 1e-3, 0.51, 0.3, 100), 0.6).collapsed) << "the share can be set";
     auto curve = straight_curve(5e6, 1e-3, 0.2, 0.3, 100);
     for (std::size_t k = 105; k < curve.size(); k += 5) curve[k].axial_stress = 3e3;  // above half every five rows
     EXPECT_FALSE(tracked(curve).collapsed);
@@ -104,13 +104,13 @@ TEST(Failure, RowsWithoutStressHaveNoPeak) {
     EXPECT_EQ(zeros.peak_row, -1);
     EXPECT_EQ(failing_row(begins_late, {0, 0, 0, 2}), -1);
     EXPECT_EQ(begins_late.peak_row, 3);
-    EXPECT_EQ(failing_row(pulled, then({-1, -2, -3}, -4.0, 40)), -1) << "negative in the sense of the test";
+    EXPECT_EQ(failing_row(pulled, then({-1, -2, -3}, -4.0, 40)), -1) << "negative in the direction of the test";
     EXPECT_EQ(pulled.peak_row, -1);
 }
 
 TEST(Failure, NegativeStressIsBelowEveryShare) {
     FailureTracker tracker;
-    EXPECT_EQ(failing_row(tracker, then({0, 8}, -1.0, 20)), 12) << "below from row 2 on, ten rows later";
+    EXPECT_EQ(failing_row(tracker, then({0, 8}, -1.0, 20)), 12) << "below from row 2, ten rows later";
 }
 
 TEST(Failure, NeedsTenRowsAndATenthOfTheStrainAtPeak) {
@@ -153,7 +153,7 @@ FailureTracker by_a_tenth() {
 
 TEST(Strength, IsTheFirstMaximumThatADropFollows) {
     FailureTracker tracker = by_a_tenth();
-    EXPECT_EQ(known_row(tracker, then({0, 8}, 7.0, 20)), 12) << "below 7.2 from row 2 on, ten rows later";
+    EXPECT_EQ(known_row(tracker, then({0, 8}, 7.0, 20)), 12) << "below 7.2 from row 2, ten rows later";
     EXPECT_EQ(tracker.peak_row, 1);
     EXPECT_FALSE(tracker.collapsed) << "above half the peak";
     EXPECT_FALSE(tracker.larger_after_peak());
@@ -168,7 +168,7 @@ TEST(Strength, IsNotALaterPeakOfRubble) {
         const auto row = static_cast<std::int64_t>(new_peak.size());
         new_peak.push_back(tracker.update(row, static_cast<double>(row) / 1024, value));
         EXPECT_EQ(tracker.failed, row >= 12) << row;
-        EXPECT_EQ(tracker.collapsed, row >= 26) << row << ": below half the largest from row 16 on";
+        EXPECT_EQ(tracker.collapsed, row >= 26) << row << ": below half the largest from row 16";
     }
     EXPECT_EQ(tracker.peak_row, 1);
     EXPECT_EQ(tracker.peak_stress, 8.0);
@@ -177,12 +177,12 @@ TEST(Strength, IsNotALaterPeakOfRubble) {
     EXPECT_EQ(tracker.largest_stress, 16.0);
     EXPECT_EQ(tracker.strain_at_largest, 15.0 / 1024);
     EXPECT_TRUE(tracker.larger_after_peak());
-    EXPECT_EQ(std::count(new_peak.begin(), new_peak.end(), true), 1) << "no picture of the rubble";
+    EXPECT_EQ(std::count(new_peak.begin(), new_peak.end(), true), 1) << "no picture after the failure";
 }
 
 TEST(Strength, OfAPlateauIsItsFirstRow) {
     FailureTracker flat = by_a_tenth(), falling = by_a_tenth();
-    EXPECT_EQ(known_row(flat, then({0, 8, 8, 8}, 7.5, 40)), -1) << "not by a tenth";
+    EXPECT_EQ(known_row(flat, then({0, 8, 8, 8}, 7.5, 40)), -1) << "the drop is less than a tenth";
     EXPECT_EQ(known_row(falling, then({0, 8, 8, 8}, 7.0, 40)), 4 + 10);
     EXPECT_EQ(falling.peak_row, 1);
 }

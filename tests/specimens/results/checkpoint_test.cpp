@@ -202,7 +202,7 @@ TEST_F(Checkpoints, NoNumberBeyondItsArrayIsBelieved) {
 TEST_F(Checkpoints, BondsOfTheWorldAreThoseOfTheStart) {
     TestCheckpoint changed = read(checkpoint_of({}));
     std::swap(changed.setup.bonds.pairs[0], changed.setup.bonds.pairs[1]);
-    EXPECT_THROW(read(written(changed)), InputError) << "their order is broken";
+    EXPECT_THROW(read(written(changed)), InputError) << "the order has changed";
     std::swap(changed.setup.bonds.pairs[0], changed.setup.bonds.pairs[1]);
     changed.setup.bonds.pairs.erase(changed.setup.bonds.pairs.begin());
     changed.setup.bond_overlaps.pop_back();

@@ -199,7 +199,8 @@ TEST_F(TestFolder, ForcedTestOfCirclesLeavesNoPolygonsOfTheOneBefore) {
     forced.force = true;
     run_test(small_case(wanted), forced);
     EXPECT_TRUE(fs::exists(scratch_ / "out/specimen_circles.dat"));
-    EXPECT_FALSE(fs::exists(scratch_ / "out/specimen_polygons.dat")) << "the recount would take them for the specimen";
+    EXPECT_FALSE(fs::exists(scratch_ / "out/specimen_polygons.dat"))
+        << "the recount would treat these files as the specimen";
 }
 
 TEST_F(TestFolder, EndsBeforeFailureWithAPeakSoFar) {
@@ -374,7 +375,7 @@ TEST_F(TestFolder, KeepsEarlierResultsUntilNewOnesAreComplete) {
     EXPECT_EQ(resumed.folder, scratch_ / "out");
     EXPECT_FALSE(fs::exists(scratch_ / "out.new"));
     auto now = contents(scratch_ / "out");
-    EXPECT_EQ(now.erase("notes.txt"), 1U) << "what is not ours stays";
+    EXPECT_EQ(now.erase("notes.txt"), 1U) << "foreign files stay";
     TestOptions whole = options("whole");
     run_test(small_case(wanted), whole);
     expect_same(now, contents(scratch_ / "whole"), "resumed in the place of the earlier ones");
@@ -423,7 +424,7 @@ TEST_F(TestFolder, ThatHoldsFilesWithoutAMarkOfATestIsRefusedAndNamesOne) {
     }
     fs::create_directories(scratch_ / "mine");
     std::ofstream(scratch_ / "mine/0123456789abcdef.crackle_tmp") << "half";
-    EXPECT_FALSE(run_test(small_case(), mine).interrupted) << "of a test that was stopped at once";
+    EXPECT_FALSE(run_test(small_case(), mine).interrupted) << "the test was stopped immediately";
     EXPECT_FALSE(fs::exists(scratch_ / "mine/0123456789abcdef.crackle_tmp"));
 }
 
@@ -526,7 +527,7 @@ TEST_F(TestFolder, OfAnUnstableRunIsNamedInItsMessage) {
     wanted.rate = 3000.0;  // the platen moves by more than a particle's size per step
     try {
         run_test(small_case(wanted), options("out"));
-        ADD_FAILURE() << "ran to its end";
+        ADD_FAILURE() << "ran to the end";
     } catch (const UnstableRun& error) {
         fmt::print("  {}\n", error.what());
         EXPECT_NE(std::string(error.what()).find("output so far in " + (scratch_ / "out").string()), std::string::npos);
@@ -565,7 +566,7 @@ TEST_F(TestFolder, OfStagedResultsGoesOnceNothingIsKeptInIt) {
         std::ofstream(kept) << "open";
         folder.finish();
         EXPECT_EQ(read_file(scratch_ / "out/summary.json"), "new");
-        EXPECT_TRUE(is_there(kept)) << "a file of nobody's was removed";
+        EXPECT_TRUE(is_there(kept)) << "a foreign file was removed";
         fs::remove(kept);
     }
     EXPECT_FALSE(is_there(staged));

@@ -33,7 +33,7 @@ class AGrowingFile : public ::testing::Test {
     static void expect_refused(const std::string& says, const std::function<void()>& act) {
         try {
             act();
-            ADD_FAILURE() << "went through, expected: " << says;
+            ADD_FAILURE() << "accepted, expected: " << says;
         } catch (const InputError& error) {
             fmt::print("  {}\n", error.what());
             EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();

@@ -54,7 +54,8 @@ class PeakFrame : public ::testing::Test {
             if (!first) files.add_peak(test.setup, test.state, test.world);
             test.state.step_seconds = 0.0;
             files.write_checkpoint(test.setup, test.state, test.world);
-            EXPECT_EQ(test.state.peak_frame.bodies.empty(), large_frame == always) << "kept after the checkpoint";
+            EXPECT_EQ(test.state.peak_frame.bodies.empty(), large_frame == always)
+                << "still in memory after the checkpoint";
             if (first) {
                 std::ifstream in(folder / "checkpoint", std::ios::binary);
                 test.state = load_test(in, "checkpoint").state;

@@ -116,7 +116,7 @@ TEST_F(FinishedTest, TakesNoOtherCheckpointForItsOwn) {
     other["files"]["checkpoint"]["xxh3"] = "0123456789abcdef";
     write("summary.json", other.dump());
     expect_says(refusal([&] { resume_test(options()); }), "checkpoint: found ");
-    EXPECT_NO_THROW(read_results(folder_)) << "which needs none";
+    EXPECT_NO_THROW(read_results(folder_)) << "reading needs no checkpoint";
 }
 
 TEST_F(FinishedTest, OfAnEarlierVersionIsReadAsItIs) {

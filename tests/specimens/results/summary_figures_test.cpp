@@ -78,10 +78,10 @@ TEST_F(SummaryFigures, OfMagnitudesHaveBothRulesForTheirCompleteness) {
     EXPECT_TRUE(agrees("lower end of its interval", b["interval"][0], aki * 74.2219 / 100.0, 1e-6));
     EXPECT_TRUE(agrees("upper end", b["interval"][1], aki * 129.5612 / 100.0, 1e-6));
     EXPECT_EQ(b["few"], true);
-    EXPECT_EQ(b["straight"], false) << "two magnitudes are no line";
+    EXPECT_EQ(b["straight"], false) << "two magnitudes do not determine a line";
     const Json& other = b["least_distance"];
     EXPECT_TRUE(agrees("Mc by the least distance", other["completeness"], -6.37, 1e-12));
-    EXPECT_EQ(other["events"], 60) << "those above, and not that magnitude itself";
+    EXPECT_EQ(other["events"], 60) << "only those above, not that magnitude itself";
     const double excess = (10 * 0.17 + 25 * 0.32 + 25 * 0.72) / 60.0;
     EXPECT_TRUE(agrees("b above it", other["b"], std::log10(std::numbers::e) / excess * 59.0 / 60.0, 1e-12));
 
@@ -139,8 +139,7 @@ TEST_F(SummaryFigures, OfANotchedBeamAreByHand) {
     EXPECT_TRUE(agrees("notch over particle", summary["notch_over_particle"], 2.5, 1e-12));
     EXPECT_TRUE(agrees("K_I of the peak so far", summary["fracture_toughness_so_far"], 1.5e6, 1e-12));
     EXPECT_TRUE(agrees("force at the peak so far, N", summary["peak_force_so_far"], 0.75e6, 1e-12));
-    EXPECT_EQ(summary["nominal_modulus"], 4e9)
-        << "of the linear solution, which has the section and length of the test";
+    EXPECT_EQ(summary["nominal_modulus"], 4e9) << "the linear solution has the section and length of the test";
     EXPECT_TRUE(summary["youngs_modulus"].is_null());
     test.state.failure.failed = true;
     EXPECT_TRUE(agrees("fracture toughness", summary_of(test)["fracture_toughness"], 1.5e6, 1e-12));
@@ -241,13 +240,14 @@ TEST_F(SummaryFigures, HaveTheirUnitsBesideThem) {
         EXPECT_TRUE(units.contains(key)) << key << ": found no unit";
     }
     EXPECT_GT(numbers, 40U);
-    for (const auto& [key, unit] : units.items()) EXPECT_TRUE(by_point.contains(key)) << key << ": a unit of nothing";
+    for (const auto& [key, unit] : units.items())
+        EXPECT_TRUE(by_point.contains(key)) << key << ": unit of a figure that does not exist";
 
     test.description.material.units = StiffnessUnits::area;
     const Json by_area = summary_of(test);
     EXPECT_TRUE(by_area["units"]["peak_stress_so_far"].get<std::string>().starts_with("Pa, "));
     EXPECT_TRUE(by_area["columns"]["axial_stress"].get<std::string>().starts_with("Pa, "));
-    EXPECT_EQ(by_area["peak_stress_so_far_pa"], 3e6) << "it is one of an area already";
+    EXPECT_EQ(by_area["peak_stress_so_far_pa"], 3e6) << "in area units, it is already in Pa";
 }
 
 // A specimen of 2 m by 1 m: 50 particles have a size of 0.2 m, 10 across the length; 800 have 0.05 m, 40 across.
@@ -264,12 +264,12 @@ TEST_F(SummaryFigures, OfValidityAreTheClaimsOfTheKind) {
     EXPECT_EQ(narrow["validity"][1]["claim"], "the specimen broke between its grips");
     EXPECT_TRUE(narrow["validity"][1]["holds"].is_null()) << narrow["validity"][1];
     EXPECT_EQ(narrow["validity"][1]["found"], "no bond has broken");
-    EXPECT_EQ(narrow["valid"], false) << "whatever is not known yet";
+    EXPECT_EQ(narrow["valid"], false) << "values that are not known yet";
     test.setup.particles = 800;
     const Json wide = summary_of(test);
     EXPECT_EQ(wide["validity"][0]["holds"], true);
     EXPECT_EQ(wide["validity"][0]["found"], "40 particles");
-    EXPECT_TRUE(wide["valid"].is_null()) << "not all is known";
+    EXPECT_TRUE(wide["valid"].is_null()) << "not all claims are known";
 }
 
 TEST_F(SummaryFigures, OfAProfileAreItsClocks) {

@@ -50,7 +50,7 @@ TEST(LoadingRate, StaysAtItsLimitWhereNothingHappensAndFallsWithTheError) {
     EXPECT_LE(rate_after(0.0, 0.01), limit * (1.0 + 1e-12));
     EXPECT_TRUE(agrees("rate at an error of the tolerance itself", rate_after(0.01, 0.01), limit, 1e-12));
     EXPECT_TRUE(agrees("rate at any error, 1/s", rate_after(1e3, 0.01), 0.15 * limit, 1e-9))
-        << "a specimen that rings is not waited for without end";
+        << "the time for settling is limited";
 }
 
 struct Moment {

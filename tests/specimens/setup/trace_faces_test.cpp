@@ -111,7 +111,7 @@ TEST(TraceFigures, OfOpenAndBondedFacesAreByHand) {
     EXPECT_EQ(first.faces, 2);
     EXPECT_NEAR(*first.length_of_faces, 0.8, 1e-15);
     EXPECT_NEAR(*first.bonded_share, 0.25, 1e-15);
-    EXPECT_NEAR(*first.at_end->failed_share, 1.0, 1e-15) << "all that had bonds";
+    EXPECT_NEAR(*first.at_end->failed_share, 1.0, 1e-15) << "all faces that had bonds";
     EXPECT_TRUE(first.at_peak.stated() && !first.at_peak);
     const JointFigures& both = figures.joints->front();
     EXPECT_EQ(both.traces, 2);
@@ -235,7 +235,7 @@ TEST_F(JointedTest, FlatFacesOfCirclesAreFacesOfTheirTrace) {
         EXPECT_NEAR(dot(face.middle - Vec2{0.0, 0.15}, up), 0.0, 1e-12);
     }
     fmt::print("  expected {} m of faces, got {}\n", setup.traces[0].length, length);
-    EXPECT_NEAR(length, setup.traces[0].length, 2e-3 * length) << "but for what hardly laps";
+    EXPECT_NEAR(length, setup.traces[0].length, 2e-3 * length) << "except faces with a very small lap";
     EXPECT_EQ(std::ranges::count_if(setup.bond_faces, [](std::int32_t face) { return face >= 0; }),
               std::ssize(setup.trace_faces));
     const double opening = 1e-4, right = 2e-4;  // m

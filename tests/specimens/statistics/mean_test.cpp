@@ -84,7 +84,7 @@ TEST(MeanBias, IsTwiceTheChangeAndItsErrorThatOfTheSum) {
     const double each = 2.0 * 0.6 / 3.0;  // standard error of {0, 1.2, 0}
     EXPECT_TRUE(agrees("error by the step", shaken.step_error, each, 1e-12));
     EXPECT_TRUE(agrees("error of the sum", shaken.standard_error, 2.0 * each, 1e-12));
-    EXPECT_FALSE(shaken.known()) << "three packings do not show it";
+    EXPECT_FALSE(shaken.known()) << "three packings are too few to show it";
     EXPECT_FALSE(bias_of(std::array{1.0}, std::array{2.0}, std::array{3.0}).known());
 }
 

@@ -60,7 +60,7 @@ TEST(RosinRammler, OfFewOrAlikePiecesIsNotANumber) {
     const std::vector<double> four{1.0, 2.0, 3.0, 4.0}, alike(10, 2.0), weights(10, 1.0);
     EXPECT_TRUE(std::isnan(fit_rosin_rammler(four, std::span(weights).first(4), 0.5).exponent));
     EXPECT_TRUE(std::isnan(fit_rosin_rammler(alike, weights, 0.5).exponent));
-    EXPECT_EQ(fit_rosin_rammler(alike, weights, 3.0).pieces, 0u) << "all below the least";
+    EXPECT_EQ(fit_rosin_rammler(alike, weights, 3.0).pieces, 0u) << "all are below the smallest";
 }
 
 TEST(MedianSize, HasHalfOfTheAreaInSmallerPieces) {

@@ -93,7 +93,7 @@ TEST(Summary, NamesEachKeyAndItsTables) {
     for (const char* name : {"peak_stress", "crack_rose.*.length", "numerical_errors.*.stated", "files.*.bytes",
                              "numerical_errors.companions.*.steps", "joints[].at_peak.slip", "profile.phases[].share"})
         EXPECT_EQ(count(name), 1) << name;
-    EXPECT_EQ(count("stable_time_step"), 3) << "one for each sense";
+    EXPECT_EQ(count("stable_time_step"), 3) << "one for each direction";
     EXPECT_EQ(count("crack_rose.tension_to_peak"), 0);
 }
 

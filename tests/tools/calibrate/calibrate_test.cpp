@@ -59,7 +59,7 @@ TEST_F(CalibrateCommand, EndsWithCasesATableAndItsKeys) {
                         key["interval"][1].get<double>(), key["from"].get<double>(), key["to"].get<double>());
         EXPECT_NE(page.find(row), std::string::npos) << row;
     }
-    EXPECT_EQ(call("rock.toml -o out -q").out, "") << "quiet, and nothing is run again";
+    EXPECT_EQ(call("rock.toml -o out -q").out, "") << "no output, and no test is repeated";
     EXPECT_EQ(read("out/calibration.json"), before);
 }
 

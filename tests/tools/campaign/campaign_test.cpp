@@ -126,7 +126,7 @@ TEST_F(CampaignCommand, IsDrawnAndReported) {
         EXPECT_LT(read(fmt::format("{}.svg", part)).size(), read("figure.svg").size());
         parts += read(fmt::format("{}.svg", part)).size();
     }
-    EXPECT_GT(parts, read("figure.svg").size()) << "all parts are the whole";
+    EXPECT_GT(parts, read("figure.svg").size()) << "the parts together exceed the whole";
     ASSERT_EQ(crackle("plot out -o half.svg --test tension"), 0) << read("err.txt");
     EXPECT_LT(read("half.svg").size(), read("figure.svg").size());
     EXPECT_NE(crackle("plot out -o two.svg --test tense"), 0);
@@ -156,7 +156,7 @@ TEST_F(CampaignCommand, IsDrawnAndReported) {
         number("packings"), number("mean"), number("standard_deviation"),
         100.0 * number("standard_deviation") / number("mean"), number("low_95"), number("high_95"));
     EXPECT_NE(page.find(row), std::string::npos) << row;
-    ASSERT_EQ(crackle("report out"), 0) << "a report takes the place of a report";
+    ASSERT_EQ(crackle("report out"), 0) << "a report replaces a report";
     EXPECT_EQ(read("out/report.html"), page);
 }
 
@@ -262,7 +262,7 @@ TEST_F(CampaignCommand, AnInterruptLosesAtMostTheTestsAtWork) {
     EXPECT_NE(read("err.txt").find("interrupted; the same command resumes"), std::string::npos) << read("err.txt");
     const Answer answer = call("plan.toml -o out");
     EXPECT_NE(answer.out.find(", 0 left; "), std::string::npos) << answer.out;
-    EXPECT_EQ(answer.out.find("; 120 run now"), std::string::npos) << "what had been run was run again: " << answer.out;
+    EXPECT_EQ(answer.out.find("; 120 run now"), std::string::npos) << "finished tests were repeated: " << answer.out;
 }
 
 TEST_F(CampaignCommand, ExitCode1SaysThatAVerdictEndedTests) {
@@ -270,7 +270,7 @@ TEST_F(CampaignCommand, ExitCode1SaysThatAVerdictEndedTests) {
     const Answer answer = call("plan.toml -o out");
     EXPECT_EQ(answer.code, 1) << answer.err;
     EXPECT_NE(answer.out.find("0 of 4 tests done, 4 gone wrong, 0 left"), std::string::npos) << answer.out;
-    EXPECT_EQ(call("plan.toml -o out").code, 1) << "they are not run again, and still gone wrong";
+    EXPECT_EQ(call("plan.toml -o out").code, 1) << "failed tests are not repeated and remain failed";
     write_small_plan(folder_, 1);
     EXPECT_EQ(call("plan.toml -o out --retry").code, 0);
 }

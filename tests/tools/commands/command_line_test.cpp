@@ -288,10 +288,10 @@ TEST_F(Bench, IsStartedWithTheSameWordsAndEndsWithItsCode) {
     EXPECT_EQ(alone("bench", "on_path").out, "on_path\n");
     EXPECT_EQ(alone("help bench verify", "on_path").out, "on_path\nverify\n--help\n");
     write_bench("alone");
-    EXPECT_EQ(alone("bench verify", "on_path").out, "alone\nverify\n") << "one beside crackle comes first";
+    EXPECT_EQ(alone("bench verify", "on_path").out, "alone\nverify\n") << "a program next to crackle comes first";
     const std::string version = call("--version").out;
     EXPECT_EQ(call("bench --version").out, "crackle-bench" + version.substr(version.find(' ')))
-        << "the one built beside it";
+        << "the program built in the same folder";
 }
 
 TEST_F(Bench, SaysWhereToGetItWhereItIsNot) {
@@ -359,7 +359,8 @@ TEST_F(CommandLines, ColoursAreForTerminalsAloneAndNotUnderNoColor) {
     EXPECT_NE(shown("frobnicate").find(error), std::string::npos) << shown("frobnicate");
     EXPECT_NE(shown("pack").find("\x1b[1;31mcrackle"), std::string::npos) << shown("pack");
     EXPECT_NE(shown("test --help").find(heading), std::string::npos) << shown("test --help");
-    EXPECT_NE(shown("frobnicate", "NO_COLOR", "").find(error), std::string::npos) << "set to nothing: not set";
+    EXPECT_NE(shown("frobnicate", "NO_COLOR", "").find(error), std::string::npos)
+        << "an empty variable counts as not set";
     for (const char* words : {"frobnicate", "test --help", "--help"}) {
         EXPECT_EQ(shown(words, "NO_COLOR", "1").find('\x1b'), std::string::npos) << words;
         EXPECT_EQ(shown(words, "TERM", "dumb").find('\x1b'), std::string::npos) << words;

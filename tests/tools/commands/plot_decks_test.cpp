@@ -81,7 +81,7 @@ TEST_F(PlotDecks, DisplacementsOfWatchedBodiesAreThoseOfTheFile) {
     EXPECT_NEAR(got, expected, 1e-3);
     EXPECT_EQ(curves_of(drawn("wave --what displacement", "figure.svg")).size(), 8U)
         << "of four bodies, along the chain and across it";
-    EXPECT_EQ(frames_of(drawn("wave --what displacement", "figure.svg")).size(), 2U) << "asked for: across it, too";
+    EXPECT_EQ(frames_of(drawn("wave --what displacement", "figure.svg")).size(), 2U) << "on request, also across it";
 }
 
 TEST_F(PlotDecks, PartsOfTheEnergyThatAreZeroAreLeftOutButTheError) {

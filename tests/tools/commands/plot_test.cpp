@@ -251,7 +251,7 @@ TEST_F(PlotCommand, OfASpecimenWithoutSidesHasNoAreaStrain) {
     }
     std::ofstream(folder_ / "squeezed" / "curve.csv") << table;
     expect_refused("squeezed --force -o figure.pdf --what strain", "found no lateral strain");
-    EXPECT_FALSE(drawn("squeezed", "figure.svg").empty()) << "of all that there is";
+    EXPECT_FALSE(drawn("squeezed", "figure.svg").empty()) << "of all bodies";
 }
 
 TEST_F(PlotCommand, CracksLieOnTheFacesThatTheyParted) {
@@ -511,7 +511,7 @@ TEST_F(PlotCommand, FragmentsAreDrawnWholeOrLeftOut) {
     EXPECT_EQ(clipped, 2) << "platens";
     EXPECT_EQ(cut, 0);
     EXPECT_GT(shown, 180);
-    EXPECT_LT(shown, 304) << "this test is of fragments that fly off";
+    EXPECT_LT(shown, 304) << "this test needs fragments that fly off";
 }
 
 TEST_F(PlotCommand, TheNearestFrameIsDrawn) {
@@ -555,7 +555,7 @@ TEST_F(PlotCommand, LettersOfTheGuidesFirstFigureAreTheGuides) {
     const std::string svg = read("figures/figure26.svg");
     const std::vector<Vec2> letters = letters_of(svg);
     ASSERT_EQ(letters.size(), 4U) << "(a) packing, (b) what is left, (c) curve, (d) breaks";
-    EXPECT_EQ(letters[0].y, letters[1].y) << "in a row of drawings";
+    EXPECT_EQ(letters[0].y, letters[1].y) << "drawings in one row";
     EXPECT_GT(letters[1].x, letters[0].x + 50.0);
     // The first frame is that of the curve, the last that of the breaks.
     const std::vector<std::vector<Vec2>> frames = frames_of(svg);

@@ -72,7 +72,7 @@ class Resume : public testing::ProgramCall, public ::testing::WithParamInterface
         seconds_ = std::chrono::duration<double>(Clock::now() - begun).count();
         whole_ = contents(folder_ / "whole/out");
         fmt::print("  uninterrupted: {:.2f} s, {} files\n", seconds_, whole_.size());
-        ASSERT_GT(whole_.size(), 20U) << "frames are written on the way";
+        ASSERT_GT(whole_.size(), 20U) << "frames are written during the test";
     }
 
     Answer call_in(const std::string& place, const std::string& words) const {
@@ -290,7 +290,7 @@ TEST_P(Resume, OfAForcedTestKeepsTheEarlierResultsUntilTheNewOnesHaveTakenTheirP
         if (!replaced) {
             expect_same(contents(folder_ / "cut/out"), earlier, std::string(stage) + ", earlier results");
             EXPECT_NE(resumed.err.find("out.new"), std::string::npos)
-                << "names the place of the new ones: " << resumed.err;
+                << "the message names the folder of the new results: " << resumed.err;
             ASSERT_EQ(call_in("cut", "--resume out.new -q").code, 0);
         }
         expect_same(contents(folder_ / "cut/out"), forced, stage);

@@ -71,7 +71,7 @@ TEST_F(RunCommand, TheGuidesLawIsAnOptionThatARunKeeps) {
     EXPECT_NE(energy("a"), energy("b"));
     ASSERT_EQ(run(quoted(two) + " --law demseg --steps 133", "part"), 0) << printed();
     ASSERT_EQ(run(quoted(scratch_ / "part") + " --continue", "rest"), 0) << printed();
-    EXPECT_EQ(energy("part") + energy("rest"), energy("b")) << "it goes on under the law it began with";
+    EXPECT_EQ(energy("part") + energy("rest"), energy("b")) << "the law of the first run is kept";
     EXPECT_EQ(run(quoted(scratch_ / "part") + " --continue --law rounded", "other"), 2);
     EXPECT_NE(printed().find("--law: found rounded, expected demseg, which "), std::string::npos) << printed();
 }
@@ -89,7 +89,7 @@ TEST_F(RunCommand, TheIntegratorIsAnOptionThatARunKeeps) {
     EXPECT_NE(energy("plain"), energy("consistent"));
     ASSERT_EQ(run(deck + " --integrator consistent --steps 7777", "part"), 0) << printed();
     ASSERT_EQ(run(quoted(scratch_ / "part") + " --continue", "rest"), 0) << printed();
-    EXPECT_TRUE(energy("consistent").ends_with(energy("rest"))) << "it goes on with the integrator it began with";
+    EXPECT_TRUE(energy("consistent").ends_with(energy("rest"))) << "the integrator of the first run is kept";
     EXPECT_EQ(run(quoted(scratch_ / "part") + " --continue --integrator leapfrog", "other"), 2);
     EXPECT_NE(printed().find("--integrator: found leapfrog, expected consistent, which "), std::string::npos)
         << printed();

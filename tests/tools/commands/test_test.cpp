@@ -82,7 +82,7 @@ TEST_F(CrackleTest, CheckPrintsWhatToExpectAndWritesNothing) {
     EXPECT_NE(answer.err.find("bonded "), std::string::npos) << "stages: " << answer.err;
     const Answer quiet = call("case.toml --check -q");
     EXPECT_EQ(quiet.code, 0);
-    EXPECT_EQ(quiet.err, "") << "nothing but the result";
+    EXPECT_EQ(quiet.err, "") << "only the result";
     EXPECT_NE(quiet.out.find("strength       about "), std::string::npos);
     EXPECT_TRUE(snapshot() == before) << "files were made";
 }
@@ -324,7 +324,7 @@ TEST_F(CrackleTest, ShowsTheLargerStressAfterThePeakAndMegapascalWhereThereIsATh
     const Answer deep = call("rubble.toml -o deep");
     EXPECT_EQ(deep.code, 0) << deep.err;
     const auto largest = read_json(folder_ / "deep/summary.json");
-    EXPECT_EQ(largest["peak_stress"], summary["largest_stress"]) << "by a drop that only the end has";
+    EXPECT_EQ(largest["peak_stress"], summary["largest_stress"]) << "with a drop that occurs only at the end";
     EXPECT_EQ(deep.out.find("largest stress"), std::string::npos) << deep.out;
     EXPECT_EQ(deep.out.find("MPa"), std::string::npos) << deep.out;
     EXPECT_TRUE(largest["out_of_plane_thickness"].is_null());

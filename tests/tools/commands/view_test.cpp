@@ -219,7 +219,7 @@ TEST_F(ViewCommand, ADecksBondsAndBreaksAreThoseOfItsOutputs) {
     EXPECT_EQ(body.size(), broken);
     EXPECT_EQ(shown.plain("events.shear").size(), broken);
     EXPECT_TRUE(std::ranges::is_sorted(time));
-    EXPECT_FALSE(shown.test()["arrays"].contains("events.axial_strain")) << "a deck has none";
+    EXPECT_FALSE(shown.test()["arrays"].contains("events.axial_strain")) << "a deck has no strains";
     EXPECT_FALSE(shown.test()["arrays"].contains("curve.axial_strain"));
 }
 
@@ -313,7 +313,7 @@ TEST_F(ViewCommand, AnOutputStandsForItsRun) {
     }
     const Answer answer = call("run/output.dat");
     EXPECT_EQ(answer.out, "run/view.html\n") << answer.err;
-    EXPECT_EQ(page("run/new_in_gm.dat").test()["kind"], "particles") << "a particle file, which it is";
+    EXPECT_EQ(page("run/new_in_gm.dat").test()["kind"], "particles") << "a particle file";
     std::filesystem::create_directories(folder_ / "kept");
     std::filesystem::rename(folder_ / "run" / "output.dat", folder_ / "kept" / "stage1.dat");
     expect_refused("kept/stage1.dat",
@@ -341,7 +341,7 @@ TEST_F(ViewCommand, SeveralRunsStandSideBySide) {
     const std::string deck = shipped_deck("clump").string();
     const PageContents shown = page(fmt::format("'{0}/in_gm.dat' '{0}'", deck));
     EXPECT_EQ(shown.manifest["tests"].size(), 2U);
-    EXPECT_EQ(shown.test(1)["name"], "in_gm.dat (2)") << "a deck that has not run: the same file again";
+    EXPECT_EQ(shown.test(1)["name"], "in_gm.dat (2)") << "a deck that has not run: the same file";
 }
 
 TEST_F(ViewCommand, RefusesWhatItCannotShow) {

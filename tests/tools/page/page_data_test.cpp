@@ -235,7 +235,7 @@ TEST(PageData, HoldsNothingOfSlipsThatWereNotRecorded) {
     const tools::PageData without = blocks(false), with = blocks(true);
     for (const auto& [name, place] : without.manifest["arrays"].items()) {
         EXPECT_FALSE(name.starts_with("slips.")) << name;
-        EXPECT_EQ(with.manifest["arrays"][name], place) << name << ": slips stand behind all else";
+        EXPECT_EQ(with.manifest["arrays"][name], place) << name << ": slips are drawn behind everything else";
     }
     EXPECT_EQ(with.manifest["arrays"].size(), without.manifest["arrays"].size() + 5);
 }

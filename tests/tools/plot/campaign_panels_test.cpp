@@ -21,7 +21,7 @@ TEST(Band, IsTheMedianAndTheMiddleOfStraightLines) {
     ASSERT_EQ(band.strain.size(), 11U);
     for (std::size_t k = 0; k < band.strain.size(); ++k) {
         EXPECT_NEAR(band.median[k], 6.0 * band.strain[k], 1e-12);
-        EXPECT_NEAR(band.low[k], 2.0 * band.strain[k], 1e-12) << "a tenth of eleven lies below";
+        EXPECT_NEAR(band.low[k], 2.0 * band.strain[k], 1e-12) << "one of eleven is smaller";
         EXPECT_NEAR(band.high[k], 10.0 * band.strain[k], 1e-12);
     }
 }

@@ -147,9 +147,9 @@ TEST(AreaStrain, OfCracksCountsFromThePressure) {
     std::vector<std::vector<Vec2>> curves;
     for (const std::vector<Vec2>& line : lines_of(drawn(area_strain({{&results, "one"}}))))
         if (line.size() > 10) curves.push_back(line);
-    ASSERT_EQ(curves.size(), 2U) << "of the area, then of the cracks";
+    ASSERT_EQ(curves.size(), 2U) << "first the area, then the cracks";
     const double unit = (curves[0].front().y - curves[0].back().y) / 2.4e-3;
-    EXPECT_GT(unit * 2.4e-3, 50.0) << "pt, many times what is written";
+    EXPECT_GT(unit * 2.4e-3, 50.0) << "pt, many times the written size";
     EXPECT_NEAR(curves[1].front().y, curves[0].front().y, written);
     EXPECT_NEAR(curves[1].back().y - curves[1].front().y, 0.8e-3 * unit, 2.0 * written);
 }
@@ -270,7 +270,7 @@ TEST(TraceMap, TracesLieInTheirBox) {
     const std::string svg = drawn(trace_map(one_trace()));
     const std::vector<Vec2> frame = frames_of(svg)[0];
     const double metre = 0.5 * (frame[2].x - frame[1].x);
-    EXPECT_NEAR(frame[1].y - frame[0].y, metre, written) << "both axes at one scale";
+    EXPECT_NEAR(frame[1].y - frame[0].y, metre, written) << "both axes have the same scale";
     bool found = false;
     for (const std::vector<Vec2>& line : lines_of(svg)) {
         if (line.size() != 2) continue;
