@@ -45,7 +45,7 @@ test('energies and watched bodies are drawn, and the specimen goes where they ar
     assert.deepEqual(await page.locator('#deck-curves .frame').evaluateAll((all) => all.map((one) => one.dataset.panel)), ['Energy', 'Horizontal displacement'], 'nothing moves across the chain, nothing drives it');
     const names = await page.locator('[data-panel="Energy"] svg').textContent();
     for (const name of ['kinetic (enva)', 'strain (enka)', 'closing error (err)', 'Energy [10⁶ deck’s units]', 'Time [ms]']) assert.ok(names.replaceAll('\u202f', ' ').includes(name), `expected '${name}' in '${names}'`);
-    assert.ok(!names.includes('enca'), 'without dashpots nothing is lost to them');
+    assert.ok(!names.includes('enca'), 'without dashpots there is no dashpot loss');
     for (const body of [11, 13, 15, 17]) assert.ok((await page.locator('[data-panel="Horizontal displacement"] svg').textContent()).includes(`body ${body}`));
     const panel = page.locator('[data-panel="Energy"] .panel');
     await panel.scrollIntoViewIfNeeded();

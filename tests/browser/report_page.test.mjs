@@ -247,7 +247,7 @@ test('on a phone titles, legends and notes are whole and keep apart', async () =
         for (const {text, box} of titles.filter(({text}) => /,|ε/.test(text))) {
             assert.ok(panes.some((pane) => box.left >= pane.left - 1 && box.right <= pane.right + 1 && box.top >= pane.top - 2 && box.bottom <= pane.bottom + 2), `${file}: '${text}' leaves its pane`);
         }
-        if (file === 'six.html') assert.equal(titles.filter(({text}) => /, (tension|compression)$/.test(text)).length, 6, 'six whole titles');
+        if (file === 'six.html') assert.equal(titles.filter(({text}) => /, (tension|compression)$/.test(text)).length, 6, 'six complete titles');
         await close();
     }
 });
@@ -324,7 +324,7 @@ test('the map shows every slip beneath the breaks, as a line along its contact, 
         const card = page.locator('.card.breaks[data-test="sliding"]'), marks = card.locator(`.map path[fill="${slipFill[colorScheme]}"]`);
         assert.match(await card.locator('h3').textContent(), new RegExp(`${events.length} breaks, largest .*, ${slips.length} slips`));
         assert.equal(await marks.count(), slips.length, `${colorScheme}: slips`);
-        assert.equal(await page.locator(`.card.breaks:not([data-test="sliding"]) path[fill="${slipFill[colorScheme]}"]`).count(), 0, 'slips of tests without');
+        assert.equal(await page.locator(`.card.breaks:not([data-test="sliding"]) path[fill="${slipFill[colorScheme]}"]`).count(), 0, 'slips of tests without slips.csv');
         const boxes = await marks.evaluateAll((all) => all.map((one) => {
             const {x, y, width, height} = one.getBoundingClientRect();
             return {x: x + width / 2, y: y + height / 2, width, height};
@@ -348,7 +348,7 @@ test('the map shows every slip beneath the breaks, as a line along its contact, 
         assert.equal(await marks.count(), 0, 'slips switched off');
         await page.click('#breaks button[data-value="time"]');
         await page.check('#breaks input[type="checkbox"]');
-        assert.equal(await card.locator('.map path').count(), order.length, 'by time: as many marks');
+        assert.equal(await card.locator('.map path').count(), order.length, 'coloured by time: as many marks');
         await close();
     }
 });

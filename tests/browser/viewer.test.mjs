@@ -203,7 +203,7 @@ test('no stress is printed where there is none', async () => {
     const {page, close} = await open('pulled.html');
     const {summary, curve} = results(join(root, 'pulled'));
     console.log(`  first row: ${curve[0].axial_stress} N/m of ${summary.peak_stress}`);
-    assert.ok(curve[0].axial_stress > 0, 'this test is of a stress that is not quite 0');
+    assert.ok(curve[0].axial_stress > 0, 'this test needs a stress that is not exactly 0');
     const title = await page.locator('.stage').textContent();
     assert.match(title, /ε = 0\s+σ ≈ 0/);
     assert.doesNotMatch(title, /mN\/m/);
@@ -242,7 +242,7 @@ test('widths of forces mean the same whichever tests are shown', async () => {
     const own = await widest();
     await choose(page, 'test', '1');
     console.log(`  on their own: ${own} N pulled, ${await widest()} N squeezed`);
-    assert.equal(Math.max(own, await widest()), side, 'of one test alone where that is asked for');
+    assert.equal(Math.max(own, await widest()), side, 'only of the requested test');
     assert.notEqual(own, await widest());
     await close();
 });
@@ -346,7 +346,7 @@ test('outlines leave small particles their colour', async () => {
         const more = lined / await darkness() - 1;
         console.log(`  outlines darken the specimens by ${(100 * more).toFixed(0)} %`);
         assert.ok(more < most, `expected at most ${100 * most} %, got ${(100 * more).toFixed(0)} %`);
-        if (!options.viewport) assert.ok(more > 0.03, 'outlines are seen');
+        if (!options.viewport) assert.ok(more > 0.03, 'outlines are visible');
         await close();
     }
 });
@@ -404,7 +404,7 @@ test('saves the animation as GIF, a frame a moment, and as a video', {timeout: 2
     if (await page.locator('button[data-save="video"]').count() > 0) {
         const video = await saved(page, 'video');
         console.log(`  video: ${video.name}, ${(statSync(video.file).size / 1e3).toFixed(0)} kB`);
-        assert.ok(statSync(video.file).size > 10000, 'a video of more than nothing');
+        assert.ok(statSync(video.file).size > 10000, 'a video that is not empty');
     }
     await close();
 });
@@ -427,7 +427,7 @@ test('a GIF of more than 200 moments has 200, evenly spaced, including the last'
     console.log(`  ${moments} moments: ${frames} frames, from ${taken[0]} to ${taken.at(-1)}, ${[...steps].join(' or ')} apart`);
     assert.deepEqual([frames, taken.length, taken[0], taken.at(-1)], [200, 200, 1, moments]);
     assert.deepEqual([...steps].sort(), [1, 2]);
-    assert.equal(await frameNow(page), 0, 'the clock is back at its start');
+    assert.equal(await frameNow(page), 0, 'the clock is at its start again');
     await close();
 });
 
@@ -519,7 +519,7 @@ test('a click on the curve sends the specimen there, and the cursor follows the 
 test('several tests side by side and overlaid, by one clock', async () => {
     const {page, close} = await open('six.html');
     assert.equal(await page.locator('.pane').count(), 6, 'side by side from the start');
-    assert.ok(await page.locator('.beside-curve').isHidden(), 'a curve beside one test alone');
+    assert.ok(await page.locator('.beside-curve').isHidden(), 'a curve next to a single test');
     await page.locator('.scrub').fill(await page.locator('.scrub').getAttribute('max'));
     await settled(page);
     const side = await shown(page);

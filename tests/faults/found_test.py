@@ -59,7 +59,7 @@ class Found(unittest.TestCase):
                         call = [call for call in calls if call.kind == kind and re.fullmatch(path, call.path)][sum(behind)]
                         outcome, run = attempt(PROGRAM, scene, place, origin, {"call": kind, "at": call.number, "mode": mode, "errno": error})
                         print(f"  {kind} {call.number} {mode} {error}: {run.code} {run.err.strip()}")
-                        self.assertTrue(run.calls, "it did not come to this call")
+                        self.assertTrue(run.calls, "the call was not reached")
                         self.assertIn(outcome.kind, GOOD, outcome.faults)
 
 

@@ -28,7 +28,7 @@ class RefusedThreads(unittest.TestCase):
                 done = PROGRAM.run(words, place, **faults)
                 self.assertEqual(done.code, 0, done.err)
                 if faults and SEVERAL:
-                    self.assertTrue(done.calls, "none was begun")
+                    self.assertTrue(done.calls, "no thread was requested")
                     self.assertRegex(done.err, "1 of 2 threads are used: the operating system allows this process only 1")
                 left.append({name: data for name, data in contents(place / "work").items() if name.startswith(made)})
             self.assertEqual(left[0].keys(), left[1].keys())

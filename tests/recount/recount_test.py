@@ -76,7 +76,7 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
     def test_pieces_that_carry_more_than_the_specimen(self):
         folder = rubble()
         summary = json.loads((folder / "summary.json").read_text())
-        self.assertGreater(summary["largest_stress"], 1.5 * summary["peak_stress"], "the case that the rule is for")
+        self.assertGreater(summary["largest_stress"], 1.5 * summary["peak_stress"], "a case to which the rule applies")
         self.agrees(folder, 200)
 
     def test_circles_pulled_by_tolerance_between_glued_platens(self):
@@ -212,7 +212,7 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
                 folder = run("rule_" + name, text)
                 r = recounted(folder)
                 self.assertIn("strain_share_above_tolerance", r.keys)
-                self.assertGreater(r.summary["strain_share_above_tolerance"], 0.0, "the rule had something to do")
+                self.assertGreater(r.summary["strain_share_above_tolerance"], 0.0, "the rule changed the rate")
                 self.agrees(folder, 100)
 
     def test_companions_are_the_tests_that_they_say(self):
@@ -301,7 +301,7 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
                 break
             time.sleep(0.002)
         process.wait()
-        self.assertTrue(json.loads((folder / "summary.json").read_text())["interrupted"], "stopped in between")
+        self.assertTrue(json.loads((folder / "summary.json").read_text())["interrupted"], "stopped during the run")
         subprocess.run([program, "test", "-q", "--resume", str(folder)], check=True)
         self.agrees(folder, 150)
 

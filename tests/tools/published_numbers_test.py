@@ -55,7 +55,7 @@ class PublishedNumbers(unittest.TestCase):
         first, second = self.rows("strength")
         for row in (first, second):
             summary = json.loads((self.out / f"voronoi_tension/{row['seed']}_as_shipped/summary.json").read_text())
-            self.assertEqual(float(row["as_shipped_0.1"]), summary["peak_stress"], "the program's own")
+            self.assertEqual(float(row["as_shipped_0.1"]), summary["peak_stress"], "the value of the program")
             self.assertEqual(float(row["as_shipped_largest"]), summary["largest_stress"])
             half = json.loads((self.out / f"voronoi_tension/{row['seed']}_half_step/summary.json").read_text())
             self.assertAlmostEqual(half["time_step_mean"] / summary["time_step_mean"], 0.5, delta=0.01)

@@ -82,7 +82,7 @@ class Particles(InScratch):
         self.assertAlmostEqual(facts["anisotropy"], abs(of_x - of_y) / (of_x + of_y), delta=1e-9)
         self.assertEqual((facts["radius_min"], facts["radius_max"]), (radius.min(), radius.max()))
         self.assertEqual((facts["width"], facts["height"]), (x2 - x1, y2 - y1))
-        self.assertEqual(facts["radius_scale"], 1.0, "of a count that is given")
+        self.assertEqual(facts["radius_scale"], 1.0, "the given count is kept")
         pairs = numpy.triu(numpy.where(touches, apart, 0.0))
         overlaps = {"all": [pairs[pairs > 0], *(one[one > 0] for one in walls.values())],
                     "platens'": [pairs[pairs > 0], *(walls[name][walls[name] > 0] for name in ("bottom", "top"))]}

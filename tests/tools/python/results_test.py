@@ -95,7 +95,7 @@ class Results(InScratch):
         # Bonds come first, followed by other contacts.
         bonds = squeezed.summary["bonds_initial"]
         self.assertEqual(len(end.bond_state), bonds)
-        self.assertGreater(len(contacts["state"]), bonds + 2, "something touches anew")
+        self.assertGreater(len(contacts["state"]), bonds + 2, "some contacts are not bonds")
         numpy.testing.assert_array_equal(end.bond_state, contacts["state"][:bonds])
         numpy.testing.assert_array_equal(ids[recording.bonds.i], contacts["body_i"][:bonds])
         numpy.testing.assert_array_equal(ids[recording.bonds.j], contacts["body_j"][:bonds])

@@ -182,7 +182,7 @@ class Arrays(InScratch):
             numpy.testing.assert_array_equal(contacts[name], (flags & flag) != 0, name)
         numpy.testing.assert_array_equal(contacts["bond_overlap"], world.bond_overlaps[at])
         bonded = contacts[contacts["bonded"]]
-        self.assertTrue((bonded["bond_overlap"] != bonded["overlap"]).any(), "they have moved")
+        self.assertTrue((bonded["bond_overlap"] != bonded["overlap"]).any(), "bodies have moved")
         # A body's force is the sum over its points of the forces of springs and back-tension; positive shear is along
         # the normal turned left by 90 degrees.
         normal, shear = contacts["normal_force"], contacts["shear_force"]
@@ -235,7 +235,7 @@ class Changes(InScratch):
     def test_an_added_bond_holds_and_breaks_at_its_back_tension(self):
         world, i, j, contact = self.unbonded()
         self.assertEqual(world.add_bond(i, j), 1)
-        self.assertEqual(world.add_bond(i, j), 0, "has one already")
+        self.assertEqual(world.add_bond(i, j), 0, "the pair is already bonded")
         self.assertEqual((world.bonds_initial, world.bonds_broken), (1, 0))
         bonded = world.contacts()
         bonded = bonded[bonded["bonded"]][0]
