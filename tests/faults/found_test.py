@@ -18,7 +18,7 @@ PROGRAM = Program(os.environ["CRACKLE_PROGRAM"], os.environ["INJECTED_FAULTS"])
 FOUND = {
     "campaign": (
         ("stat", r"out/packings/\w+\.crackle_tmp", "on", "EIO"),  # temporary files were made endlessly
-        # The message stated an input/output error, whatever the cause.
+        # The message stated an input/output error for every cause.
         ("write", r"out/campaign\.sqlite-shm", "once", "ENOSPC"),
         ("mmap", r"out/campaign\.sqlite-shm", "on", "ENOMEM"),
         ("truncate", r"out/campaign\.sqlite-shm", "on", "EPERM"),

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A verification claim: a closed form or a law that the engine must satisfy, and rows that show how well it does.
 // Claims are plain data, used by the tests (tests/verification/claims_test.cpp) and for the page (`crackle-bench
-// verify`). A row compares one number. Its tolerance comes from an error estimate named beside it, never from the
-// result itself. If there is a discretisation error, the row also checks the observed order of convergence.
-//
-// A row compares one number. Its tolerance comes from an estimate of the error, named beside it, never from what came
-// out. Where a discretisation error exists, a row carries the observed order of convergence too, and falls with it.
+// verify`). A row compares one number. Its tolerance comes from a named error estimate, never from the result itself.
+// If there is a discretisation error, the row also checks the observed order of convergence.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
