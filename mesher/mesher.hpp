@@ -186,7 +186,7 @@ class MeshInterrupted : public std::exception {
 /// merging Voronoi cells.
 /// @param centres  inside the domain or on its boundary
 /// @throws MeshError if there are no centres, if centres coincide, lie outside or are NaN, or if the domain has no
-/// area. Also if `mesh_gap` or `inset` is invalid, if there is no triangle, or if a cell is destroyed.
+/// area. It is also thrown if `mesh_gap` or `inset` is invalid, if there is no triangle, or if a cell is destroyed.
 /// @throws MeshInterrupted if `interrupted` returned true
 Mesh make_mesh(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request);
 

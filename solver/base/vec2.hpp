@@ -25,9 +25,9 @@ inline Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
 inline Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
 /// Negative of a vector.
 inline Vec2 operator-(Vec2 a) { return {-a.x, -a.y}; }
-/// Multiple.
+/// Product of a number and a vector.
 inline Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }
-/// Multiple.
+/// Product of a number and a vector.
 inline Vec2 operator*(Vec2 a, double s) { return s * a; }
 /// Scalar product.
 inline double dot(Vec2 a, Vec2 b) { return a.x * b.x + a.y * b.y; }

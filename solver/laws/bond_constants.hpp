@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Constants of bonds that users give, with the same name in scenes, in cases and for change_law(). The header of a bond
-// law lists those that it has; whatever reads, checks or changes them walks that list.
+// Constants of bonds that users give, under the same names in scenes, in cases and for change_law(). The header of each
+// bond law lists its constants. The code that reads, checks or changes constants goes through this list.
 // Tested by tests/solver/laws/bond_law_test.cpp.
 #pragma once
 
@@ -26,17 +26,17 @@ struct BondConstants {
 /// μ = tan φ. @param angle the friction angle φ, degrees
 inline double friction_coefficient(double angle) { return correctly_rounded::tan(angle * std::numbers::pi / 180.0); }
 
-/// A constant, as a bond law lists it.
+/// A constant in the list of a bond law.
 struct BondConstant {
-    const char* key;  ///< as a member is named, and as users write it
+    const char* key;  ///< name of the member, which users write
     std::optional<double> BondConstants::*given;
-    double ContactLaw::*of_law;  ///< the same in laws of contacts, as in_law() converts it
-    bool is_angle;               ///< degrees, from 0 to the friction angle; otherwise a strength, N or Pa, >= 0
-    const char* meaning;         ///< a sentence or two
+    double ContactLaw::*of_law;  ///< member of ContactLaw that holds the result of in_law()
+    bool is_angle;               ///< true: degrees, from 0 to the friction angle; false: a strength, N or Pa, >= 0
+    const char* meaning;         ///< description for users, one or two sentences
 
     /// The value that the law uses: a strength is unchanged; an angle is converted to its friction coefficient.
     double in_law(double value) const { return is_angle ? friction_coefficient(value) : value; }
-    /// Its name as words of a sentence.
+    /// The key in words, for messages: "tensile strength".
     std::string spoken() const {
         std::string words = key;
         std::ranges::replace(words, '_', ' ');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which bond laws there are, and what code that runs once a case asks of them. Each law is one header with one type,
+// The bond laws, and the facts about them that code outside the kernels needs. Each law is one header with one type,
 // listed in bond_laws.hpp.
 // Tested by tests/solver/laws/bond_laws_test.cpp.
 #pragma once
@@ -24,11 +24,12 @@ enum class BondLaw : std::uint8_t {
 
 constexpr auto list_names(BondLaw) { return in_order("back_tension", "coulomb"); }
 
-/// What distinguishes bond laws.
+/// Properties in which bond laws differ.
 struct BondLawFacts {
     const char* meaning = "";                   ///< a clause for the key bond.law
-    std::span<const BondConstant> constants{};  ///< what users give of its bonds
-    /// Friction coefficient that the friction angle of a material gives. Unbonded contacts have ContactLaw::friction.
+    std::span<const BondConstant> constants{};  ///< constants of its bonds that users give
+    /// Member for the coefficient that follows from a material's friction angle. Unbonded contacts always use
+    /// ContactLaw::friction.
     double ContactLaw::*friction = &ContactLaw::friction;
     /// Whether materials state tensile strength, cohesion and residual friction. Otherwise strength follows from the
     /// overlap at bonding.
@@ -39,7 +40,8 @@ struct BondLawFacts {
     /// Whether forces are 0 at the point's Points::bond_overlap, while bonded and afterwards. Otherwise the bond adds a
     /// back-tension to the force of the contact.
     bool from_rest_overlap = false;
-    bool own_shares = false;           ///< whether points have stiffness and strength factors in all units
+    bool own_shares = false;           ///< whether points have stiffness and strength factors with either of
+                                       ///< StiffnessUnits
     bool across_joints = false;        ///< whether joints can have bonds of this law
     bool with_guide_segments = false;  ///< whether it can be combined with the guide's segment law
     /// Whether a point remembers its forces in the last step in which it carried at least half its strength.
@@ -58,8 +60,8 @@ const std::vector<BondConstant>& all_bond_constants();
 /// Names of the bond laws for which `fact` is true, formatted for messages: "a" or "b".
 std::string laws_with(bool BondLawFacts::*fact);
 
-/// Checks the strengths of a law. @param what states whose they are @throws InputError for a tensile strength
-/// beyond_apex()
+/// Checks the strengths of a law. @param what names their owner, for the message @throws InputError for a tensile
+/// strength beyond_apex()
 void check_strengths(const ContactLaw& law, const std::string& what);
 
 }  // namespace crackle

@@ -8,16 +8,17 @@
 //     shear_limit()           largest shear force of every point of a world with bonds, bonded or not
 //     carries_half_strength() whether a bond carries at least half its strength; only with remembers_strong_forces
 //     break_bond()            state and forces after a break, and the energy released. It is called twice: in the
-//                             force pass without BondMemory, for the forces that are left, and for the event with it.
+//                             force pass, without BondMemory, for the remaining forces; for the event, with it.
 //                             Forces must not depend on the memory
 //     elastic_limits()        strains at which a bond breaks or slides in a linear solution
 //
 // A new law needs a value and a name in BondLaw, a header, and an entry in BondLaws. Kernels are compiled for every
 // law.
 //
-// A law of faces would be a PointKind with a kernel of its own. A scalar of each body, known before its forces, would
-// be an array of Bodies in PassView. sweep_of() (stepping/sweep_kernels.cpp) would sum it in a phase before
-// do_smaller_kinds(), where all bodies are at time n. A world without points of that kind skips both.
+// A law for faces would need a PointKind and a kernel of its own. A scalar per body that must be known before the
+// forces would need an array of Bodies in PassView. sweep_of() (stepping/sweep_kernels.cpp) would sum it in a phase
+// before do_smaller_kinds(), where all bodies are at time n. A world without such points would skip this phase and the
+// kernel.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What bond laws compute with: the values of a bonded point, what a break makes of them, and how they grow with the
-// strain in a linear solution.
+// Values that bond laws read and return: those of a bonded point, those after a break, and their growth with strain in
+// a linear solution.
 // Tested by tests/solver/laws/bond_law_test.cpp.
 #pragma once
 
@@ -9,10 +9,10 @@
 
 namespace crackle {
 
-/// A bonded point in a force pass. Values that the law's facts do not ask for are 0.
+/// A bonded point in a force pass. Values that the law does not need according to its facts are 0.
 template <class Number>
 struct BondedPoint {
-    Number overlap;            // m; from the rest overlap if the law counts from_rest_overlap
+    Number overlap;            // m; measured from the rest overlap if the law has from_rest_overlap
     Number bond_overlap;       // m, δ0
     Number closing, slipping;  // m/s, relative velocities along the normal and tangent
     Number shear_force;        // N, elastic, before the last drift
@@ -33,11 +33,11 @@ struct BondStrength {
     Number friction;           // friction coefficient μ
 };
 
-/// What a point remembers of its bond; what its world does not keep is 0.
+/// Values that a point stores about its bond; 0 for those that its world does not store.
 struct BondMemory {
     BondForces<double> strong;          // in the last step in which it carried at least half its strength
     bool slid;                          // whether it has reached its Coulomb limit
-    std::optional<double> normal_work;  // J, stored in its normal spring, where its force has no potential
+    std::optional<double> normal_work;  // J, stored in its normal spring, only if its force has no potential
 };
 
 /// State of a point after its bond has broken, and the energy released.

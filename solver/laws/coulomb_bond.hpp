@@ -46,7 +46,7 @@ struct CoulombBond {
                                         .own_shares = true,
                                         .across_joints = true};
 
-    /// Strengths of a bonded point with its share of them.
+    /// Strengths of a bonded point, including its strength factor.
     template <class Number>
     static CRACKLE_INLINE BondStrength<Number> strength_of(const Law<Number>& law, const BondedPoint<Number>& p) {
         return {law.tensile_strength * p.strength_share, law.cohesion * p.strength_share, law.bond_friction};
@@ -136,8 +136,8 @@ struct CoulombBond {
         return break_bond(law, strength_of(law, p), before, forces_now(law, p), p.overlap, p.bond_overlap);
     }
 
-    /// Limits under proportional loading: the one of tension and shear that is reached first. @param law of the point,
-    /// with its strength factor
+    /// Limits under proportional loading: the limit in tension or in shear, whichever is reached first. @param law the
+    /// point's law, including its strength factor
     static ElasticLimits elastic_limits(const ContactLaw& law, double /*bond_overlap*/, bool /*held*/,
                                         const BondGrowth& growth) {
         const double parts = strain_of_loss(law.tensile_strength, growth.normal);

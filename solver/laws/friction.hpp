@@ -3,10 +3,10 @@
 //
 //     trial = f_t - k_s Δu_t       f_t ← trial, or ±limit if |trial| > limit
 //
-// The limit is μ k_n max(δ, 0) in a world without bonds and with back-tension, whose bonds do not change the shear
-// strength. In any world with bonds, shear_limit() of the bond law gives it.
-// Energy: the slider dissipates ½(f_t0 + f_t1)(trial - f_t1)/k_s per step. Together with the change of ½f_t²/k_s this
-// is exactly the work of the mean shear force. Forces in N. Source: DEMseg guide; solver/MODEL.md 4.
+// The limit is μ k_n max(δ, 0) in a world without bonds, and in one with back-tension bonds, which do not change the
+// shear strength. In any world with bonds, shear_limit() of the bond law returns it. Energy: the slider dissipates
+// ½(f_t0 + f_t1)(trial - f_t1)/k_s per step. Together with the change of ½f_t²/k_s this is exactly the work of the mean
+// shear force. Forces in N. Source: DEMseg guide; solver/MODEL.md 4.
 #pragma once
 
 #include "solver/laws/law.hpp"

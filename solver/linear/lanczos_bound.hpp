@@ -24,13 +24,13 @@ inline constexpr double lanczos_failure = 1e-9;
 /// A stable time step within 2 % of the largest, s. @param pencil matrices of a world with at least one stiff point
 /// @param guess any stable time step, s
 double lanczos_step(const MassScaled& pencil, double guess);
-/// Likewise of a world, whose points `which` are its springs.
+/// Overload for a world whose springs are the points given by `which`.
 double lanczos_step(const World& world, ClosedPoints which, double guess);
 
 /// Whether lanczos_step() would accept the time step `dt` (s) as stable. It rejects any dt above the limit, and accepts
 /// any dt below 0.982 times the limit.
 bool lanczos_finds_stable(const MassScaled& pencil, double dt);
-/// Likewise of a world, whose points `which` are its springs.
+/// Overload for a world whose springs are the points given by `which`.
 bool lanczos_finds_stable(const World& world, ClosedPoints which, double dt);
 
 }  // namespace crackle

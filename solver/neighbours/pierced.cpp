@@ -111,11 +111,10 @@ void refuse_piercing(const World& world) {
             segment_between(world, target, place_then(world, j).inwards(place_then(world, i).outwards(at)),
                             j_now.inwards(i_now.outwards(at)));
         if (segment == 0) continue;
-        throw UnstableRun(
-            world.stepping.steps, world.bodies.info(i).id,
-            fmt::format("it went through segment {} of body {}{}; a plate of four segments that close to a box pushes "
-                        "back what gets in",
-                        segment, target.id, likely_cause(world)));
+        throw UnstableRun(world.stepping.steps, world.bodies.info(i).id,
+                          fmt::format("it went through segment {} of body {}{}; four segments that form a closed box "
+                                      "push such a body back out",
+                                      segment, target.id, likely_cause(world)));
     }
 }
 

@@ -100,7 +100,8 @@ MassProperties clump_properties(std::span<const CircleElement> circles, double d
     return result;
 }
 
-/// @param whose  of whom the friction angle is, for the message @param friction_angle largest residual one, degrees
+/// @param whose owner of the friction angle, for the message @param friction_angle largest residual friction angle,
+/// degrees
 void validate_bond_constants(const std::string& name, const BondConstants& constants, const char* whose,
                              double friction_angle) {
     for (const BondConstant& constant : all_bond_constants()) {

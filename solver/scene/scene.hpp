@@ -49,7 +49,7 @@ struct Material {
     double cohesion = 0.0;                 ///< N, or Pa, >= 0
     double residual_friction_angle = 0.0;  ///< degrees; at most φ
 
-    /// The three above.
+    /// The three constants above as one value.
     BondConstants bond_constants() const { return {tensile_strength, cohesion, residual_friction_angle}; }
 
     friend bool operator==(const Material&, const Material&) = default;

@@ -39,7 +39,7 @@ struct Bonding {
 /// @throws InputError if the resulting strengths have μT > C, or if strength factors are given but the mean
 /// back-tension is not positive
 std::int64_t bond_all(World& world, const Bonding& bonding);
-/// Likewise, with a segment thickness in m and default values for everything else.
+/// Bonds points with a given segment thickness, m, and otherwise default values.
 std::int64_t bond_all(World& world, double thick);
 /// Bonds points between the given pairs of bodies if they are unbonded and have an overlap above -gap. Strengths that
 /// are not given follow from the overlap, as in bond_all(). The energy stored in the springs of these points is

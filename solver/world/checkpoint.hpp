@@ -15,7 +15,7 @@ namespace crackle {
 
 /// Writes the complete state, preceded by a version number. An uninterrupted and a restarted run give identical bytes.
 void save_world(const World& world, std::ostream& out);
-/// Likewise, but returns the bytes as a string.
+/// Returns the bytes that save_world(world, out) writes.
 std::string save_world(const World& world);
 /// Reads a world from the current position of a stream to `end`. The bytes are read twice: first to verify their hash,
 /// then to load the state. Loading needs no memory beyond the world itself.
@@ -24,7 +24,7 @@ std::string save_world(const World& world);
 /// @param remedy the advice in the message if another version wrote the checkpoint
 World load_world(std::istream& in, std::streamoff end, const std::string& name,
                  const char* remedy = "run the test again with this crackle");
-/// Likewise, but reads from a string.
+/// Reads a world from a string that holds nothing else.
 World load_world(std::string bytes, const std::string& name,
                  const char* remedy = "run the test again with this crackle");
 

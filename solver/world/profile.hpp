@@ -57,7 +57,7 @@ class PhaseTimer {
     /// Times a phase until the end of the scope. @param profile the profile; if null, nothing is timed
     PhaseTimer(Profile* profile, Phase phase)
         : PhaseTimer(profile, profile == nullptr ? nullptr : &profile->of(phase)) {}
-    /// Likewise, but adds the time to a separate record.
+    /// Times a phase, but adds its duration to a separate record.
     PhaseTimer(Profile* profile, Profile::Spent* spent) : profile_(profile), spent_(spent) {
         if (profile_ == nullptr) return;
         outer_ = profile_->running;

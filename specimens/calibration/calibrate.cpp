@@ -423,7 +423,7 @@ std::vector<double> CalibrationOutcome::values() const {
 CalibrationOutcome calibrate(const Rock& rock, const CalibrationOptions& options, const CalibrationHooks& hooks) {
     make_folder(options.folder);
     const FolderLock lock(options.folder);
-    // Tests that went wrong in earlier calls are dropped here, once, so that those of this call are kept in every
+    // Tests without results from earlier calls are dropped here, once, so that those of this call are kept in every
     // round.
     for (const char* folder : {"search", "fresh"}) {
         const std::filesystem::path ledger = ledger_file(options.folder / folder);

@@ -31,8 +31,8 @@ class Measurements {
     /// @throws SystemFailure if tests failed for a reason outside the case: means without them would be biased
     void measure(const std::vector<std::vector<double>>& points, PackingRange packings);
 
-    /// Results for the targets, one row per packing and one column per target. A result is NaN if its test went wrong,
-    /// or if it refers to the peak and the specimen has not failed.
+    /// Results for the targets, one row per packing and one column per target. A result is NaN if its test has no
+    /// result, or if it refers to the peak and the specimen has not failed.
     Eigen::MatrixXd figures(const std::vector<double>& point, PackingRange packings) const;
 
     std::int64_t tests() const { return tests_; }  ///< number of tests in the campaign

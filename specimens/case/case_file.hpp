@@ -38,7 +38,7 @@ class CaseFiles {
   public:
     /// @throws InputError as read_case() does, except for errors that only a complete case can show
     explicit CaseFiles(const std::filesystem::path& path);
-    /// Likewise, but from a text instead of a file.
+    /// Reads the values from a text instead of a file.
     explicit CaseFiles(const CaseText& text);
 
     /// Returns the test with settings that override the files. If a key is set several times, the last setting applies.
@@ -55,7 +55,7 @@ class CaseFiles {
 
 /// Reads and checks a case. @throws InputError «file:line: key: found X, expected Y; what to do».
 TestCase read_case(const std::filesystem::path& path);
-/// Likewise, but from a text instead of a file.
+/// Reads and checks a case that is given as text.
 TestCase read_case(const CaseText& text);
 
 /// Writes the case with all values, each with its unit and description. Reading the output gives the same test.

@@ -17,7 +17,7 @@ namespace {
 
 using namespace declaring;
 
-/// What each law of bonds means, after its name.
+/// Names of all bond laws, each with its meaning.
 std::string meanings_of_laws() {
     std::string meanings;
     for (const std::string& name : names_of<BondLaw>())

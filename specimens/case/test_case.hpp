@@ -118,7 +118,7 @@ struct TestCase {
         bool merge_destroyed = false;
     } mesh;
 
-    /// Keys of [material], which minerals and pairs of minerals have, too.
+    /// Keys of [material] that minerals and pairs of minerals also have.
     struct MaterialKeys : BondConstants {
         std::optional<double> density;                 // kg/m2
         std::optional<double> normal_stiffness;        // N/m

@@ -32,7 +32,7 @@ struct JointTrace {
     double length() const { return length_of(points); }
 };
 
-/// A trace along which a specimen has faces.
+/// A trace along which a specimen has joint faces.
 struct SpecimenTrace {
     std::string source;   ///< name of the [[joint_set]] or the [[trace]]
     double length = 0.0;  ///< m, inside the box

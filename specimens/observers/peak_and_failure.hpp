@@ -47,7 +47,7 @@ struct FailureTracker {
     /// Adds the next row. @param travel  strain travelled back and forth, by which the length of a drop is measured;
     /// equal to the strain if the platen never reverses @return whether the row is a new peak
     bool update(std::int64_t row, double strain, double travel, double stress);
-    /// Same, for a platen that never reverses.
+    /// As above, for a platen that never reverses.
     bool update(std::int64_t row, double strain, double stress) { return update(row, strain, strain, stress); }
 
     /// Whether the largest stress of the test came after its peak.

@@ -30,7 +30,7 @@ std::string in_cell(const std::string& text) {
     return cell;
 }
 
-/// As the beginning of a sentence, unless the text begins with the name of a key.
+/// Makes the first letter a capital, unless the text begins with the name of a key.
 std::string capitalised(std::string text) {
     const std::string word = text.substr(0, text.find_first_of(" ,.:;/("));
     const bool is_word = std::ranges::all_of(word, [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; });

@@ -26,7 +26,7 @@ struct BondedSpecimen {
 BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading,
                              std::function<void()> while_solving = {});
 
-/// What is made of the traces of joints.
+/// How the traces of joints are treated.
 enum class Traces : std::uint8_t {
     as_they_are,
     welded,   ///< joints are as strong as the rock and do not deform; circles keep their flat faces

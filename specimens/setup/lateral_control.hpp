@@ -23,7 +23,7 @@ struct LateralRule {
     double band = 0.0;          ///< largest distance between target and lateral strain
     double acceleration = 0.0;  // 1/s2, largest acceleration of the axial strain
 
-    /// Whether it does.
+    /// Whether the lateral strain controls the loading.
     bool on() const { return ratio > 0.0; }
 };
 /// @throws InputError if the specimen does not widen in the linear solution

@@ -32,7 +32,7 @@ struct RateRule {
     CRACKLE_FIELDS(tolerance, transit_time, first_strain, stress_floor, energy_floor, kinetic_per_rate);
 };
 
-/// The present rate, and what it follows from.
+/// Current rate, and the values that determine it.
 struct RateState {
     double rate = 0.0;                    // 1/s, axial, >= 0
     double out_of_balance = 0.0;          ///< smoothed, signed

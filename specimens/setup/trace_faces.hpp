@@ -51,7 +51,7 @@ struct FacePlaces {
 
     CRACKLE_FIELDS(i, j);
 };
-/// Motion of a face. @param start places of its bodies when loading began @param now present places
+/// Motion of a face. @param start places of its bodies when loading began @param now current places
 FaceMotion motion_of(const TraceFace& face, const FacePlaces& start, const FacePlaces& now);
 
 /// Finds the faces on traces, sorted by bodies. The bodies must still be where they were bonded.

@@ -15,7 +15,7 @@
 
 namespace crackle {
 
-/// Where loading turns round, and how fast.
+/// Where loading reverses, and how fast.
 struct UnloadRule {
     bool by_strain = false;
     std::vector<double> at;     ///< strains, or N/m; positive in the direction of loading; empty: no unloading
@@ -25,7 +25,7 @@ struct UnloadRule {
     /// Least speed, 1/s, so that every reversal is reached; the distance needed to stop from it is negligible.
     double creep = 0.0;
 
-    /// Whether the loading unloads at all.
+    /// Whether the test unloads.
     bool on() const { return !at.empty(); }
     /// Largest additional strain travelled in the unloading cycles of an elastic specimen. @param strain  largest
     /// strain of the test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle-bench STUDY ...`.
+// Entry point of the program `crackle-bench`.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <exception>

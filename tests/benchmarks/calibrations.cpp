@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rocks of circles with known keys, calibrated from what a laboratory would measure of them. It shows how often the
-// stated intervals cover the keys, how far off the means are, and what it costs. NLopt's CRS2, which knows nothing of a
-// rock, runs on the same targets. Prints the lines of results/calibrations.md.
+// Calibrates rocks of circles with known keys from simulated laboratory results. It shows how often the stated
+// intervals contain the true keys, how large the errors of the means are, and the cost. NLopt's CRS2, which uses no
+// knowledge of rocks, runs on the same targets. Prints the lines of results/calibrations.md.
 //   build/release/tests/benchmarks/calibrations [ROCKS] [FOLDER]
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ struct Known {
     const char* key;
     const char* of;
     double from, to;           ///< bounds of the search
-    double smallest, largest;  ///< of the rocks
+    double smallest, largest;  ///< range for the true rocks
 };
 constexpr Known keys[]{
     {"material.contact_modulus", "", 2e9, 300e9, 10e9, 80e9},
@@ -80,7 +80,7 @@ Rock rock_of(const fs::path& folder, const std::vector<double>& values, const st
     return read_rock(folder / "rock.toml");
 }
 
-/// What a laboratory says of a rock: means and their standard errors, as shares.
+/// Simulated laboratory results of a rock: means and their relative standard errors.
 void measure(const fs::path& folder, const std::vector<double>& truth, std::vector<double>& means,
              std::vector<double>& errors) {
     Rock rock = rock_of(folder, std::vector<double>(figure_count, 1.0), std::vector<double>(figure_count, 0.0));
@@ -98,7 +98,7 @@ void measure(const fs::path& folder, const std::vector<double>& truth, std::vect
 }
 
 /// CRS2 (Kaelo and Ali, J. Optim. Theory Appl. 130, 2006) on the same packings, until every mean is within its target's
-/// tolerance. @return tests that took
+/// tolerance. @return number of tests needed
 std::int64_t by_crs2(const Rock& rock, const fs::path& folder, std::int64_t most_tests, double& worst_off) {
     std::int64_t tests = 0;
     worst_off = 1e9;
@@ -108,7 +108,7 @@ std::int64_t by_crs2(const Rock& rock, const fs::path& folder, std::int64_t most
         Measurements here(rock, Keep::figures, {.folder = folder / "crs2", .workers = workers}, {});
         try {
             here.measure({values}, {0, fit});
-        } catch (const InputError&) {  // no test at all has failed
+        } catch (const InputError&) {  // no specimen failed
             tests += static_cast<std::int64_t>(fit * rock.tests.size());
             return 1e6;
         }
@@ -118,7 +118,7 @@ std::int64_t by_crs2(const Rock& rock, const fs::path& folder, std::int64_t most
         for (Eigen::Index t = 0; t < all.cols(); ++t) {
             const Target& target = rock.targets[static_cast<std::size_t>(t)];
             const double far = std::log(all.col(t).mean() / target.value) / std::log1p(target.tolerance);
-            if (!std::isfinite(far)) return 1e6;  // tests that have not failed
+            if (!std::isfinite(far)) return 1e6;  // some specimens did not fail
             sum += far * far;
             most = std::max(most, std::abs(far));
         }
@@ -141,7 +141,7 @@ std::int64_t by_crs2(const Rock& rock, const fs::path& folder, std::int64_t most
     search.set_lower_bounds(low);
     search.set_upper_bounds(high);
     nlopt::srand(1);
-    search.set_stopval(1.0);  // the sum: each within its tolerance
+    search.set_stopval(1.0);  // the sum is below 1 only if each is within its tolerance
     search.set_maxeval(static_cast<int>(most_tests / static_cast<std::int64_t>(fit * rock.tests.size())));
     double least = 0.0;
     search.optimize(x, least);
@@ -158,7 +158,7 @@ int main(int count, char** words) {
         "| --- | --- | --- | --- | --- | --- | --- |\n");
     const auto shares = design_points(Sequence::halton, static_cast<std::size_t>(rocks), key_count);
     int whole = 0, single = 0, reached = 0;
-    std::pair<std::vector<double>, std::vector<double>> targets;  // of the first rock
+    std::pair<std::vector<double>, std::vector<double>> targets;  // targets of the first rock
     for (int r = 0; r < rocks; ++r) {
         const fs::path own = folder / fmt::format("rock{}", r + 1);
         fs::create_directories(own);

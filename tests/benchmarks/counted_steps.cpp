@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steps of a small scene for instruction_counts to count. Arguments: scene, steps, and how they are done:
-//   step      by the engine, as it does them (if not given)
-//   least     discs alone: forces by the kernels compiled for what the scene has, their sums, kick and drift
-//   friction, dashpots, bonds   as least, by the kernels compiled for that too
-//   all       by the kernels compiled for all three
+// Runs steps of a small scene for instruction_counts. Arguments: scene, number of steps, and how they are computed:
+//   step      by the engine in its usual way (default)
+//   least     discs only: forces by the kernels compiled for the scene's features, their sums, kick and drift
+//   friction, dashpots, bonds   as least, by kernels compiled for this feature as well
+//   all       as least, by kernels compiled for all three
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ Material rock(double damping_ratio) {
     return material;
 }
 
-/// Every body gets a velocity of its own, small enough that nothing breaks.
+/// Gives every body a random velocity, small enough that nothing breaks.
 void stir(Scene& scene, double speed) {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const auto k = static_cast<double>(b);
@@ -55,14 +55,14 @@ World bonded_hexagons() {
     return world;
 }
 
-/// Discs without bonds or dashpots that fly apart and meet: lists are built again as they go.
+/// Discs without bonds or dashpots that fly apart and collide; neighbour lists are rebuilt on the way.
 World loose_discs() {
     Scene scene = triangular_lattice(18, 18, 0.02, -1e-3, rock(0.0));
     stir(scene, 1.0);
     return build_world(scene);
 }
 
-/// Discs that press each other between walls, with normal springs and nothing else.
+/// Discs pressed together between walls, with nothing but normal springs.
 World springs_alone() {
     Material material = rock(0.0);
     material.friction_angle = 0.0;
@@ -103,7 +103,7 @@ int main(int count, char** words) {
     if (how == "step") {
         for (long k = 0; k < steps; ++k) step(world);
     } else {
-        step(world);  // the least step cannot be the first one
+        step(world);  // the least step cannot be used for the first step
         ContactFeatures features = features_of(world);
         if (kernels().contains(how)) {
             for (bool ContactFeatures::*const feature : kernels().at(how)) features.*feature = true;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tests/benchmarks/jaeger, jointed_rock and welded_traces share: a campaign's rows, and the stress at which a plane slips."""
+"""Shared by tests/benchmarks/jaeger, jointed_rock and welded_traces: rows of a campaign, and the stress at which a plane slips."""
 
 import math
 import sqlite3
@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def rows_of(folder, plan):
-    """Rows of a campaign of specimens/plans/`plan`.toml, each by its column's name, without specimens that were refused; all have a largest stress, Pa."""
+    """Rows of a campaign of specimens/plans/`plan`.toml as dictionaries, without refused specimens. All have a largest stress, Pa."""
     file = Path(folder) / "campaign.sqlite"
     if not file.exists():
         sys.exit(f"{file}: found no such file, expected that of a campaign of specimens/plans/{plan}.toml")
@@ -22,8 +22,8 @@ def rows_of(folder, plan):
 
 
 def slip_stress(angle, pressure, cohesion, friction):
-    """Strength of a plane at `angle` degrees from the platens (Jaeger 1960): p + 2 (c + p f)/((1 - f tan b) sin 2b), b = 90 - angle; infinite where
-    it does not slip. @param friction tangent of its angle"""
+    """Strength of a plane at `angle` degrees from the platens (Jaeger 1960): p + 2 (c + p f)/((1 - f tan b) sin 2b), b = 90 - angle;
+    infinite if it does not slip. @param friction  tangent of the friction angle"""
     if not 0.0 < angle < 90.0:
         return math.inf
     b = math.radians(90.0 - angle)

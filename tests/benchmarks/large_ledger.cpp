@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A ledger of many tests that were never run: its size on the disc, and the time to add a test, to look for work, and
-// to show it. build/release/tests/benchmarks/large_ledger [TESTS] [FOLDER]
+// Creates a ledger of many tests that were never run. Measures its size on disc, and the time to add a test, to search
+// for work, and to show it. build/release/tests/benchmarks/large_ledger [TESTS] [FOLDER]
 
 #include <fmt/format.h>
 
@@ -24,7 +24,7 @@ using namespace crackle;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr int figures = 100;  // as many as a test has
+constexpr int figures = 100;  // as many as a test writes
 constexpr int points = 10;
 
 Plan dummy_plan(const std::filesystem::path& folder, int tests) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshing against its yardstick: from random centres to inset polygons, over CGAL's bare insertion of the same points.
-// Both in turn, in processor time of the thread; `over_insertion` is the median of the pairs' quotients, whatever else
-// the machine does. `peak_MB` is what the resident set grows by at most while one mesh is made, the mesh included;
-// `destroyed` are the cells that the inset destroys and that are merged.
-// The jointed ones have 50 traces, two sets of 25 through the whole square; `over_plain` is the median quotient of
-// their time over that of the same centres without. Arguments: centres, gap in thousandths of the mean spacing.
+// Time of meshing, from random centres to inset polygons, compared with CGAL's insertion of the same points alone. Both
+// run in turn; the processor time of the thread is measured. `over_insertion` is the median ratio of the pairs, so that
+// other load on the machine matters little. `peak_MB` is the largest growth of the resident set while one mesh is made,
+// including the mesh itself. `destroyed` is the number of cells that the inset destroys and that are merged.
+//
+// Jointed meshes have 50 traces, two sets of 25 through the whole square. `over_plain` is the median ratio of their
+// time to that for the same centres without traces. Arguments: centres, gap in thousandths of the mean spacing.
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -26,7 +27,7 @@
 namespace crackle {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;  // as the mesher's
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;  // same kernel as the mesher
 using BarePoints = std::vector<Kernel::Point_2>;
 
 constexpr Rectangle unit_square{0.0, 1.0, 0.0, 1.0};
@@ -64,7 +65,7 @@ double time_of_meshing(const std::vector<CellCentre>& centres, const MeshRequest
     return processor_time() - start;
 }
 
-/// A value of /proc/self/status in kB, 0 where there is none.
+/// A value of /proc/self/status in kB; 0 if it is missing.
 double status_value(const std::string& name) {
     std::ifstream status("/proc/self/status");
     for (std::string word; status >> word;) {
@@ -75,8 +76,8 @@ double status_value(const std::string& name) {
 }
 
 void report_one_mesh(benchmark::State& state, const std::vector<CellCentre>& centres, const MeshRequest& request) {
-    malloc_trim(0);                               // what earlier meshes left behind would hide the growth
-    std::ofstream("/proc/self/clear_refs") << 5;  // the peak counts from here
+    malloc_trim(0);                               // memory freed by earlier meshes would hide the growth
+    std::ofstream("/proc/self/clear_refs") << 5;  // resets the peak
     const double before = status_value("VmRSS");
     const Mesh mesh = make_mesh(centres, unit_square, request);
     state.counters["peak_MB"] = (status_value("VmHWM") - before) / 1024.0;
@@ -110,7 +111,7 @@ void run(benchmark::State& state, MeshKind kind) {
     state.counters["over_insertion"] = median(quotient);
 }
 
-/// One in each square of a lattice, as circles of a packing keep apart.
+/// One centre in each square of a lattice, so that distances are like those in a packing.
 std::vector<CellCentre> apart_seeds(int across) {
     std::mt19937_64 random(1);
     const auto offset = [&random] { return 0.5 + 0.4 * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5); };
@@ -153,7 +154,7 @@ void sizes(benchmark::internal::Benchmark* made, std::initializer_list<int> gaps
         for (const int centres : {10'000, 100'000, 1'000'000}) made->Args({centres, gap});
     }
 }
-// Gaps that spare every cell, and that destroy a few in a million.
+// Gaps that destroy no cell, and gaps that destroy a few cells in a million.
 BENCHMARK(voronoi)->Apply([](auto* made) { sizes(made, {50, 100}); });
 BENCHMARK(delaunay)->Apply([](auto* made) { sizes(made, {0, 1}); });
 BENCHMARK(jointed_voronoi)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(pairs);

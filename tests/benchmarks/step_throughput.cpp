@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Particle-steps a second of bonded discs and hexagons with friction, dashpots and ledger on; contacts a particle
-// beside it. Arguments: particles along one side, threads.
+// Particle-steps per second of bonded discs and hexagons with friction, dashpots and energy account; also contacts per
+// particle. Arguments: particles along one side, threads.
 
 #include <benchmark/benchmark.h>
 

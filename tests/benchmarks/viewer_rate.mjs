@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How soon a page of the viewer shows its first picture, and how many pictures a second it draws while it is panned and
-// zoomed. It uses headless Chromium with WebGL in software, and waits for each picture.
+// Measures how soon a page of the viewer shows its first picture, and how many pictures per second it draws while it is
+// panned and zoomed. It uses headless Chromium with WebGL in software, and waits for each picture.
 //   node viewer_rate.mjs PAGE.html [pictures, default 60]      CHROMIUM: the browser; playwright-core must be found from here
 import {pathToFileURL} from 'node:url';
 
@@ -18,7 +18,7 @@ const first = Number(await page.evaluate(() => document.documentElement.dataset.
 await page.waitForSelector('html[data-ready]', {timeout: 120000});
 await page.evaluate(() => window.crackle.settled());
 
-// A pan and a zoom in turn, as a hand with a mouse makes them.
+// Pans and zooms alternate, as from a user's mouse.
 const times = await page.evaluate(async (count) => {
     const pane = document.querySelector('.pane'), box = pane.getBoundingClientRect();
     const x = box.left + box.width / 2, y = box.top + box.height / 2;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page of a deck's run in headless Chromium: its curves, its units, what fits into the panel, and the clipboard.
+// Tests the page of a deck run in headless Chromium: its curves, its units, the layout of the panel, and the clipboard.
 //   CRACKLE_PROGRAM: the program; SPECIMENS: folder of cases and decks; CHROMIUM: the browser
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
@@ -45,7 +45,7 @@ test('energies and watched bodies are drawn, and the specimen goes where they ar
     assert.deepEqual(await page.locator('#deck-curves .frame').evaluateAll((all) => all.map((one) => one.dataset.panel)), ['Energy', 'Horizontal displacement'], 'nothing moves across the chain, nothing drives it');
     const names = await page.locator('[data-panel="Energy"] svg').textContent();
     for (const name of ['kinetic (enva)', 'strain (enka)', 'closing error (err)', 'Energy [10⁶ deck’s units]', 'Time [ms]']) assert.ok(names.replaceAll('\u202f', ' ').includes(name), `expected '${name}' in '${names}'`);
-    assert.ok(!names.includes('enca'), 'without dashpots nothing is lost to them');
+    assert.ok(!names.includes('enca'), 'without dashpots there is no dashpot loss');
     for (const body of [11, 13, 15, 17]) assert.ok((await page.locator('[data-panel="Horizontal displacement"] svg').textContent()).includes(`body ${body}`));
     const panel = page.locator('[data-panel="Energy"] .panel');
     await panel.scrollIntoViewIfNeeded();
@@ -96,7 +96,7 @@ test('what a picked particle shows fits into its panel, whatever the units', asy
             assert.deepEqual(over, [], `${file}: particle ${id}: texts beyond the panel`);
             const cut = await page.locator('.inspector details').evaluate((one) => one.scrollWidth - one.clientWidth);
             assert.equal(cut, 0, `${file}: particle ${id}: contacts`);
-            // The name of the history's axis lies within its picture.
+            // The title of the history's axis must be inside its picture.
             const outside = await page.locator('.history svg').evaluate((svg) => {
                 const {left, right} = svg.getBoundingClientRect();
                 return [...svg.querySelectorAll('text')].filter((one) => one.getBoundingClientRect().left < left - 0.5 || one.getBoundingClientRect().right > right + 0.5).map((one) => one.textContent);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pages opened in headless Chromium, watched for complaints and for requests that leave them; sizes of saved pictures.
+// Opens pages in headless Chromium and records errors and requests to other addresses; also reads the sizes of saved
+// pictures.
 import assert from 'node:assert/strict';
 import {pathToFileURL} from 'node:url';
 
@@ -12,7 +13,7 @@ const flags = [
 
 export const launch = () => chromium.launch({executablePath: process.env.CHROMIUM, args: flags});
 
-/// The opened page. `close` sees to it that the page neither complained nor asked for anything but itself.
+/// The opened page. `close` checks that the page reported no errors and requested nothing else.
 export async function openPage(browser, file, options = {}) {
     const context = await browser.newContext({viewport: {width: 1280, height: 800}, ...options});
     const page = await context.newPage();

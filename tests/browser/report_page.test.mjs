@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reports of made-up results, opened in headless Chromium: what the page shows agrees with the files.
+// Tests reports of generated results in headless Chromium: the page must agree with the files.
 //   CRACKLE_PROGRAM, SAMPLE_RESULTS: the programs; CHROMIUM: the browser
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
@@ -37,7 +37,7 @@ after(async () => {
     if (root) rmSync(root, {recursive: true, force: true});
 });
 
-/// The circles' results in tension again, with other entries in the summary.
+/// A copy of the circles' results in tension with changed entries in the summary.
 function copied(folder, entries) {
     cpSync(join(root, 'circles-tension'), join(root, folder), {recursive: true});
     const file = join(root, folder, 'summary.json');
@@ -170,7 +170,7 @@ test('a test that has not failed is marked as such, beside the curve, in the tab
     await close();
 });
 
-/// Boxes of texts that overlap by more than a pixel, as pairs.
+/// Pairs of texts whose boxes overlap by more than a pixel.
 const overlaps = (texts) => texts.evaluateAll((all) => {
     const boxes = all.map((one) => ({text: one.textContent, box: one.getBoundingClientRect()})).filter(({text, box}) => text.trim() !== '' && box.width > 0);
     return boxes.flatMap((a, at) => boxes.slice(at + 1).filter((b) => Math.min(a.box.right, b.box.right) - Math.max(a.box.left, b.box.left) > 1
@@ -247,7 +247,7 @@ test('on a phone titles, legends and notes are whole and keep apart', async () =
         for (const {text, box} of titles.filter(({text}) => /,|ε/.test(text))) {
             assert.ok(panes.some((pane) => box.left >= pane.left - 1 && box.right <= pane.right + 1 && box.top >= pane.top - 2 && box.bottom <= pane.bottom + 2), `${file}: '${text}' leaves its pane`);
         }
-        if (file === 'six.html') assert.equal(titles.filter(({text}) => /, (tension|compression)$/.test(text)).length, 6, 'six whole titles');
+        if (file === 'six.html') assert.equal(titles.filter(({text}) => /, (tension|compression)$/.test(text)).length, 6, 'six complete titles');
         await close();
     }
 });
@@ -310,7 +310,7 @@ test('slips have a strip of their own below the breaks, with a bar for each inte
     assert.deepEqual(rows[0], ['', 'stress', 'breaks here', 'so far', 'slips here', 'so far']);
     const soFar = Number(rows.find(([name]) => name === 'Voronoi')[5]), expected = slips.filter((one) => one.axial_strain <= strain).length;
     console.log(`  slips up to strain ${strain}: expected ${expected}, got ${soFar}`);
-    assert.ok(expected > 50 && Math.abs(soFar - expected) <= 5, `expected ${expected} slips so far, got ${soFar}`); // the strain is shown rounded
+    assert.ok(expected > 50 && Math.abs(soFar - expected) <= 5, `expected ${expected} slips so far, got ${soFar}`); // the page rounds the strain
     assert.deepEqual(rows.find(([name]) => name === 'Circles').slice(4), ['–', '–']);
     const row = await page.locator('table.summary tr', {has: page.locator('th:text-is("Slips")')}).locator('td').allTextContents();
     assert.deepEqual(row, ['–', '–', '0', String(slips.length)], 'not recorded, none, some');
@@ -324,7 +324,7 @@ test('the map shows every slip beneath the breaks, as a line along its contact, 
         const card = page.locator('.card.breaks[data-test="sliding"]'), marks = card.locator(`.map path[fill="${slipFill[colorScheme]}"]`);
         assert.match(await card.locator('h3').textContent(), new RegExp(`${events.length} breaks, largest .*, ${slips.length} slips`));
         assert.equal(await marks.count(), slips.length, `${colorScheme}: slips`);
-        assert.equal(await page.locator(`.card.breaks:not([data-test="sliding"]) path[fill="${slipFill[colorScheme]}"]`).count(), 0, 'slips of tests without');
+        assert.equal(await page.locator(`.card.breaks:not([data-test="sliding"]) path[fill="${slipFill[colorScheme]}"]`).count(), 0, 'slips of tests without slips.csv');
         const boxes = await marks.evaluateAll((all) => all.map((one) => {
             const {x, y, width, height} = one.getBoundingClientRect();
             return {x: x + width / 2, y: y + height / 2, width, height};
@@ -348,7 +348,7 @@ test('the map shows every slip beneath the breaks, as a line along its contact, 
         assert.equal(await marks.count(), 0, 'slips switched off');
         await page.click('#breaks button[data-value="time"]');
         await page.check('#breaks input[type="checkbox"]');
-        assert.equal(await card.locator('.map path').count(), order.length, 'by time: as many marks');
+        assert.equal(await card.locator('.map path').count(), order.length, 'coloured by time: as many marks');
         await close();
     }
 });
@@ -380,7 +380,7 @@ test('light and dark, laptop and tablet width: readable, nothing runs off the si
         for (const width of [1440, 1024, 768]) {
             await page.setViewportSize({width, height: 800});
             const runsOff = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-            // Charts follow a new width through a resize observer: give them a second to settle.
+            // Charts adapt to a new width through a resize observer, which is given a second.
             let overflow = await runsOff();
             for (let wait = 0; overflow > 0 && wait < 20; ++wait) {
                 await page.waitForTimeout(50);
@@ -388,7 +388,7 @@ test('light and dark, laptop and tablet width: readable, nothing runs off the si
             }
             assert.ok(overflow <= 0, `${colorScheme}, ${width} px: runs ${overflow} px off the side`);
         }
-        // The page applies a new scheme when it draws next.
+        // The page applies a new colour scheme at its next redraw.
         await page.waitForFunction((scheme) => document.documentElement.dataset.shown === scheme, colorScheme, {timeout: 20000});
         const [paper, ink] = await page.evaluate(() => {
             const style = getComputedStyle(document.body);

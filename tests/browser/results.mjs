@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the tests know of a folder of results, read independently of the program and of the page.
+// Reads a results folder independently of the program and of the page.
 import {existsSync, readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {inflateSync} from 'node:zlib';
@@ -18,12 +18,12 @@ export function results(folder) {
     };
 }
 
-/// Pairs of bodies with a break at or before a time: one crack each.
+/// Pairs of bodies with a break at or before a time; each pair is one crack.
 export function brokenPairs(events, until) {
     return new Set(events.filter((event) => event.time <= until).map(({body_i: i, body_j: j}) => `${Math.min(i, j)} ${Math.max(i, j)}`)).size;
 }
 
-/// Linear between the curve's rows.
+/// Stress of the curve, interpolated linearly between rows.
 export function stressAt(curve, strain) {
     const after = curve.findIndex((row) => row.axial_strain >= strain);
     if (after <= 0) return curve[Math.max(0, after)].axial_stress;
@@ -31,7 +31,7 @@ export function stressAt(curve, strain) {
     return a.axial_stress + (b.axial_stress - a.axial_stress) * (strain - a.axial_strain) / (b.axial_strain - a.axial_strain);
 }
 
-/// One array of a VTK file: blocks compressed with zlib, their sizes before them, both in base64.
+/// Reads one array of a VTK file: blocks compressed with zlib, preceded by their sizes, both in base64.
 function vtkArray(text, name, nth = 0) {
     const found = [...text.matchAll(new RegExp(`<DataArray type="(\\w+)" Name="${name}"[^>]*>([^<]*)<`, 'g'))][nth];
     const [, type, raw] = found, base64 = raw.trim();
@@ -47,7 +47,8 @@ function vtkArray(text, name, nth = 0) {
     return Array.from(new {Float64: Float64Array, Float32: Float32Array, Int32: Int32Array, Int64: BigInt64Array}[type](buffer), Number);
 }
 
-/// Particles of a frame by number: place (mean of the outline), radius, velocity and shear stress. Lines (platens) precede polygons.
+/// Particles of a frame by number: position (mean of the outline), radius, velocity and shear stress. Lines (platens)
+/// precede polygons.
 export function particles(file) {
     const text = readFileSync(file, 'utf8');
     const points = vtkArray(text, 'points'), ids = vtkArray(text, 'id'), radii = vtkArray(text, 'radius'), velocity = vtkArray(text, 'velocity'), shear = vtkArray(text, 'stress_xy');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The viewer in headless Chromium with WebGL in software: what it shows, prints and saves agrees with the files.
+// Tests the viewer in headless Chromium with WebGL in software: what it shows, prints and saves must agree with files.
 //   CRACKLE_PROGRAM, SAMPLE_RESULTS: the programs; SPECIMENS: folder of cases and decks; CHROMIUM: the browser
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
@@ -21,7 +21,7 @@ const open = (file, options) => openPage(browser, join(root, file), options);
 const deckOf = (corners) => ['1 0 0', '1.0d-4 0.0 0.0', '1', '1.0 1.0d8 1.0d8 0.0 0.0 0.0', '-1.0 4.0 -1.0 4.0 0.0', '0 1 0', `1 1 ${corners.length}`, '0.0 0.0 0.0',
     ...corners.flatMap(([x, y], at) => [`${at + 1} ${x}.0 ${y}.0`, corners[(at + 1) % corners.length].map((value) => `${value}.0`).join(' ')])].join('\n');
 
-/// Minerals of a case: the largest grains are quartz.
+/// Minerals of a case in which the largest grains are quartz.
 const minerals = '[minerals]\nassign = "size"\n[[mineral]]\nname = "quartz"\narea_share = 0.5\n[[mineral]]\nname = "feldspar"\n';
 
 before(async () => {
@@ -61,7 +61,7 @@ const choose = async (page, list, value) => {
     await page.selectOption(`select.${list}`, value);
     await settled(page);
 };
-/// The stage as the screen shows it, once it has come to rest.
+/// The stage as shown on the screen, once it is at rest.
 async function picture(page) {
     await settled(page);
     await page.waitForTimeout(400);
@@ -71,7 +71,8 @@ async function saved(page, kind) {
     const [download] = await Promise.all([page.waitForEvent('download', {timeout: 120000}), page.click(`button[data-save="${kind}"]`)]);
     return {name: download.suggestedFilename(), file: await download.path()};
 }
-/// Width, height, how many colours there are, and the share of pixels that are not the most frequent one, decoded by the browser.
+/// Width, height, number of colours, and fraction of pixels that do not have the most frequent colour, as decoded by
+/// the browser.
 const pixels = (page, file, type) => page.evaluate(async ([base64, kind]) => {
     const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
     const bitmap = await createImageBitmap(new Blob([bytes], {type: kind}));
@@ -85,7 +86,7 @@ const pixels = (page, file, type) => page.evaluate(async ([base64, kind]) => {
 test('plays, pauses, steps and scrubs', async () => {
     const {page, close} = await open('pulled.html');
     assert.equal(await frameNow(page), 0);
-    await choose(page, 'speed', '0.25'); // it must not be through before a busy machine has pressed the button
+    await choose(page, 'speed', '0.25'); // slow, so that it is not over before a busy machine has clicked
     await page.click('button[aria-label="Play"]');
     await page.waitForFunction(() => window.crackle.shown()[0].frame >= 3, null, {timeout: 20000});
     await page.click('button[aria-label="Pause"]');
@@ -158,7 +159,7 @@ test('a picked particle shows the values of the file', async () => {
         assert.ok(Math.abs(got - expected) < 0.01 * expected + 2e-6, `particle ${id}: displacement: expected ${expected}, got ${got}`);
         const radius = Number(await page.locator('[data-value="radius"]').getAttribute('data-number'));
         assert.ok(Math.abs(radius - a.radius) < 1e-6 * a.radius, `particle ${id}: radius: expected ${a.radius}, got ${radius}`);
-        // Shown to 0.4 % of themselves, however small.
+        // Values are shown with a relative accuracy of 0.4 %, however small they are.
         for (const [key, value] of [['velocity', b.velocity], ['stress_shear', b.shear]]) {
             const printed = Number(await page.locator(`[data-value="${key}"]`).getAttribute('data-number'));
             console.log(`  particle ${id}: ${key} expected ${value}, got ${printed}`);
@@ -202,7 +203,7 @@ test('no stress is printed where there is none', async () => {
     const {page, close} = await open('pulled.html');
     const {summary, curve} = results(join(root, 'pulled'));
     console.log(`  first row: ${curve[0].axial_stress} N/m of ${summary.peak_stress}`);
-    assert.ok(curve[0].axial_stress > 0, 'this test is of a stress that is not quite 0');
+    assert.ok(curve[0].axial_stress > 0, 'this test needs a stress that is not exactly 0');
     const title = await page.locator('.stage').textContent();
     assert.match(title, /ε = 0\s+σ ≈ 0/);
     assert.doesNotMatch(title, /mN\/m/);
@@ -212,7 +213,7 @@ test('no stress is printed where there is none', async () => {
     await close();
 });
 
-/// The number and unit after a text of the picture's legend, as a number.
+/// The number after a text in the picture's legend, converted by its unit.
 async function legendNumber(page, before) {
     const text = (await page.locator('.stage').textContent()).match(new RegExp(`${before}\\s*(?:≥\\s*)?([\\d.]+)\\s*([kMµmn]?)N`));
     return Number(text[1]) * ({k: 1e3, M: 1e6, m: 1e-3, µ: 1e-6, n: 1e-9}[text[2]] ?? 1);
@@ -241,7 +242,7 @@ test('widths of forces mean the same whichever tests are shown', async () => {
     const own = await widest();
     await choose(page, 'test', '1');
     console.log(`  on their own: ${own} N pulled, ${await widest()} N squeezed`);
-    assert.equal(Math.max(own, await widest()), side, 'of one test alone where that is asked for');
+    assert.equal(Math.max(own, await widest()), side, 'only of the requested test');
     assert.notEqual(own, await widest());
     await close();
 });
@@ -345,7 +346,7 @@ test('outlines leave small particles their colour', async () => {
         const more = lined / await darkness() - 1;
         console.log(`  outlines darken the specimens by ${(100 * more).toFixed(0)} %`);
         assert.ok(more < most, `expected at most ${100 * most} %, got ${(100 * more).toFixed(0)} %`);
-        if (!options.viewport) assert.ok(more > 0.03, 'outlines are seen');
+        if (!options.viewport) assert.ok(more > 0.03, 'outlines are visible');
         await close();
     }
 });
@@ -403,7 +404,7 @@ test('saves the animation as GIF, a frame a moment, and as a video', {timeout: 2
     if (await page.locator('button[data-save="video"]').count() > 0) {
         const video = await saved(page, 'video');
         console.log(`  video: ${video.name}, ${(statSync(video.file).size / 1e3).toFixed(0)} kB`);
-        assert.ok(statSync(video.file).size > 10000, 'a video of more than nothing');
+        assert.ok(statSync(video.file).size > 10000, 'a video that is not empty');
     }
     await close();
 });
@@ -426,7 +427,7 @@ test('a GIF of more than 200 moments has 200, evenly spaced, including the last'
     console.log(`  ${moments} moments: ${frames} frames, from ${taken[0]} to ${taken.at(-1)}, ${[...steps].join(' or ')} apart`);
     assert.deepEqual([frames, taken.length, taken[0], taken.at(-1)], [200, 200, 1, moments]);
     assert.deepEqual([...steps].sort(), [1, 2]);
-    assert.equal(await frameNow(page), 0, 'the clock is back at its start');
+    assert.equal(await frameNow(page), 0, 'the clock is at its start again');
     await close();
 });
 
@@ -518,7 +519,7 @@ test('a click on the curve sends the specimen there, and the cursor follows the 
 test('several tests side by side and overlaid, by one clock', async () => {
     const {page, close} = await open('six.html');
     assert.equal(await page.locator('.pane').count(), 6, 'side by side from the start');
-    assert.ok(await page.locator('.beside-curve').isHidden(), 'a curve beside one test alone');
+    assert.ok(await page.locator('.beside-curve').isHidden(), 'a curve next to a single test');
     await page.locator('.scrub').fill(await page.locator('.scrub').getAttribute('max'));
     await settled(page);
     const side = await shown(page);
@@ -539,7 +540,7 @@ test('several tests side by side and overlaid, by one clock', async () => {
     await choose(page, 'other', '3');
     assert.notEqual(await picture(page), pair, 'another second test');
     assert.notEqual(await picture(page), apart);
-    // One time for the colours of all cracks on the screen: the later of the two ends.
+    // All cracks on the screen share one time scale: up to the later of the two ends.
     const last = Math.max(...(await shown(page)).map(({test: name}) => results(join(root, name)).curve.at(-1).time));
     await choose(page, 'cracks-by', 'time');
     const legend = (await page.locator('.stage').textContent()).match(/Time of first break\s*0\s*([\d.]+)\s*(µs|ms|s)/);
@@ -581,7 +582,7 @@ test('a polygon with a notch is filled exactly to its outline', async () => {
         const {data} = context.getImageData(0, 0, bitmap.width, bitmap.height);
         let left = bitmap.width, right = 0, low = bitmap.height, high = 0, count = 0;
         for (let at = 0; at < data.length; at += 4) {
-            if (data[at] - data[at + 2] < 5) continue; // grain is warmer than paper, ink and letters
+            if (data[at] - data[at + 2] < 5) continue; // particles have a warmer colour than paper and text
             const x = (at / 4) % bitmap.width, y = Math.floor(at / 4 / bitmap.width);
             [left, right, low, high, count] = [Math.min(left, x), Math.max(right, x), Math.min(low, y), Math.max(high, y), count + 1];
         }
@@ -614,7 +615,7 @@ test('on paper: the drawings at start, peak and end, light, without buttons', as
     const paper = await page.evaluate(() => {
         dispatchEvent(new Event('beforeprint'));
         const stage = document.querySelector('.stage canvas'), probe = new OffscreenCanvas(1, 1).getContext('2d');
-        probe.drawImage(stage, 0, 0); // in the same turn, before the browser paints: what paper would show
+        probe.drawImage(stage, 0, 0); // before the browser paints, so this is what would be printed
         return [...probe.getImageData(0, 0, 1, 1).data];
     });
     console.log(`  corner of the printed picture: ${paper}`);

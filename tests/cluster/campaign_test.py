@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A campaign on Slurm: cancelled half-way, submitted again, gathered twice, it is to the byte what one machine makes.
+"""Tests a campaign on Slurm: cancelled half-way, submitted again and gathered twice, it gives the same bytes as on one machine.
 
     tests/cluster/campaign_test.py CRACKLE [--tests N] [--shards K]
 
-Starts a cluster of this machine alone (tests/cluster/slurm), and exits with 77 and the reason where it cannot.
+Starts a cluster that consists of this machine (tests/cluster/slurm); if that is not possible, prints the reason and exits with 77.
 """
 import argparse
 import os
@@ -32,14 +32,14 @@ def called(*words):
 
 
 def ended(folder):
-    """Tests that the shares have run so far."""
+    """Number of tests that the shares have run so far."""
     count = 0
     for file in folder.glob("shards/*.sqlite"):
         try:
             with sqlite3.connect(f"file:{file}?mode=ro", uri=True, timeout=10) as ledger:
                 count += ledger.execute("SELECT count(*) FROM test").fetchone()[0]
         except sqlite3.OperationalError:
-            pass  # not made yet
+            pass  # the ledger does not exist yet
     return count
 
 

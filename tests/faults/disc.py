@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A disc after a loss of power, from the trace of what a process did to files.
+"""Computes what a disc contains after a loss of power, from the trace of a process's operations on files.
 
-Writes to a file since its last fsync may be there or not, each for itself and in any order. So may names of a folder that were made, changed or
-removed since the folder's last fsync. syncfs is both, of all files and folders."""
+Each write to a file since its last fsync may be present or lost, in any order. The same holds for names in a folder that were made, changed
+or removed since the folder's last fsync. syncfs acts as fsync on all files and folders."""
 
 from dataclasses import dataclass
 from pathlib import PurePosixPath
@@ -17,7 +17,7 @@ class Operation:
 
 
 def read_trace(file, folder):
-    """Its operations, on paths relative to the folder."""
+    """The traced operations, with paths relative to the folder."""
     bytes_, at, found = file.read_bytes(), 0, []
     prefix = str(folder) + "/"
 
@@ -37,7 +37,7 @@ def read_trace(file, folder):
 
 
 def changed(content, operation):
-    """A file's bytes after a write or a truncation."""
+    """A file's bytes after a write or truncation."""
     if operation.kind == "truncate":
         return content[:operation.offset].ljust(operation.offset, b"\0")
     end = operation.offset + len(operation.data)
@@ -57,11 +57,11 @@ class File:
 
 class Disc:
     def __init__(self, before):
-        """before: contents() of the folder, all of it on the disc."""
+        """before: contents() of the folder, completely on the disc."""
         self.now = {name: None if name.endswith("/") else File(data) for name, data in before.items()}
         self.now = {name.rstrip("/"): file for name, file in self.now.items()}
         self.names = dict(self.now)  # on the disc
-        self.pending = []  # changes of names: (folders, {name: file, or "gone"})
+        self.pending = []  # changes of names that are not on the disc: (folders, {name: file, or "gone"})
 
     def name(self, folders, changes):
         self.pending.append((folders, changes))
@@ -101,7 +101,7 @@ class Disc:
                 self.pending = kept
 
     def after_loss(self, data="lost", names="lost", random=None):
-        """{name: bytes} as contents(). data, names: what was not brought to the disc is "lost", "kept", or by chance"""
+        """{name: bytes} as from contents(). data, names: what happens to changes that are not on the disc: lost, kept or chance"""
         found = dict(self.names)
         for _, changes in self.pending:
             if names == "kept" or (names == "chance" and random.random() < 0.5):
@@ -109,7 +109,7 @@ class Disc:
         files = {}
         for name, file in found.items():
             if any(str(parent) not in found for parent in PurePosixPath(name).parents if str(parent) != "."):
-                continue  # in a folder that was lost
+                continue  # its folder was lost
             if file is None:
                 files[f"{name}/"] = b""
                 continue

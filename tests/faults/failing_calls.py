@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Each call of each kind of each command fails, once and from then on; and signals at each write."""
+"""Makes each call of each kind fail, once or from then on, and sends signals at each write."""
 
 import random
 import re
@@ -7,7 +7,7 @@ import re
 from judgement import judge
 from program import ERRORS
 
-FIRST, BEYOND = 200, 50  # all of the first 200, 50 of the others
+FIRST, BEYOND = 200, 50  # all of the first 200 calls of a kind, and 50 of the others
 SIGNALS = ("KILL", "TERM", "HUP", "INT", "PIPE", "XFSZ")
 
 
@@ -20,7 +20,7 @@ def kinds_of(calls):
 
 
 def chosen(calls, quick):
-    """Calls of one kind to fail. quick: the first on each file, numbers in its name left out, and the last of all."""
+    """The calls of one kind that are made to fail. quick: the first on each file (names that differ in numbers count as one), and the last."""
     if quick:
         firsts = {}
         for call in calls:
@@ -40,7 +40,7 @@ def plans_of_calls(scene, calls, quick, only=None):
         for place, number in enumerate(chosen(own, quick)):
             path = own[number - 1].path
             for mode in ("once", "on"):
-                if kind == "thread" and (number, mode) != (1, "on"):  # a limit, which does not come and go
+                if kind == "thread" and (number, mode) != (1, "on"):  # a limit on threads stays in effect
                     continue
                 if quick and kind != "thread" and (mode == "on") != (place % 3 == 0):
                     continue
@@ -54,7 +54,7 @@ def plans_of_signals(scene, calls, quick):
     plans = []
     for place, number in enumerate(numbers):
         for which, name in enumerate(SIGNALS):
-            # A few of each, spread over the writes.
+            # A few of each signal, spread over the writes.
             if quick and (place % 12 != 2 * which or len(plans) >= 24):
                 continue
             plans.append((name, own[number - 1].path, {"call": "write", "at": number, "signal": name}))
@@ -62,7 +62,7 @@ def plans_of_signals(scene, calls, quick):
 
 
 def attempt(program, scene, place, origin, faults):
-    """One disturbed run, judged. place: a folder of its own; origin: where the scene was prepared"""
+    """Runs and judges one disturbed command. place: folder of the run; origin: where the scene was prepared"""
     scene.restore(place, origin)
     run = program.run(scene.command, place, **faults)
     return judge(program, scene, place, run, faults.get("errno"), faults.get("signal")), run

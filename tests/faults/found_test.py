@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Calls that once failed to no good end, in scenes of `run`: each is reported in one line, and the same command then ends as if undisturbed."""
+"""Regression tests: failing calls that were once handled wrongly. Each must be reported in one line, and the same command must then end as
+if undisturbed."""
 
 import os
 import re
@@ -13,31 +14,31 @@ from program import Program
 from scenes import scenes
 
 PROGRAM = Program(os.environ["CRACKLE_PROGRAM"], os.environ["INJECTED_FAULTS"])
-# The first call of a kind on a file, or one behind it: how it fails.
+# By scene: kind, file, mode and error of the failing call, and its offset from the first such call.
 FOUND = {
     "campaign": (
-        ("stat", r"out/packings/\w+\.crackle_tmp", "on", "EIO"),  # another temporary file was made, without an end
-        # The cause was an input/output error, whatever the system said.
+        ("stat", r"out/packings/\w+\.crackle_tmp", "on", "EIO"),  # temporary files were made endlessly
+        # The message stated an input/output error for every cause.
         ("write", r"out/campaign\.sqlite-shm", "once", "ENOSPC"),
         ("mmap", r"out/campaign\.sqlite-shm", "on", "ENOMEM"),
         ("truncate", r"out/campaign\.sqlite-shm", "on", "EPERM"),
-        # The error named a missing file where the ledger exists.
+        # The message named a missing file although the ledger exists.
         ("open", r"out/campaign\.sqlite-shm", "once", "EACCES"),
     ),
     "campaign, again": (
-        # Pages that could not be read were taken for damage, with exit code 2.
+        # Unreadable pages were reported as damage, with exit code 2.
         ("read", r"out/campaign\.sqlite", "once", "EIO", 1),
         ("read", r"out/campaign\.sqlite", "on", "EIO", 1),
     ),
-    "report of a campaign": (("stat", r"out/campaign\.sqlite", "on", "EIO", 4),),  # a failing disc is no lack of permission
+    "report of a campaign": (("stat", r"out/campaign\.sqlite", "on", "EIO", 4),),  # a failing disc was reported as a lack of permission
     "calibrate": (
-        # Curves in a folder that could not be listed were left out of the page.
+        # If a folder could not be listed, its curves were left out of the page.
         ("opendir", r"out/fresh/curves", "once", "EMFILE"),
         ("readdir", r"out/fresh/curves", "once", "EIO"),
-        ("mkdir", r"out/search/packings", "on", "EACCES", 1),  # the empty folder was then taken for somebody else's
+        ("mkdir", r"out/search/packings", "on", "EACCES", 1),  # the empty folder was then refused as a foreign one
     ),
     "run --continue": (
-        ("read", r"out/energy\.dat", "once", "EIO"),  # its rows were cut off
+        ("read", r"out/energy\.dat", "once", "EIO"),  # its rows were truncated
         ("read", r"out/energy\.dat", "on", "EIO"),
     ),
 }
@@ -58,7 +59,7 @@ class Found(unittest.TestCase):
                         call = [call for call in calls if call.kind == kind and re.fullmatch(path, call.path)][sum(behind)]
                         outcome, run = attempt(PROGRAM, scene, place, origin, {"call": kind, "at": call.number, "mode": mode, "errno": error})
                         print(f"  {kind} {call.number} {mode} {error}: {run.code} {run.err.strip()}")
-                        self.assertTrue(run.calls, "it did not come to this call")
+                        self.assertTrue(run.calls, "the call was not reached")
                         self.assertIn(outcome.kind, GOOD, outcome.faults)
 
 

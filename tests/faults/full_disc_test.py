@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A disc that is really full (a small tmpfs) ends a ledger, a test and a page with exit code 4 and one line, and with room the same work ends."""
+"""On a full disc (a small tmpfs), a campaign, a test and a page end with exit code 4 and one line; once there is room, the same work succeeds."""
 
 import os
 import shutil
@@ -34,7 +34,8 @@ class FullDisc(unittest.TestCase):
         (self.work / "plan.toml").write_text(PLAN)
 
     def on_larger_and_larger_discs(self, words, go_on, answer):
-        """Until `words` are done. go_on: what is called once there is room; answer: what is then compared with an undisturbed run's."""
+        """Repeats `words` on larger and larger discs until they succeed. go_on: command run once there is room; answer: result that is
+        compared with an undisturbed run."""
         self.assertEqual(PROGRAM.run(words, self.place).code, 0)
         expected = answer()
         shutil.rmtree(self.disc)

@@ -1,30 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What came of a disturbed command: whether it says so, what it did to earlier results, and what the same command makes of it afterwards."""
+"""Judges a disturbed command: whether it reports the fault, whether earlier results are intact, and whether the same command then succeeds."""
 
 from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 
 from program import CAUSES, OF_A_PATH, contents, differences
 
-# Outcomes that are as they should be.
+# Good outcomes.
 UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, REFUSED = (
-    "results right all the same", "not reached", "said so, then right", "stopped by the signal, then right", "repeated, it goes one part further",
-    "right, a file left over", "refused until the folder is moved away")
+    "results correct despite the fault", "not reached", "reported, then correct", "stopped by the signal, then correct", "repeated, continues by one part",
+    "correct, a file left over", "refused until the folder is moved away")
 GOOD = (UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, REFUSED)
-# And those that are not, worst first.
+# Bad outcomes, worst first.
 SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE = (
-    "exit 0, results wrong", "earlier results lost", "went on from a mixture", "hung", "aborted", "not right afterwards", "words", "exit code")
+    "exit 0, results wrong", "earlier results lost", "continued from a mixture", "hung", "aborted", "not correct afterwards", "wrong message", "wrong exit code")
 BAD = (SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE)
-OF_TESTS = ("failed by the system", "ended with a system error")  # tests of a campaign or calibration did, whatever the system said
+OF_TESTS = ("failed by the system", "ended with a system error")  # messages about tests of a campaign or calibration do not state the cause
 
 
 def worst_of(faults):
-    """The kind of an outcome with such faults."""
+    """The worst kind among these faults."""
     return min((kind for kind, _ in faults), key=(*BAD, REFUSED, FURTHER, LEFT).index)
 
 
 def left_over(final, scene):
-    """Names beside right results; empty: there are none, or results are not right."""
+    """Names of additional files beside correct results; empty if there are none, or if results are wrong."""
     for right in scene.accepted:
         if all(final.get(name) == data for name, data in right.items()):
             return ", ".join(name for name in final if name not in right)
@@ -34,11 +34,11 @@ def left_over(final, scene):
 @dataclass
 class Outcome:
     kind: str
-    faults: list = field(default_factory=list)  # (kind, detail) of what is not as it should be, or worth a look
+    faults: list = field(default_factory=list)  # (kind, detail) of everything that is wrong or notable
 
 
 def names_for(path):
-    """How a message may name what could not be had: the file, what it was to become, or the folder it lies in."""
+    """The names by which a message may refer to a path: the file or a folder above it."""
     path = PurePosixPath(path)
     name = path.name
     found = {name} if name else set()
@@ -47,7 +47,7 @@ def names_for(path):
 
 
 def wrong_words(run, error, calls):
-    """What one line of an error should be and is not; None: all is well."""
+    """What is wrong with the error message, or None."""
     lines = run.err.splitlines()
     if len(lines) != 1:
         return f"{len(lines)} lines: {run.err.strip()[:160]!r}"
@@ -61,7 +61,7 @@ def wrong_words(run, error, calls):
 
 
 def went_on(program, scene, place, stopped, after):
-    """Does what a user does next. @return faults found"""
+    """Runs the commands that a user runs next. @return faults found"""
     found = []
     for words in scene.ways_on(stopped, after):
         done = program.run(words, place)
@@ -84,7 +84,7 @@ def went_on(program, scene, place, stopped, after):
 
 
 def judge(program, scene, place, run, error=None, signal=None, mend=lambda: None):
-    """Judges a run with a call that failed, or a signal (its name). error: the name of what the call gave; mend: before the user goes on"""
+    """Judges a run with a failing call or a signal. error: name of the call's error; signal: its name; mend: called before the user continues"""
     if run.hung:
         return Outcome(HUNG, faults=[(HUNG, "more than a minute of processor time, or no end")])
     after = contents(place / "work")

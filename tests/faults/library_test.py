@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The library fails what it should, and nothing else: on calls of Python's own, one kind at a time; and a disc forgets what it may."""
+"""Tests that the library makes exactly the chosen calls fail, using calls of Python itself; also tests the disc model."""
 
 import os
 import signal
@@ -19,7 +19,7 @@ from program import ERRORS, Program  # noqa: E402
 
 LIBRARY = os.environ["INJECTED_FAULTS"]
 
-# One call of each kind on a file or folder in `work`; each returns after the call.
+# One call of each kind on a file or folder in `work`.
 CALLS = {
     "open": "os.open('new', os.O_CREAT | os.O_WRONLY)",
     "read": "os.read(file, 10)",
@@ -68,7 +68,7 @@ class Library(unittest.TestCase):
                 (self.work / "old").write_text("old")
                 (self.work.parent / "log").unlink(missing_ok=True)
                 self.run_python(f"{self.BEGIN}import errno\n{text}")
-                at = sum(line.split()[0] == kind for line in self.log())  # the last: Python has some of its own
+                at = sum(line.split()[0] == kind for line in self.log())  # the last call, since Python makes calls of its own
                 (self.work / "old").write_text("old")
                 (self.work / "new").unlink(missing_ok=True)
                 (self.work / "other").unlink(missing_ok=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Real places without room: a small file system in memory that fills up, and a folder that the user may not write."""
+"""Real places that cannot be written: a small file system in memory that fills up, and a folder without permission."""
 
 import os
 import shutil
@@ -10,11 +10,11 @@ from program import Call
 
 NOBODY = 65534
 PAGE = 4  # kB
-MOST = 1 << 16  # kB: room for all
+MOST = 1 << 16  # kB, enough for every scene
 
 
 class NotHere(Exception):
-    """Why it cannot be tried."""
+    """The reason why something cannot be tried."""
 
 
 def mounted(folder, kilobytes, again=False):
@@ -41,12 +41,12 @@ def pages(folder):
 
 
 def full_disc(program, scene, place, origin, quick):
-    """Larger and larger discs, until the command is done. @yield outcomes with the kilobytes"""
+    """Runs the command on larger and larger discs until it succeeds. @yield outcomes, each with the size in kilobytes"""
     work, used, more = place / "work", pages(origin / "before"), 0
     while True:
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
-        size = max(1, used + more) * PAGE  # 0 would be without a bound
+        size = max(1, used + more) * PAGE  # 0 would mean no limit
         mounted(work, size)
         try:
             copied(origin / "before", work)
@@ -62,7 +62,7 @@ def full_disc(program, scene, place, origin, quick):
 
 
 def read_only(program, scene, place, origin):
-    """The command as a user to whom the folder does not belong."""
+    """Runs the command as a user who may not write the folder."""
     if os.geteuid() != 0 or shutil.which("setpriv") is None:
         raise NotHere("setpriv: only root may become someone else")
     scene.restore(place, origin)

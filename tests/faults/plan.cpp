@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The environment:
-//   CRACKLE_FAULT_FOLDER  only calls on what lies in it count
-//   CRACKLE_FAULT_LOG     file to which the calls that failed are appended, a line each: kind, number, path
-//   CRACKLE_FAULT_CALL    kind of the call that fails; without it none does, and the log lists all of them
-//   CRACKLE_FAULT_AT      its number, from 1
-//   CRACKLE_FAULT_MODE    once (default), or on: those after it fail, too
+// Environment variables:
+//   CRACKLE_FAULT_FOLDER  only calls on paths in this folder count
+//   CRACKLE_FAULT_LOG     file to which failed calls are appended, one line each: kind, number, path
+//   CRACKLE_FAULT_CALL    kind of the call that fails; if unset, no call fails and the log lists all calls
+//   CRACKLE_FAULT_AT      number of the call that fails, starting at 1
+//   CRACKLE_FAULT_MODE    once (default), or on: all later calls fail as well
 //   CRACKLE_FAULT_ERRNO   name of the error (default EIO)
-//   CRACKLE_FAULT_SIGNAL  signal that the process gets just before the call, which then does its work; after PIPE and
-//                         XFSZ it fails as the system has it fail
-// Nothing here allocates, and the system is called past the functions that are replaced.
+//   CRACKLE_FAULT_SIGNAL  signal sent to the process just before the call, which is then executed; after PIPE and XFSZ
+//                         the call fails as it would in the system
+// Nothing here allocates memory, and system calls bypass the functions that are replaced.
 #include "tests/faults/plan.hpp"
 
 #include <fcntl.h>
@@ -26,7 +26,7 @@
 namespace crackle::faults {
 namespace {
 
-// glibc's own threshold: what is smaller comes from memory that the process has already.
+// glibc's own threshold: smaller allocations use memory that the process already has.
 constexpr std::size_t least_counted = std::size_t{128} << 10;
 
 constexpr auto call_count = static_cast<std::size_t>(Call::last_);
@@ -54,7 +54,7 @@ constexpr std::array<Named, 6> signals{
 struct Plan {
     Path folder{};
     Path log{};
-    int call = -1;  ///< none
+    int call = -1;  ///< -1: no call fails
     long at = 0;
     bool goes_on = false;
     int error = EIO;
@@ -110,7 +110,7 @@ void append_to_log(std::size_t call, long number, const char* path) {
     syscall(SYS_close, log);
 }
 
-/// @return whether it fails
+/// Counts a call. @return whether it is to fail
 bool count(Call call, const char* path) {
     const auto kind = static_cast<std::size_t>(call);
     const long number = ++counts[kind];
@@ -132,7 +132,7 @@ bool count(Call call, const char* path) {
     return plan.signal == SIGPIPE || plan.signal == SIGXFSZ;
 }
 
-/// Takes out "." and "..", and double and last strokes.
+/// Removes "." and "..", and repeated and trailing slashes.
 void make_plain(Path& path) {
     Path plain{};
     std::size_t length = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which call of a process fails, and how; the environment says it (plan.cpp).
+// Determines which call of a process fails and how, as set in the environment (plan.cpp).
 // Tested by tests/faults/library_test.py.
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace crackle::faults {
 
-/// Kinds of calls, counted each for itself. memory: what malloc and its kin take from the system (mmap, by itself);
-/// thread: one that is begun; fork: a process. A process that is forked goes on counting by itself.
+/// Kinds of calls; each kind is counted separately. memory: memory that malloc and similar functions request from the
+/// system (by mmap); thread: the start of a thread; fork: a process. A forked process continues counting on its own.
 enum class Call {
     open,
     read,
@@ -31,17 +31,17 @@ enum class Call {
     last_
 };
 
-/// A path without relative parts.
+/// An absolute path without "." and "..".
 struct Path {
     char text[PATH_MAX];
 };
 
-/// Path of a name relative to a folder's descriptor, or to AT_FDCWD. Links in it are not followed.
+/// Path of a name relative to a folder's descriptor or to AT_FDCWD. Symbolic links in it are not followed.
 Path path_at(int folder, const char* name);
 /// Path of an open file; empty if it has none.
 Path path_of(int descriptor);
 
-/// Counts a call on a path. @return whether it is to fail; errno is set then
+/// Counts a call on a path. @return whether it is to fail; errno is then set
 bool fails(Call call, const Path& path);
 bool fails(Call call, const char* name);
 bool fails(Call call, int descriptor);
@@ -50,7 +50,7 @@ bool memory_fails(std::size_t bytes);
 bool thread_fails();
 bool fork_fails();
 
-/// Whether the path lies in the folder that is looked at.
+/// Whether the path is in the observed folder.
 bool looked_at(const Path& path);
 
 }  // namespace crackle::faults

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Loss of power at each moment of a command, played from its trace (disc.py); then what its user does next."""
+"""Simulates a loss of power after each operation of a command, from its trace (disc.py), and then what a user does next."""
 
 import random
 
@@ -7,7 +7,7 @@ from disc import Disc, read_trace
 from judgement import REFUSED, SAID, UNMENDED, Outcome, went_on, worst_of
 from program import Run, put
 
-SURE = (("lost", "lost"), ("lost", "kept"), ("kept", "lost"))  # of data, of names
+SURE = (("lost", "lost"), ("lost", "kept"), ("kept", "lost"))  # (data, names)
 BY_CHANCE = 200
 
 
@@ -19,7 +19,7 @@ def trace_of(program, scene, place, origin):
 
 
 def states(before, operations, quick):
-    """Folders as a loss of power may leave them, each once: [(number of operations before it, what was lost, {name: bytes})]."""
+    """The different folders that a loss of power may leave: [(number of operations before it, what was lost, {name: bytes})]."""
     disc, chance = Disc(before), random.Random(1)
     moments = sorted(chance.choices(range(1, len(operations) + 1), k=BY_CHANCE // 10 if quick else BY_CHANCE))
     seen, found = set(), []
@@ -41,12 +41,12 @@ def states(before, operations, quick):
 
 
 def attempt(program, scene, place, files):
-    """What comes of a folder as the loss left it."""
+    """Judges what the commands that a user runs next make of such a folder."""
     put(place / "work", files)
-    stopped = Run(scene.command, 130 if scene.further else -9, "", "")  # a user tries --continue first
+    stopped = Run(scene.command, 130 if scene.further else -9, "", "")  # a user first tries --continue
     faults = went_on(program, scene, place, stopped, files)
     if not faults:
         return Outcome(SAID)
-    # Folders left by chance without a sign of their owner; the message states what to do.
+    # A folder may lose the file that marks its owner; the message then states what to do.
     faults = [(REFUSED if kind == UNMENDED and ("move" in words or "choose another" in words) else kind, words) for kind, words in faults]
     return Outcome(worst_of(faults), faults=faults)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A command of the program in a folder, with the library in front of it; and what it leaves there."""
+"""Runs a command in a folder with the library preloaded, and reads what it leaves there."""
 
 import json
 import os
@@ -15,9 +15,9 @@ from pathlib import Path
 
 # Keys of summary.json that depend on the clock.
 OF_THE_CLOCK = {"wall_seconds", "step_seconds", "particle_steps_per_second"}
-LONGEST = 60  # s of processor time: what takes more hangs
-STUCK = 20 * LONGEST  # s by the clock, on a machine that has other work too
-# What each kind of call says where it fails; of two the second where it fails from then on.
+LONGEST = 60  # s of processor time, after which a command counts as hanging
+STUCK = 20 * LONGEST  # s of wall time, which is long because the machine may be busy
+# Error of each kind of call; the second, if given, is used if the call fails from then on.
 ERRORS = {"open": ("EACCES", "EMFILE"), "read": ("EIO", "EIO"), "write": ("ENOSPC", "ENOSPC"), "fsync": ("EIO", "EIO"),
           "rename": ("EACCES", "ENOSPC"), "unlink": ("EACCES", "EROFS"), "mkdir": ("ENOSPC", "EACCES"), "truncate": ("EIO", "EPERM"),
           "mmap": ("ENOMEM", "ENOMEM"), "close": ("EIO", "ENOSPC"), "opendir": ("EACCES", "EMFILE"), "readdir": ("EIO", "EIO"),
@@ -28,12 +28,12 @@ CAUSES = {"EACCES": "Permission denied", "EMFILE": "Too many open files", "EIO":
           "EAGAIN": "Resource temporarily unavailable"}
 
 
-OF_A_PATH = ("EACCES", "EPERM", "EROFS")  # what the user can change: exit code 2; all others are the system's, 4
+OF_A_PATH = ("EACCES", "EPERM", "EROFS")  # errors that the user can correct have exit code 2; all others are errors of the system, with exit code 4
 
 
 @dataclass
 class Call:
-    """One on the log: its kind, its number among those of its kind, what it was for."""
+    """A logged call: its kind, its number among the calls of this kind, and its path."""
     kind: str
     number: int
     path: str
@@ -42,7 +42,7 @@ class Call:
 @dataclass
 class Run:
     words: str
-    code: int | None  # negative: the signal that ended it; None: it hung
+    code: int | None  # negative: signal that ended it; None: it hung
     out: str
     err: str
     calls: list = field(default_factory=list)
@@ -53,12 +53,12 @@ class Run:
 
 
 def processor_seconds(group):
-    """Processor time of a group: of its processes and of their children that have ended."""
+    """Processor time of a process group, including ended children."""
     ticks = 0
     for file in Path("/proc").glob("[0-9]*/stat"):
         try:
             values = file.read_text(errors="replace").rpartition(")")[2].split()
-        except OSError:  # it has ended
+        except OSError:  # the process has ended
             continue
         if int(values[2]) == group:
             ticks += sum(int(value) for value in values[11:15])
@@ -66,7 +66,7 @@ def processor_seconds(group):
 
 
 def end_of(process):
-    """Exit code and both streams of the leader of a group; the code of one that hangs is None, and its group is killed."""
+    """Exit code and both streams of a group's leader. If it hangs, its group is killed, and the exit code is None."""
     begun = time.monotonic()
     while True:
         try:
@@ -83,7 +83,7 @@ class Program:
         self.program, self.library = Path(program).resolve(), Path(library).resolve()
 
     def run(self, words, place, before=(), **faults):
-        """In place/work; faults: values of CRACKLE_FAULT_..., by the ends of their names. before: words put before the program."""
+        """Runs a command in place/work. faults: values of the variables CRACKLE_FAULT_...; before: words put before the program."""
         folder, log = place / "work", place / "log"
         log.unlink(missing_ok=True)
         environment = {key: value for key, value in os.environ.items() if not key.startswith("CRACKLE_")}
@@ -102,12 +102,12 @@ class Program:
         return Run(words, code, out.decode(errors="replace"), err.decode(errors="replace"), calls)
 
     def calls(self, words, place):
-        """All that can fail of an undisturbed command."""
+        """All calls of an undisturbed command that can be made to fail."""
         return self.run(words, place, list=True)
 
 
 def table_of(ledger):
-    """Results in a campaign's ledger, without what depends on the clock. The bytes of a file that is no ledger."""
+    """Results in a campaign's ledger, without values that depend on the clock; for other files, their bytes."""
     try:
         with closing(sqlite3.connect(f"file:{ledger}?mode=ro", uri=True)) as opened:
             found = opened.execute("SELECT * FROM results")
@@ -119,17 +119,17 @@ def table_of(ledger):
 
 
 def contents(folder):
-    """{name: bytes} of all files in a folder, and its folders with a stroke behind them; without what depends on the clock, of a ledger its
-    table."""
+    """{name: bytes} of all files in a folder; names of folders end with a slash. Values that depend on the clock are left out, and ledgers
+    are replaced by their tables."""
     found = {}
     for path in sorted(folder.rglob("*")):
         name = str(path.relative_to(folder))
         if path.name.endswith(".crackle_tmp"):
-            continue  # of a command that was stopped: the next one removes it, where nobody is known to hold the folder a minute later
+            continue  # left by a stopped command; the next one removes it
         if path.is_dir():
             found[name + "/"] = b""
             continue
-        if path.name.endswith(("-wal", "-shm", "-journal")):  # SQLite's own
+        if path.name.endswith(("-wal", "-shm", "-journal")):  # auxiliary files of SQLite
             continue
         data = table_of(path) if path.suffix == ".sqlite" else path.read_bytes()
         if path.name.startswith("calibration."):
@@ -145,7 +145,7 @@ def contents(folder):
 
 
 def put(folder, files):
-    """The opposite of contents()."""
+    """Writes files as returned by contents()."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     for name, data in files.items():
@@ -158,12 +158,12 @@ def put(folder, files):
 
 
 def below(files, name):
-    """Contents of a folder, or of one file."""
+    """Part of contents(): one folder or file."""
     return {key: data for key, data in files.items() if key == name or key.startswith(name + "/")}
 
 
 def differences(got, expected, most=3):
-    """In words; empty: none."""
+    """The differences as text, or an empty text."""
     found = [f"no {name}" for name in expected if name not in got]
     found += [f"{name} is new" for name in got if name not in expected]
     found += [f"{name} differs" for name in got if name in expected and got[name] != expected[name]]

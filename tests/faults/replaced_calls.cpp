@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Put in front of the C library by LD_PRELOAD: each call that can fail by the plan (plan.cpp), and goes into the trace
-// (trace.hpp) once it has done its work. Calls of libstdc++'s streams, of std::filesystem and of the program itself are
-// here. Calls of the C library within itself (fclose its close, malloc its mmap) are not seen. fclose therefore counts
-// as a close, and large allocations are a kind of their own (replaced_memory.cpp).
+// Replaces functions of the C library through LD_PRELOAD. Each call can fail according to the plan (plan.cpp), and is
+// recorded in the trace (trace.hpp) once it has been executed. Calls by libstdc++'s streams, by std::filesystem and by
+// the program itself are replaced. Calls inside the C library are not seen, such as close() in fclose() or mmap() in
+// malloc(). Therefore fclose() counts as a close, and large allocations are a separate kind (replaced_memory.cpp).
 #include <dirent.h>
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -26,10 +26,10 @@
 namespace crackle::faults {
 namespace {
 
-// The one of the C library.
+// The original function in the C library.
 #define CRACKLE_REAL(name) static const auto real = reinterpret_cast<decltype(&::name)>(dlsym(RTLD_NEXT, #name))
 
-/// The third argument of open() is there with these flags alone.
+/// The third argument of open() exists only with these flags.
 mode_t mode_behind(int flags, va_list rest) {
     const bool makes = (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE;
     return makes ? static_cast<mode_t>(va_arg(rest, unsigned)) : mode_t{0};
@@ -37,7 +37,7 @@ mode_t mode_behind(int flags, va_list rest) {
 
 bool exists(const Path& path) { return syscall(SYS_access, path.text, F_OK) == 0; }
 
-/// Opens by `real()`, which returns what means a failure where it fails.
+/// Opens a file by calling `real()`. On failure, returns the value by which the function reports failure.
 template <class Result, class Real>
 Result opened(const Path& path, int flags, Result failure, Real real) {
     if (fails(Call::open, path)) return failure;
@@ -52,7 +52,7 @@ Result opened(const Path& path, int flags, Result failure, Real real) {
 
 int flags_of(const char* mode) { return *mode == 'w' ? O_CREAT | O_TRUNC : *mode == 'a' ? O_CREAT : 0; }
 
-/// Writes by `real()`; `bytes` is what was to be written, at the file's own place.
+/// Writes by calling `real()`; `bytes` are the data for the file's current position.
 template <class Real>
 ssize_t written(int file, std::string_view bytes, Real real) {
     const Path path = path_of(file);
@@ -66,7 +66,7 @@ ssize_t written(int file, std::string_view bytes, Real real) {
     return count;
 }
 
-/// A call that gives 0 on success.
+/// Executes a call that returns 0 on success.
 template <class Real>
 int done(Call call, const char* kind, const Path& path, Real real, long offset = 0, std::string_view data = {}) {
     if (fails(call, path)) return -1;
@@ -259,7 +259,7 @@ int close(int file) {
     CRACKLE_REAL(close);
     const bool wrong = fails(Call::close, file);
     const int reason = errno;
-    const int result = real(file);  // Linux closes it whatever it reports
+    const int result = real(file);  // Linux closes the file even if it reports an error
     if (!wrong) return result;
     errno = reason;
     return -1;
@@ -310,7 +310,7 @@ int fstatat(int folder, const char* name, struct stat* found, int flags) noexcep
     return fails(Call::stat, path_at(folder, name)) ? -1 : real(folder, name, found, flags);
 }
 
-// The calls under the names that mean files of any length, which is what they are here.
+// Names of the same functions for large files, which do not differ here.
 ssize_t pread64(int file, void* bytes, size_t count, off64_t at) { return pread(file, bytes, count, at); }
 ssize_t pwrite64(int file, const void* bytes, size_t count, off64_t at) { return pwrite(file, bytes, count, at); }
 int truncate64(const char* name, off64_t length) noexcept { return truncate(name, length); }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Allocations that can fail by the plan (plan.cpp): large ones, for which malloc asks the system.
+// Allocations that can fail according to the plan (plan.cpp): large ones, for which malloc requests memory from the
+// system.
 #include <malloc.h>
 
 #include <cerrno>
@@ -11,7 +12,8 @@ using crackle::faults::memory_fails;
 
 extern "C" {
 
-// The C library's own allocation under its second names: looking up the first ones would allocate.
+// The C library's own allocation functions under their internal names, since looking up the usual names would allocate
+// memory.
 void* __libc_malloc(size_t bytes);
 void* __libc_calloc(size_t count, size_t bytes);
 void* __libc_realloc(void* old, size_t bytes);

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The commands that are disturbed, each in a folder of its own, and what a user does after one that failed."""
+"""The commands that are disturbed, each in a separate folder, and the commands that a user runs after a failure."""
 
 import shutil
 from dataclasses import dataclass, field
@@ -9,7 +9,7 @@ from program import below, contents
 
 DECKS = Path(__file__).resolve().parents[2] / "specimens/demseg"
 
-# Some 30 circles, a checkpoint every 64 steps, frames on the way: a quarter of a second.
+# About 30 circles, a checkpoint every 64 steps, and frames; runs for a quarter of a second.
 CASE = """[packing]
 count = 30
 radius_min = 0.013
@@ -32,16 +32,16 @@ checkpoint_interval = 1e-9
 """
 PACK = "pack --count 30 --radius-min 0.013 --radius-max 0.026 --mean-overlap 7.74e-5"
 NEW_FILES = [f"new_{name}" for name in ("in_gm.dat", "in_bc.dat", "in_cf.dat", "in_cf0.dat", "state.bin")]
-STAGED = (".dat.new", ".bin.new", ".csv.new")  # files of a deck that get their names with a save
+STAGED = (".dat.new", ".bin.new", ".csv.new")  # files of a deck run that get their final names at a save
 OUTPUTS = ("output.dat", "cont.dat", "cont2.dat", "energy.dat", "f-d_curve.dat", "velocity_y.dat", "bonds.dat", "events.csv")
 
 
-FORCED = ("pack", "mesh", "elastic", "plot", "test", "run")  # whose results --force replaces
+FORCED = ("pack", "mesh", "elastic", "plot", "test", "run")  # commands with --force
 GO_ON = "run out --continue -q"
 
 
 def as_it_was(before, after, expected, results):
-    """Whether earlier results are untouched, or the new ones in their place. @return what is wrong, or None"""
+    """Checks that earlier results are unchanged or replaced by complete new ones. @return what is wrong, or None"""
     for name in results:
         old = below(before, name)
         now = {key: data for key, data in below(after, name).items() if not key.endswith(STAGED)}
@@ -51,7 +51,7 @@ def as_it_was(before, after, expected, results):
 
 
 def journalled(after):
-    """A replacement that counts as done, and that whoever reads next completes."""
+    """Whether a replacement is recorded as complete in a journal; the next command then finishes it."""
     return any(name.endswith("new_files.journal") for name in after) or \
         any(name.endswith("replaces-older-results") and data.startswith(b"complete, being moved") for name, data in after.items())
 
@@ -61,20 +61,20 @@ class Scene:
     name: str
     command: str
     files: dict = field(default_factory=dict)  # name: text
-    decks: dict = field(default_factory=dict)  # name: text replaced in in_bc.dat; copies of `deck`
-    made_by: list = field(default_factory=list)  # commands, or (command, faults) with a signal in it
-    results: tuple = ()  # names of what it writes
-    grows: bool = False  # results are added to, in place
+    decks: dict = field(default_factory=dict)  # name: first row of in_bc.dat; copies of `deck`
+    made_by: list = field(default_factory=list)  # commands, or (command, faults) for an interrupted one
+    results: tuple = ()  # names of its outputs
+    grows: bool = False  # the command appends to existing results
     resume: str = "test --resume out -q"
-    otherwise: str = None  # the way that is left where nothing of it can be resumed
-    further: str = None  # goes on from its end
-    saves_itself: bool = False  # asked to end, it puts a part of itself, to be resumed, in the place of earlier results
-    unfinished: bool = False  # results are those of a test that goes on: what comes of them at the end counts
+    otherwise: str = None  # command to use if nothing can be resumed
+    further: str = None  # command that continues from the end
+    saves_itself: bool = False  # if asked to end, the command replaces earlier results by unfinished ones that can be resumed
+    unfinished: bool = False  # the earlier results are those of an unfinished test; only the final results are compared
     expected: dict = None
     accepted: list = None
 
     def prepare(self, program, place):
-        """Makes the folder before the command, and the results of an undisturbed one."""
+        """Makes the folder before the command, and the results of an undisturbed run."""
         work = place / "work"
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
@@ -120,7 +120,7 @@ class Scene:
         return words[0] in FORCED and (not {"--resume", "--continue"} & set(words) or "-o" in words)
 
     def ways_on(self, stopped, after):
-        """Commands with which a user goes on, the first one that is done ends it."""
+        """Commands that a user tries next, in order, until one succeeds."""
         kind = self.command.split()[0]
         ways = []
         if kind == "test" and "out/" in after and "out/" not in self.before:
@@ -132,7 +132,7 @@ class Scene:
         return list(dict.fromkeys([*ways, self.command, self.forced(), self.otherwise or self.command]))
 
     def damage(self, after):
-        """What a command that failed has done to what was there before. @return in words, or None"""
+        """Damage that a failed command has done to existing files. @return description, or None"""
         for name, data in self.before.items():
             mine = any(name == result or name.startswith(result + "/") for result in self.results)
             if not mine and after.get(name) != data:
@@ -157,7 +157,7 @@ count = 2
 [run]
 keep = "curves"
 """
-# Moduli alone: two linear solves, a round and the fresh packings.
+# Only moduli: two linear solves, one round, and the fresh packings.
 ROCK = """[[test]]
 name = "tension"
 case = "case.toml"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the system refuses threads the work is done on fewer, to the same bytes, and a notice says so."""
+"""If the system refuses threads, the work is done on fewer with the same bytes, and a notice states this."""
 
 import os
 import shutil
@@ -11,12 +11,12 @@ from program import Program, contents
 from scenes import CASE, DECKS, PACK
 
 PROGRAM = Program(os.environ["CRACKLE_PROGRAM"], os.environ["INJECTED_FAULTS"])
-SEVERAL = len(os.sched_getaffinity(0)) > 1  # else nothing is begun that could be refused
+SEVERAL = len(os.sched_getaffinity(0)) > 1  # with a single processor, no threads are started that could be refused
 
 
 class RefusedThreads(unittest.TestCase):
     def compared(self, words, made):
-        """What `words` leave in `made`, without faults and with every thread refused."""
+        """Contents of `made` after `words`, without faults and with every thread refused."""
         with tempfile.TemporaryDirectory() as folder:
             place = Path(folder)
             left = []
@@ -28,12 +28,12 @@ class RefusedThreads(unittest.TestCase):
                 done = PROGRAM.run(words, place, **faults)
                 self.assertEqual(done.code, 0, done.err)
                 if faults and SEVERAL:
-                    self.assertTrue(done.calls, "none was begun")
+                    self.assertTrue(done.calls, "no thread was requested")
                     self.assertRegex(done.err, "1 of 2 threads are used: the operating system allows this process only 1")
                 left.append({name: data for name, data in contents(place / "work").items() if name.startswith(made)})
             self.assertEqual(left[0].keys(), left[1].keys())
             for name, data in left[0].items():
-                if not name.endswith("summary.json"):  # states its threads
+                if not name.endswith("summary.json"):  # states the number of threads
                     self.assertEqual(data, left[1][name], name)
 
     def test_of_a_deck(self):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a process does to the files of the folder that is looked at, in order, for a loss of power to be played after
-// it (power_loss.py). Written into the file that CRACKLE_FAULT_TRACE names; a record is a line
-// "kind offset bytes-of-path bytes-of-data", the path, the data and a line's end.
+// Records all changes that a process makes to files in the observed folder, in order, so that power_loss.py can
+// simulate a loss of power. The file is named by CRACKLE_FAULT_TRACE. A record consists of a line "kind offset
+// bytes-of-path bytes-of-data", the path, the data and a newline.
 // Tested by tests/faults/library_test.py.
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace crackle::faults {
 
-/// While it lives no other thread changes a file: the order on record is the order of what was done.
+/// While this object exists, no other thread changes a file, so the recorded order is that of the changes.
 class Recorded {
   public:
     Recorded();
     bool wanted() const { return lock_.owns_lock(); }
-    /// Offset: of a write, its place in the file; of a truncation, the new length. Data: what was written; the new
-    /// name.
+    /// @param offset for a write, its position in the file; for a truncation, the new length @param data what was
+    /// written, or the new name
     void add(const char* kind, const Path& path, long offset = 0, std::string_view data = {}) const;
 
   private:

@@ -25,7 +25,7 @@ class Scratch {
         const fs::path parent = asked != nullptr                      ? fs::path(asked)
                                 : fs::is_directory("/dev/shm", error) ? fs::path("/dev/shm")
                                                                       : fs::temp_directory_path();
-        std::string name = (parent / "crackle_fuzz_").string() + std::string(6, 'X');  // for mkdtemp() to fill in
+        std::string name = (parent / "crackle_fuzz_").string() + std::string(6, 'X');  // replaced by mkdtemp()
         if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
         path = name;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From the bytes of an input to what a reader takes: files in a private folder, values, hashes made right again.
+// Converts the bytes of an input to what a reader needs: files in a private folder, values, corrected hashes.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@
 
 namespace crackle::fuzz {
 
-/// Stands between the files of an input that is several.
+/// Separates the files of an input that consists of several.
 inline constexpr std::string_view next_file = "\n%%%%\n";
 
-/// The files of an input; those that it lacks are empty.
+/// The files of an input; missing files are empty.
 template <std::size_t Count>
 std::array<std::string_view, Count> files_of(std::string_view bytes) {
     std::array<std::string_view, Count> files{};
@@ -29,19 +29,19 @@ std::array<std::string_view, Count> files_of(std::string_view bytes) {
     return files;
 }
 
-/// A folder of this process in the memory (/dev/shm, or $CRACKLE_FUZZ_FOLDER), removed at its end.
+/// A folder of this process in memory (/dev/shm, or $CRACKLE_FUZZ_FOLDER), removed when the process ends.
 const std::filesystem::path& scratch();
 
-/// @return its path
+/// Writes a file to scratch(). @return its path
 std::filesystem::path write_file(const std::filesystem::path& name, std::string_view bytes);
 
-/// Puts XXH3 of [begin, end - 8) into the last eight bytes.
+/// Stores the XXH3 hash of [begin, end - 8) in the last eight bytes.
 void mend_xxh3(std::string& bytes, std::size_t begin, std::size_t end);
 
-/// Mends a world's checkpoint that ends at `end`, wherever it begins; its version becomes the present one.
+/// Corrects the hash of a world's checkpoint that ends at `end`, wherever it begins, and sets the current version.
 void mend_world(std::string& bytes, std::size_t end);
 
-/// Small values one after the other out of an input's bytes; zeros at its end.
+/// Reads small values from an input's bytes; returns zeros after the end.
 class Values {
   public:
     explicit Values(std::string_view bytes) : bytes_(bytes) {}
@@ -52,9 +52,9 @@ class Values {
         bytes_.remove_prefix(1);
         return value;
     }
-    /// A small whole number, or one of those that readers stumble over.
+    /// A small whole number, or a number that is difficult for readers.
     double number();
-    /// At most 15.
+    /// A list of at most 15 numbers.
     std::vector<double> numbers();
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What libFuzzer calls: CRACKLE_FUZZ_TARGET with each input.
+// Called by libFuzzer: passes each input to the target CRACKLE_FUZZ_TARGET.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     try {
         crackle::fuzz::CRACKLE_FUZZ_TARGET({reinterpret_cast<const char*>(data), size});
-    } catch (const crackle::InputError&) {  // anything else ends the process: a find
+    } catch (const crackle::InputError&) {  // any other exception ends the process and counts as a finding
     }
     return 0;
 }

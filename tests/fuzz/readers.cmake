@@ -1,5 +1,5 @@
-# Every reader of files outside and inside the solver: what tests/fuzz and tools/test --sanitize compile with sanitizers, while
-# the rest of specimens/ is linked as release has it.
+# All readers of files, inside and outside the solver. tests/fuzz and tools/test --sanitize compile them with
+# sanitizers; the rest of specimens/ is linked from the release build.
 set(readers
     solver/demseg/boundary.cpp solver/demseg/contact_files.cpp solver/demseg/deck_reader.cpp solver/demseg/deck_run.cpp
     solver/demseg/deck_folder.cpp

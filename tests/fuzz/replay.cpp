@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Gives each file FOLDER/TARGET/* to its target: what fuzzing has found stays mended. Without clang and libFuzzer.
+// Passes each file FOLDER/TARGET/* to its target, to check that faults found earlier remain fixed. Needs neither clang
+// nor libFuzzer.
 //   fuzz_replay FOLDER | fuzz_replay TARGET FILE...
 
 #include <fmt/format.h>
@@ -31,7 +32,7 @@ Target target_named(const std::string& name) {
     return nullptr;
 }
 
-// Limits as `run` sets them for libFuzzer.
+// Limits, the same as `run` sets for libFuzzer.
 constexpr double most_seconds = 5.0;
 constexpr rlim_t most_memory = rlim_t{1} << 30;
 
@@ -48,7 +49,7 @@ bool holds(const std::string& name, const fs::path& file) {
         target(crackle::read_file(file));
     } catch (const crackle::InputError& error) {
         outcome = fmt::format("refused: {:.200}", error.what());
-        good = std::strlen(error.what()) < 4096;  // nobody reads more
+        good = std::strlen(error.what()) < 4096;  // longer messages are not useful
     } catch (const std::exception& error) {
         outcome = fmt::format("FOUND an exception that is no InputError: {:.200}", error.what());
         good = false;
@@ -56,7 +57,7 @@ bool holds(const std::string& name, const fs::path& file) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (seconds > most_seconds) good = false, outcome += fmt::format("; FOUND {:.1f} s", seconds);
     fmt::print("{}: {}\n", file.string(), outcome);
-    static_cast<void>(std::fflush(stdout));  // the next one may crash
+    static_cast<void>(std::fflush(stdout));  // the next input may crash
     return good;
 }
 

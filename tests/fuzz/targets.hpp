@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is fuzzed: a function for each reader of files, which gives it any bytes. A reader returns or throws InputError;
-// any other exception, a crash, a hang and memory that a small input does not need are finds.
+// Fuzz targets: one function per file reader, which receives arbitrary bytes. A reader must return or throw InputError.
+// Any other exception, a crash, a hang, or more memory than a small input needs is a finding.
 #pragma once
 
 #include <string_view>
 
 namespace crackle::fuzz {
 
-/// Each in a file of its name in targets/, which says what the bytes are.
+/// Each target is in a file of its name in targets/, which describes the meaning of the bytes.
 #define CRACKLE_FUZZ_TARGETS(USE) \
     USE(deck_geometry)            \
     USE(deck_boundary)            \

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pieces of cells join a neighbour where the union is convex; otherwise the two are divided again.
+// Tests that a piece of a cell merges with a neighbour if the union is convex, and that otherwise the union is divided
+// again.
 
 #include "mesher/cell_net.hpp"
 
@@ -32,7 +33,8 @@ TEST(CellNet, DividesAPieceAndItsNeighbourIntoTheMostEqualConvexParts) {
     ASSERT_TRUE(cells.net.divide_again(cells.triangle, 0.4));
     const double of_square = cells.net.area(cells.net.loop(cells.square)),
                  of_triangle = cells.net.area(cells.net.loop(cells.triangle));
-    // The cut from (0, 0) to (1, 1) leaves half of the square and the rest; any other one leaves 0.25 or a corner.
+    // A cut from (0, 0) to (1, 1) leaves half of the square as the smaller part; any other cut leaves 0.25 or a concave
+    // corner.
     EXPECT_TRUE(testing::agrees("smaller part, m2", std::min(of_square, of_triangle), 0.5, 1e-15));
     EXPECT_TRUE(testing::agrees("both parts, m2", of_square + of_triangle, 1.25, 1e-15));
     for (const int cell : {cells.square, cells.triangle}) EXPECT_TRUE(cells.net.convex(cells.net.loop(cell)));

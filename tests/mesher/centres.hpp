@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// CellCentre sets for the mesher's tests, and the checks that every mesh has to pass.
+// Sets of centres for the mesher's tests, and the checks that every mesh must pass.
 #pragma once
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ inline double scale_of(const Rectangle& r) {
 class Dice {
   public:
     explicit Dice(std::uint64_t seed) : engine_(seed) {}
-    /// Uniform in [0, 1).
+    /// Uniformly distributed number in [0, 1).
     double next() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
   private:
@@ -44,7 +44,8 @@ inline std::vector<CellCentre> random_seeds(int count, const Rectangle& r, std::
     return centres;
 }
 
-/// Lattice of columns × rows, each seed moved by up to jitter/2 spacings; no jitter: co-circular everywhere.
+/// Lattice of columns × rows with each centre displaced by up to jitter/2 spacings; without jitter all neighbours are
+/// co-circular.
 inline std::vector<CellCentre> lattice(int columns, int rows, const Rectangle& r, double jitter,
                                        std::uint64_t seed = 1) {
     Dice dice(seed);
@@ -65,7 +66,7 @@ struct Specimen {
     std::vector<CellCentre> centres;
 };
 
-/// General, degenerate, thin, shifted, and with centres on the boundary.
+/// Sets of centres: general, degenerate, thin, shifted, and with centres on the boundary.
 inline std::vector<Specimen> specimens() {
     const Rectangle unit{0.0, 1.0, 0.0, 1.0}, rock{-0.3, 0.4, 0.1, 1.5}, thin{0.0, 10.0, 0.0, 0.05},
         far{1000.0, 1001.0, -2000.0, -1999.0};
@@ -107,21 +108,21 @@ inline std::vector<Specimen> specimens() {
 
 inline double cross(Point a, Point b, Point c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-/// Shoelace about the first corner.
+/// Area by the shoelace formula, relative to the first corner.
 inline double area_of(std::span<const Point> outline) {
     double twice = 0.0;
     for (std::size_t k = 2; k < outline.size(); ++k) twice += cross(outline[0], outline[k - 1], outline[k]);
     return 0.5 * twice;
 }
 
-/// Sum in long double, independent of the report's.
+/// Sum of areas in long double, independent of the report's sum.
 inline double sum_of_areas(const Mesh& mesh) {
     long double sum = 0.0L;
     for (const Cell& cell : mesh.cells) sum += static_cast<long double>(area_of(mesh.outline(cell)));
     return static_cast<double>(sum);
 }
 
-/// Corners in counter-clockwise order, none turning clockwise, once round in all, and no two equal.
+/// Whether corners are in counter-clockwise order with no right turn, go around once, and are all distinct.
 inline ::testing::AssertionResult convex_and_counter_clockwise(const Mesh& mesh, double scale) {
     for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
         const auto corners = mesh.outline(mesh.cells[c]);
@@ -145,7 +146,7 @@ inline ::testing::AssertionResult convex_and_counter_clockwise(const Mesh& mesh,
     return ::testing::AssertionSuccess();
 }
 
-/// Directed edges by their end points' bits: a shared edge is found reversed in the neighbour.
+/// Table of directed edges, keyed by the bits of their end points; a shared edge occurs in reverse in the neighbour.
 class EdgeTable {
   public:
     using Key = std::tuple<double, double, double, double>;
@@ -158,7 +159,7 @@ class EdgeTable {
             }
         }
     }
-    /// Cell beyond edge a-b, -1 if there is none.
+    /// Cell on the other side of edge a-b; -1 if there is none.
     int beyond(Point a, Point b) const {
         const auto found = cell_.find({b.x, b.y, a.x, a.y});
         return found == cell_.end() ? -1 : found->second;
@@ -173,9 +174,9 @@ inline bool on_one_side(Point a, Point b, const Rectangle& r) {
            (a.y == r.y2 && b.y == r.y2);
 }
 
-/// Length of facing edges checked, and the largest departure of their distance from `gap` (and from gap/2 to the
-/// domain's faces). `whole` is the partition without inset, `apart` the inset one with the same cells. Edge pairs are
-/// found by their place and direction, then measured at three points of the stretch that both cover.
+/// Total length of facing edges that were checked, and the largest deviation of their distance from `gap` (at the
+/// domain's sides, from gap/2). `whole` is the partition without inset, `apart` the inset partition with the same
+/// cells. Pairs of edges are found by position and direction, then measured at three points of their common part.
 struct GapCheck {
     std::int64_t interfaces = 0, faces = 0;
     double worst = 0.0;
@@ -187,7 +188,7 @@ inline GapCheck check_gaps(const Mesh& whole, const Mesh& apart, const Rectangle
         double from, to, height;
         bool found = false;
     };
-    // The edge of an inset cell that runs along direction t (either way) nearest to the line through `origin`.
+    // The edge of an inset cell parallel to t (in either sense) that is nearest to the line through `origin`.
     const auto along = [&](const Cell& cell, Point origin, Point t) {
         Stretch best{0.0, 0.0, 0.0, false};
         const auto corners = apart.outline(cell);
@@ -210,7 +211,7 @@ inline GapCheck check_gaps(const Mesh& whole, const Mesh& apart, const Rectangle
             const double length = std::hypot(b.x - a.x, b.y - a.y);
             const Point t{(b.x - a.x) / length, (b.y - a.y) / length};
             const int other = table.beyond(a, b);
-            if (length < 2.0 * gap) continue;  // may have vanished; its neighbours are then further apart
+            if (length < 2.0 * gap) continue;  // the edge may have vanished; its neighbours are then farther apart
             const Stretch mine = along(apart.cells[c], a, t);
             if (!mine.found || mine.height > gap) continue;
             if (other < 0) {
@@ -224,7 +225,7 @@ inline GapCheck check_gaps(const Mesh& whole, const Mesh& apart, const Rectangle
             const double from = std::max(mine.from, theirs.from), to = std::min(mine.to, theirs.to);
             if (!(to > from)) continue;
             ++check.interfaces;
-            // Distance from a sampled point of my edge to the neighbour's outline.
+            // Distance from a sampled point of this cell's edge to the neighbour's outline.
             const auto edges = apart.outline(apart.cells[static_cast<std::size_t>(other)]);
             for (const double share : {0.01, 0.5, 0.99}) {
                 const double s = from + share * (to - from);

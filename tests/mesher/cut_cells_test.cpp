@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Voronoi cells cut by traces that are too close for cells of their own. Edges lie on both sides of every trace, pieces
-// are whole and not too small, and tips are where they were requested or reported.
+// Tests Voronoi cells cut by traces that are too close together for rows of cells. Edges must lie on both sides of
+// every trace, pieces must be complete and not too small, and trace ends must be where they were requested or reported.
 
 #include "mesher/cut_cells.hpp"
 
@@ -18,12 +18,12 @@ using testing::packing_like;
 using testing::TraceCheck;
 using testing::within;
 
-constexpr double spacing = 0.05;  // of packing_like()
+constexpr double spacing = 0.05;  // m, as in packing_like()
 
 MeshRequest cells_with(const Lines& traces, double gap = 0.0) {
     return testing::with_traces(MeshKind::voronoi, traces, gap);
 }
-/// Side by side, along a diagonal, some cells of it.
+/// Two parallel diagonal traces at the given distance.
 Lines two_apart(double apart) {
     return {{{0.303, 0.6}, {0.703, 0.9}},
             {{0.303 - 0.6 * apart, 0.6 + 0.8 * apart}, {0.703 - 0.6 * apart, 0.9 + 0.8 * apart}}};
@@ -34,7 +34,7 @@ TEST(CutCells, HaveEdgesOnBothSidesOfTracesASeventhOfACellApart) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const Lines traces = two_apart(0.15 * spacing);
         const Mesh mesh = make_mesh(packing_like(seed), jointed_box, cells_with(traces));
-        if (mesh.report.cells_cut == 0) continue;  // rows of cells fit
+        if (mesh.report.cells_cut == 0) continue;  // there was space for rows of cells
         ++cut;
         const TraceCheck found = check(mesh, traces);
         EXPECT_TRUE(within("distance of the edges from the traces", found.off_line, 0.0, 2e-12));
@@ -48,7 +48,7 @@ TEST(CutCells, HaveEdgesOnBothSidesOfTracesASeventhOfACellApart) {
 TEST(CutCells, OfCrowdedTracesAreCountedAndNotTooSmall) {
     int cut = 0, fair = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        // A third crosses both at a small angle.
+        // A third trace crosses both at a small angle.
         Lines traces = two_apart(0.2 * spacing);
         traces.push_back({{0.3, 0.55}, {0.7, 1.0}});
         try {
@@ -57,8 +57,8 @@ TEST(CutCells, OfCrowdedTracesAreCountedAndNotTooSmall) {
             ++cut;
             double least = 1e300;
             for (const Cell& cell : mesh.cells) least = std::min(least, cell.area);
-            EXPECT_GT(least, 0.002 * spacing * spacing) << "where no other way gives a mesh, small pieces stay";
-            if (least > 0.02 * spacing * spacing) ++fair;  // rows of cells are at least a fifth wide
+            EXPECT_GT(least, 0.002 * spacing * spacing) << "if no other way gives a mesh, small pieces remain";
+            if (least > 0.02 * spacing * spacing) ++fair;  // rows of cells are at least a fifth of a spacing wide
             double asked = 0.0;
             for (const auto& trace : traces) asked += length_of(trace);
             EXPECT_TRUE(within("length on traces", mesh.report.trace_length, asked,
@@ -77,7 +77,7 @@ TEST(CutCells, LetMostNetworksOfShortTracesBeMeshed) {
         std::mt19937_64 generator(seed);
         const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
         Lines traces;
-        while (traces.size() < 20) {  // four cells long, ten to the area
+        while (traces.size() < 20) {  // traces are four cells long; about ten fit into the area
             const Point middle{0.1 + 0.8 * number(), 0.1 + 1.8 * number()};
             const double turn = 3.14159 * number(), x = 2.0 * spacing * std::cos(turn),
                          y = 2.0 * spacing * std::sin(turn);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Delaunay triangles: empty circumcircles, the guide's count, flat faces on request, and gaps of exactly `thick`.
+// Tests Delaunay triangles: empty circumcircles, the guide's number of triangles, flat faces on request, and gaps of
+// exactly `thick`.
 
 #include <cstddef>
 #include <functional>
@@ -22,8 +23,8 @@ MeshRequest delaunay(Boundary boundary, double thick) {
     return request;
 }
 
-/// Centres along the outer chain, with repetition where it touches itself: as many as Voronoi edges that end on the
-/// boundary.
+/// Number of centres along the outer chain, counting repetitions where it touches itself. It equals the number of
+/// Voronoi edges that end on the boundary.
 int chain_length(const std::vector<CellCentre>& centres, const Rectangle& domain) {
     const Mesh cells = make_mesh(centres, domain, MeshRequest{});
     std::set<std::pair<double, double>> ends;
@@ -48,7 +49,7 @@ TEST(DelaunayOfSeeds, CountIsTwoNMinusTwoMinusH) {
 }
 
 TEST(DelaunayOfSeeds, TheGuidesSpecimenHasAboutItsTriangles) {
-    // 304 centres spread like a packing: 537 triangles, so 69 centres along the chain.
+    // 304 centres distributed as in a packing give 537 triangles, so 69 centres are on the chain.
     const Rectangle domain{0.0, 0.63, 0.0, 1.26};
     const auto centres = testing::lattice(12, 25, domain, 0.5, 2);
     const Mesh mesh = make_mesh(centres, domain, delaunay(Boundary::centres, 0.0));
@@ -98,7 +99,7 @@ TEST(DelaunayOfSeeds, CircumcirclesAreEmptyAndCentredInTheDomain) {
 
 TEST(DelaunayOfTheDomain, AreasSumToTheDomainsAndTrianglesAreConvex) {
     for (const auto& specimen : testing::specimens()) {
-        if (specimen.name == "hardly off the wall") continue;  // no room for a triangle: MeshRefusal
+        if (specimen.name == "hardly off the wall") continue;  // no triangle is possible, see MeshRefusal
         SCOPED_TRACE(specimen.name);
         const Mesh mesh = make_mesh(specimen.centres, specimen.domain, delaunay(Boundary::domain, 0.0));
         EXPECT_TRUE(
@@ -124,9 +125,9 @@ TEST(DelaunayOfTheDomain, EverySeedIsACornerAndFacesAreFlat) {
             if (testing::on_one_side(a, b, domain)) face += std::hypot(b.x - a.x, b.y - a.y);
         }
     }
-    EXPECT_EQ(used.size(), centres.size() + 1);  // with -1
+    EXPECT_EQ(used.size(), centres.size() + 1);  // includes -1
     EXPECT_TRUE(agrees("length of the faces", face, 4.0, 1e-12));
-    // Each seed whose Voronoi cell has an edge on a wall has its foot there, beside the four corners.
+    // Each centre whose Voronoi cell has an edge on a wall is projected onto it; the four corners are added.
     const Mesh cells = make_mesh(centres, domain, MeshRequest{});
     std::set<std::pair<double, double>> feet{{0, 0}, {0, 1}, {1, 0}, {1, 1}};
     for (const Cell& cell : cells.cells) {
@@ -186,7 +187,7 @@ TEST(Delaunay, SameSeedsSameBytes) {
 
 TEST(Delaunay, MergingASliverMakesAConvexQuadrangle) {
     const Rectangle domain{0.0, 1.0, 0.0, 1.0};
-    // Three centres 3 degrees apart on a circle that holds no other: a triangle 6e-4 high, sound ones beyond it.
+    // Three centres 3 degrees apart on an empty circle form a triangle 6e-4 high, surrounded by well-shaped ones.
     std::vector<CellCentre> centres;
     for (const auto& [radius, degrees] :
          {std::pair{0.45, 87.0}, {0.45, 90.0}, {0.45, 93.0}, {0.47, 200.0}, {0.48, 340.0}, {0.46, 270.0}}) {

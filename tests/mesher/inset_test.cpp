@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The inset of one convex polygon against closed forms.
+// Tests the inset of one convex polygon against closed forms.
 
 #include "mesher/inset.hpp"
 
@@ -29,7 +29,7 @@ TEST(Inset, TriangleLivesUpToItsInscribedRadius) {
     EXPECT_TRUE(agrees("inscribed radius", inscribed_radius(triangle, 1.0), 0.1, 1e-5));
     EXPECT_EQ(inset(triangle, 0.0999).size(), 3U);
     EXPECT_TRUE(inset(triangle, 0.1001).empty());
-    // Similar about the incentre, by 1 - d/r.
+    // The inset is similar to the triangle about its incentre, with ratio 1 - d/r.
     const auto half = inset(triangle, 0.05);
     EXPECT_TRUE(agrees("area at half the radius", testing::area_of(half), 0.25 * 0.06, 1e-12));
 }
@@ -48,12 +48,12 @@ TEST(Inset, NeedleIsInsetAlongBothLongEdges) {
 }
 
 TEST(Inset, ShortEdgeVanishesWithoutMovingTheOthers) {
-    // A square with a corner cut by 0.01: at depth 0.1 the cut's half-plane no longer matters.
+    // A square with a corner cut off by 0.01: at a depth of 0.1 the half-plane of the cut has no effect any more.
     const std::vector<Point> cut{{0, 0}, {1, 0}, {1, 0.99}, {0.99, 1}, {0, 1}};
     const auto result = inset(cut, 0.1);
     ASSERT_EQ(result.size(), 4U);
     EXPECT_TRUE(agrees("area", testing::area_of(result), 0.64, 1e-14));
-    // At 0.01 it still does: tan(22.5 degrees) of the depth is lost at each end.
+    // At a depth of 0.01 it still has an effect: each end of the edge loses tan(22.5 degrees) times the depth.
     const auto shallow = inset(cut, 0.01);
     ASSERT_EQ(shallow.size(), 5U);
     EXPECT_TRUE(agrees("length of the cut", std::hypot(shallow[3].x - shallow[2].x, shallow[3].y - shallow[2].y),
@@ -68,7 +68,7 @@ TEST(Inset, StraightCornerIsNone) {
 }
 
 TEST(Inset, StraightCornerThatIsKeptIsOneAndConvex) {
-    // A trace ends in the middle of the lower edge; the point above is not a corner, and is dropped.
+    // A trace ends in the middle of the lower edge, so this flat corner is kept; the one in the upper edge is dropped.
     const std::vector<Point> square{{0, 0}, {0.5, 0}, {1, 0}, {1, 1}, {0.5, 1}, {0, 1}};
     const std::vector<char> kept{0, 1, 0, 0, 0, 0};
     for (const double depth : {0.0, 0.125}) {
@@ -79,7 +79,7 @@ TEST(Inset, StraightCornerThatIsKeptIsOneAndConvex) {
         EXPECT_TRUE(within("place off it", result[1].y, depth, 1e-14));
         const Point in{result[1].x - result[0].x, result[1].y - result[0].y},
             out{result[2].x - result[1].x, result[2].y - result[1].y};
-        EXPECT_GT(cross(in, out), 0.0) << "the solver takes it for convex";
+        EXPECT_GT(cross(in, out), 0.0) << "the solver treats the union as convex";
     }
 }
 
@@ -100,7 +100,7 @@ TEST(Inset, EveryPointIsAtLeastTheDepthFromEveryEdge) {
                 const Point a = outline[k], b = outline[(k + 1) % outline.size()];
                 nearest = std::min(nearest, testing::cross(a, b, p) / std::hypot(b.x - a.x, b.y - a.y));
             }
-            EXPECT_NEAR(nearest, depth, 1e-12);  // corners touch two of the moved edges
+            EXPECT_NEAR(nearest, depth, 1e-12);  // the smallest distance is found at corners
         }
     }
 }

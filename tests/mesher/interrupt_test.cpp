@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An interrupt ends the making of a mesh, wherever it is.
+// Tests that an interrupt ends meshing at any stage.
 
 #include <functional>
 #include <optional>
@@ -13,11 +13,12 @@ namespace {
 struct Request {
     const char* name;
     MeshRequest request;
-    int questions;  // at least: each of 5000 centres is a piece where it is inserted, each triangle and cell where it
-                    // is looked at or cut, a thousand pieces a question
+    // Least number of calls of `interrupted`: 5000 centres are inserted, and their triangles and cells are processed,
+    // with one call per thousand units of work.
+    int questions;
 };
 
-/// One of each way that a mesh is made.
+/// One request for each kind of mesh.
 std::vector<Request> all_ways() {
     MeshRequest triangles, outlined;
     triangles.kind = outlined.kind = MeshKind::delaunay;
@@ -30,7 +31,7 @@ std::vector<Request> all_ways() {
             {"Delaunay along traces", testing::with_traces(MeshKind::delaunay, lines), 36}};
 }
 
-/// The mesh, if it is made before question `last`; and how often was asked.
+/// The mesh, if it is completed before call number `last`, and the number of calls.
 std::pair<std::optional<Mesh>, int> meshed(MeshRequest request, int last) {
     int asked = 0;
     request.interrupted = [&] { return ++asked >= last; };
@@ -53,7 +54,7 @@ TEST(MeshInterrupt, IsHeardThroughoutAndChangesNothingWhereItDoesNotCome) {
         for (const int last : {1, questions / 2, questions}) {
             const auto [none, asked] = meshed(way.request, last);
             EXPECT_FALSE(none.has_value()) << "of question " << last;
-            EXPECT_EQ(asked, last) << "no more is asked once the answer was yes";
+            EXPECT_EQ(asked, last) << "after the first positive answer, no further question is asked";
         }
     }
 }

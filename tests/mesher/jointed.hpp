@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshes with traces, and what their edges on traces come to.
+// Makes meshes with traces, and measures their edges on traces.
 #pragma once
 
 #include <algorithm>
@@ -30,11 +30,11 @@ inline double distance_from_line(Point a, Point b, Point p) {
     return std::abs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / distance(a, b);
 }
 
-/// What edges on traces come to, of a mesh without inset.
+/// Properties of the edges on traces, for a mesh without inset.
 struct TraceCheck {
-    std::map<int, double> length;   // by trace, each edge once
+    std::map<int, double> length;   // length of edges by trace, each edge counted once
     double off_line = 0.0;          // largest distance of a corner from its trace
-    bool paired = true;             // each edge once on either side
+    bool paired = true;             // whether each edge occurs once on either side
     double between_sides = 0.0;     // largest difference of the lengths on either side of a trace
     double smallest_angle = 180.0;  // degrees, of cells with a corner on a trace
 };
@@ -51,7 +51,7 @@ inline TraceCheck check(const Mesh& mesh, const Lines& traces) {
             if (trace < 0) continue;
             const Point a = corners[k], b = corners[(k + 1) % corners.size()];
             const auto& line = traces[static_cast<std::size_t>(trace)];
-            double off = 1e300;  // from the straight part that it lies on
+            double off = 1e300;  // distance from the nearest straight part
             for (std::size_t part = 0; part + 1 < line.size(); ++part)
                 off = std::min(off, std::max(distance_from_line(line[part], line[part + 1], a),
                                              distance_from_line(line[part], line[part + 1], b)));
@@ -96,8 +96,8 @@ struct NetworkCount {
     int meshed = 0, refused = 0, cut = 0;
 };
 
-/// Networks of few and of many traces, with small angles, traces a thousandth of a cell apart, ends on the walls and
-/// coincident traces. Each is meshed validly, or refused naming traces.
+/// Random networks with few or many traces, some with small angles, traces a thousandth of a cell apart, ends on walls,
+/// or coincident traces. Each must give a valid mesh or an error that names traces.
 inline NetworkCount mesh_random_networks(MeshKind kind, std::uint64_t networks) {
     NetworkCount result;
     for (std::uint64_t seed = 1; seed <= networks; ++seed) {
@@ -129,7 +129,7 @@ inline NetworkCount mesh_random_networks(MeshKind kind, std::uint64_t networks) 
                 if (edge.trace >= 0)
                     expected += distance(graph.nodes[static_cast<std::size_t>(edge.from)],
                                          graph.nodes[static_cast<std::size_t>(edge.to)]);
-            // Where cells are cut, tips move.
+            // If cells were cut, trace ends may have moved.
             const double moved = mesh.report.cells_cut == 0
                                      ? 0.0
                                      : static_cast<double>(mesh.report.ends_moved) * mesh.report.largest_move;

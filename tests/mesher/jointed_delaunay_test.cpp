@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Delaunay triangles with traces: every trace is a chain of edges on its line, the domain is filled without overlap,
-// and angles are fair. Random networks are meshed or refused by name.
+// Tests Delaunay triangles with traces: every trace is a chain of edges on its line, the domain is filled without
+// overlap, and angles are acceptable. Random networks are meshed or refused with a message that names traces.
 
 #include <algorithm>
 #include <map>
@@ -38,7 +38,7 @@ TEST(JointedDelaunay, EveryTraceIsAChainOfEdgesOnItsLine) {
             EXPECT_TRUE(agrees("length of a trace", found.length.at(static_cast<int>(t)), length_of(traces[t]), 1e-12));
         }
         EXPECT_TRUE(agrees("length reported", mesh.report.trace_length, sum, 1e-12));
-        EXPECT_TRUE(found.paired) << "each edge has a triangle on either side, which both know the trace";
+        EXPECT_TRUE(found.paired) << "each edge has a triangle on either side, and both refer to the trace";
         EXPECT_TRUE(agrees("areas", testing::sum_of_areas(mesh), 2.0, 1e-12));
         EXPECT_TRUE(testing::convex_and_counter_clockwise(mesh, 2.0));
         EXPECT_GT(found.smallest_angle, 20.0);
@@ -75,7 +75,7 @@ TEST(JointedDelaunay, EdgesOfTheInsetMeshKnowTheirTrace) {
     EXPECT_EQ(whole.edge_traces, apart.edge_traces);  // triangles keep their three edges
     EXPECT_EQ(apart.report.trace_edges,
               std::count_if(apart.edge_traces.begin(), apart.edge_traces.end(), [](int t) { return t >= 0; }));
-    // Half the gap inside of the trace.
+    // Edges are inset from the trace by half the gap.
     for (const Cell& cell : apart.cells) {
         const auto corners = apart.outline(cell);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -99,7 +99,7 @@ TEST(JointedDelaunay, MergingNeverCrossesATrace) {
             EXPECT_TRUE(agrees("length on traces", mesh.report.trace_length,
                                length_of(traces[0]) + length_of(traces[1]), 1e-12));
             EXPECT_TRUE(agrees("area", mesh.report.area_before_inset, 2.0, 1e-12));
-        } catch (const MeshError& error) {  // a sliver of random centres that is convex with no neighbour
+        } catch (const MeshError& error) {  // a sliver among random centres that forms a convex union with no neighbour
             EXPECT_NE(std::string(error.what()).find("not convex with any"), std::string::npos);
         }
     }
@@ -107,7 +107,7 @@ TEST(JointedDelaunay, MergingNeverCrossesATrace) {
 }
 
 TEST(JointedDelaunay, ATriangleBetweenTracesThatMergesWithNoneNamesThem) {
-    // By the tip of a wedge of 3 degrees an inset of 4 mm leaves nothing.
+    // At the tip of a wedge of 3 degrees, an inset of 4 mm leaves nothing.
     MeshRequest request = triangles_with({{{0.2, 1.0}, {0.8, 1.0}}, {{0.2, 1.0}, {0.8, 1.0 + 0.6 * 0.05}}}, 8e-3);
     request.merge_destroyed = true;
     try {
@@ -123,7 +123,7 @@ TEST(JointedDelaunay, ATriangleBetweenTracesThatMergesWithNoneNamesThem) {
 }
 
 TEST(JointedDelaunay, EndsNearOtherTracesMeetThem) {
-    // A hundredth short of the other, and of the wall; spacing 0.05.
+    // One trace ends 0.01 before the other, and one before the wall; the spacing is 0.05.
     const Mesh mesh =
         make_mesh(packing_like(6), jointed_box,
                   triangles_with({{{0.0, 1.0}, {1.0, 1.0}}, {{0.5, 0.5}, {0.5, 0.99}}, {{0.4, 1.5}, {0.992, 1.5}}}));
@@ -143,7 +143,7 @@ TEST(JointedDelaunay, SameInputSameBytes) {
 
 TEST(JointedDelaunay, RandomNetworksAreMeshedOrRefusedByName) {
 #ifdef __SANITIZE_ADDRESS__
-    constexpr int networks = 300;  // each takes several times as long there
+    constexpr int networks = 300;  // with sanitizers, each takes several times as long
 #else
     constexpr int networks = 1000;
 #endif
@@ -155,7 +155,7 @@ TEST(JointedDelaunay, RandomNetworksAreMeshedOrRefusedByName) {
 TEST(JointedDelaunay, CoincidentCentresAreNamedAsTheyAreGiven) {
     auto centres = packing_like(8);
     const auto last = static_cast<int>(centres.size());
-    centres.push_back(centres[790]);  // far from the trace, which makes centres before it give way
+    centres.push_back(centres[790]);  // far from the trace; centres near the trace are omitted, which changes indices
     try {
         make_mesh(centres, jointed_box, triangles_with({{{0.0, 0.1}, {0.5, 0.4}}}));
         FAIL() << "meshed";

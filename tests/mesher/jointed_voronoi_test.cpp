@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Voronoi cells with traces: every trace is a chain of edges on its line, the domain is filled without overlap, and
-// random networks are meshed or refused by name.
+// Tests Voronoi cells with traces: every trace is a chain of edges on its line, and the domain is filled without
+// overlap. Random networks are meshed or refused with a message that names traces.
 
 #include "mesher/mirrored_seeds.hpp"
 #include "tests/mesher/jointed.hpp"
@@ -24,7 +24,7 @@ MeshRequest cells_with(Lines traces, double gap = 0.0) {
 
 TEST(JointedVoronoi, EveryTraceIsAChainOfEdgesOnItsLine) {
     for (const Lines& traces :
-         {Lines{{{0.2, 0.7}, {0.8, 1.1}}},                                        // two tips
+         {Lines{{{0.2, 0.7}, {0.8, 1.1}}},                                        // two free ends
           Lines{{{0.0, 0.5}, {1.0, 0.9}}},                                        // from wall to wall
           Lines{{{0.2, 0.5}, {0.8, 0.9}}, {{0.3, 1.0}, {0.6, 0.4}}},              // a crossing
           Lines{{{0.1, 0.4}, {0.5, 0.9}, {0.9, 1.0}}, {{0.5, 0.9}, {0.4, 1.6}}},  // a bend, and a branch
@@ -36,7 +36,7 @@ TEST(JointedVoronoi, EveryTraceIsAChainOfEdgesOnItsLine) {
             for (std::size_t t = 0; t < traces.size(); ++t)
                 EXPECT_TRUE(
                     agrees("length of a trace", found.length.at(static_cast<int>(t)), length_of(traces[t]), 1e-9));
-            EXPECT_TRUE(found.paired) << "each edge has a cell on either side, which both know the trace";
+            EXPECT_TRUE(found.paired) << "each edge has a cell on either side, and both refer to the trace";
             EXPECT_TRUE(agrees("areas", testing::sum_of_areas(mesh), 2.0, 1e-12));
             EXPECT_TRUE(testing::convex_and_counter_clockwise(mesh, 2.0));
         }
@@ -50,7 +50,7 @@ TEST(JointedVoronoi, CellsFarFromTracesAreThoseWithoutThem) {
     std::set<std::vector<std::pair<double, double>>> cells;
     const auto corners_of = [](const Mesh& mesh, const Cell& cell) {
         std::vector<std::pair<double, double>> corners;
-        // Circumcentres are rounded by the corner that they are taken from.
+        // The round-off of a circumcentre depends on the corner from which it is computed.
         for (const Point p : mesh.outline(cell)) corners.emplace_back(std::round(1e9 * p.x), std::round(1e9 * p.y));
         std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
         return corners;
@@ -123,7 +123,7 @@ TEST(JointedVoronoi, EdgesOfTheInsetMeshKnowTheirTrace) {
             length += 0.5 * distance(corners[k], corners[(k + 1) % corners.size()]);
         }
     }
-    // Each edge loses about half a gap at either end.
+    // Each edge is shortened by about half a gap at either end.
     const double whole = length_of(traces[0]) + length_of(traces[1]);
     EXPECT_TRUE(within("length of the inset edges", length,
                        whole - 0.5e-3 * static_cast<double>(apart.report.trace_edges) / 2.0, 0.02 * whole));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A destroyed triangle joins the neighbour with which it is convex, and no other.
+// Tests that a destroyed triangle is merged only with a neighbour with which it is convex.
 
 #include "mesher/merge.hpp"
 
@@ -11,7 +11,8 @@ namespace crackle {
 namespace {
 
 TEST(JoinDestroyed, PassesOverANeighbourWithWhichItIsNotConvex) {
-    // A needle 0-1-2. Beyond its longest edge 0-2, triangle 0-2-3 opens at 2 by more than 90 degrees; 1-0-4 does not.
+    // A needle 0-1-2. With triangle 0-2-3 across its longest edge, the angle at 2 would exceed 180 degrees; with 1-0-4
+    // the union is convex.
     Triangles mesh;
     mesh.points = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.01}, {1.3, 0.5}, {0.5, -0.5}};
     mesh.corners = {{0, 1, 2}, {0, 2, 3}, {1, 0, 4}};
@@ -20,13 +21,14 @@ TEST(JoinDestroyed, PassesOverANeighbourWithWhichItIsNotConvex) {
     EXPECT_EQ(joined.joined, (std::vector<bool>{true, false, true}));
     ASSERT_EQ(joined.outlines.size(), 1U);
     EXPECT_EQ(joined.outlines[0].triangle, 0);
-    // Counter-clockwise 0, 4, 1, 2, from any corner.
+    // The corners are 0, 4, 1, 2, counter-clockwise, starting at any of them.
     auto corners = joined.outlines[0].corners;
     std::rotate(corners.begin(), std::find(corners.begin(), corners.end(), 0), corners.end());
     EXPECT_EQ(corners, (std::vector<int>{0, 4, 1, 2}));
 }
 
-/// A needle 0-1-2 with a neighbour beyond each of its long edges, 0-2 a little longer than 0-1; it is convex with both.
+/// A needle 0-1-2 with a neighbour across each of its long edges, of which 0-2 is slightly longer than 0-1. The union
+/// with either is convex.
 Triangles needle_between(Point beyond_longest, Point beyond_next) {
     Triangles mesh;
     mesh.points = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.01}, beyond_longest, beyond_next};
@@ -46,7 +48,8 @@ TEST(JoinDestroyed, PassesOverANeighbourWithWhichItIsStillDestroyed) {
 }
 
 TEST(JoinDestroyed, RefusesASliverThatIsConvexWithNone) {
-    // Corner 2 lies almost on edge 0-1, so nothing above can take the sliver; 1-0-3 below opens at 1 by 177 degrees.
+    // Corner 2 lies almost on edge 0-1, so no union with a triangle above is convex; 1-0-3 below has an angle of 177
+    // degrees at 1.
     Triangles mesh;
     mesh.points = {{0.0, 0.0}, {1.0, 0.0}, {0.9, 0.01}, {2.0, -0.05}, {0.4, 0.5}, {1.2, 0.5}};
     mesh.corners = {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {2, 1, 5}};
@@ -55,7 +58,7 @@ TEST(JoinDestroyed, RefusesASliverThatIsConvexWithNone) {
 }
 
 TEST(JoinDestroyed, GoesOnUntilTheJoinedPolygonSurvives) {
-    // Three strips, each too thin for the inset, that make one sound rectangle.
+    // Three strips, each destroyed by the inset, that together form a rectangle which survives.
     Triangles mesh;
     for (int k = 0; k < 4; ++k) {
         mesh.points.push_back({0.0, 0.01 * k});

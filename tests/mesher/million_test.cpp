@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A million centres: nothing is lost and areas still add up.
+// Tests a mesh of a million centres: all cells exist, and areas add up.
 
 #include "tests/mesher/centres.hpp"
 

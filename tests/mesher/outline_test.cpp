@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells that end at a convex outline within the domain.
+// Tests cells clipped to a convex outline within the domain.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ std::vector<Point> disc(int sides, double radius) {
     return outline;
 }
 
-/// Shaken grid points within a circle somewhat inside the outline.
+/// Randomly displaced grid points within a circle slightly inside the outline.
 std::vector<CellCentre> centres(int count, double radius) {
     std::mt19937_64 generator(7);
     std::vector<CellCentre> all;
@@ -48,7 +48,7 @@ TEST(Outline, CellsFillItAndNoCornerLiesBeyond) {
         request.outline = disc(sides, radius);
         const std::vector<CellCentre> seeds = centres(30, 0.99 * radius * std::cos(std::numbers::pi / sides));
         const Mesh mesh = make_mesh(seeds, {0.0, 1.0, 0.0, 1.0}, request);
-        // A sum of some thousand roundings of numbers below 1.
+        // The tolerance is for about a thousand rounding errors of numbers below 1.
         EXPECT_TRUE(agrees("area of the cells", mesh.report.area_before_inset, area, 1e-12));
         for (const Point& corner : mesh.corners)
             ASSERT_LE(std::hypot(corner.x - 0.5, corner.y - 0.5), radius * (1.0 + 1e-12));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a grid finds is what looking at all of them finds.
+// Tests that a grid finds the same as a search of all items.
 
 #include "mesher/place_grid.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Input of which no mesh can be made is refused in words that name it.
+// Tests that input from which no mesh can be made is refused with a message that names the cause.
 
 #include <limits>
 
@@ -92,14 +92,14 @@ TEST(MeshRefusal, NamesTheCellThatTheInsetDestroys) {
     expect_text(all, "the cell of centre");
     expect_text(all, "destroyed by the inset of 0.15 (100 cells in all)");
     ASSERT_EQ(all.centres.size(), 1U);
-    request.merge_destroyed = true;  // one cell may grow to the whole domain and lives then
+    request.merge_destroyed = true;  // with merging, one cell may grow to the whole domain and survive
     EXPECT_EQ(make_mesh(centres, unit, request).report.cells + make_mesh(centres, unit, request).report.cells_destroyed,
               100);
-    request.mesh_gap = 1.2;  // not even the domain survives
+    request.mesh_gap = 1.2;  // the inset destroys even the whole domain
     expect_text(refusal(centres, unit, request), "destroyed by the inset of 0.6");
 }
 
-/// The number behind some words of a text.
+/// The number that follows some words in a text.
 double number_behind(const std::string& text, const std::string& words) {
     const std::size_t at = text.find(words);
     return at == std::string::npos ? nan : std::stod(text.substr(at + words.size()));
@@ -110,7 +110,7 @@ TEST(MeshRefusal, WhatIsAdvisedWorks) {
     int thinner = 0, merged = 0, other_kind = 0;
     for (const MeshKind kind : {MeshKind::delaunay, MeshKind::voronoi}) {
         for (const bool traced : {false, true}) {
-            for (const double depth : {0.02, -0.02, 0.04, -0.04}) {  // of the gap by half, or as an inset
+            for (const double depth : {0.02, -0.02, 0.04, -0.04}) {  // requested as an inset, or as half the gap
                 const bool by_inset = depth < 0.0;
                 MeshRequest request;
                 request.kind = kind;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Traces as a graph: nodes lie on the lines of their traces, lengths are kept, ends reach what is near, and what
-// coincides is one.
+// Tests traces as a graph: nodes lie on the lines of their traces, lengths are preserved, ends are extended to nearby
+// traces, and coincident parts become one.
 
 #include "mesher/trace_graph.hpp"
 
@@ -69,7 +69,7 @@ TEST(TraceGraph, NodesOfRandomTracesLieOnTheirLinesAndKeepTheirLength) {
 }
 
 TEST(TraceGraph, EndsReachWhatIsNearAlongTheirOwnLine) {
-    // One stops short of the other, one goes past it, one stops short of a wall, one is too far.
+    // One trace ends shortly before another, one shortly after it, one shortly before a wall, and one too far away.
     const Lines traces{{{0.0, 0.5}, {1.0, 0.5}},
                        {{0.2, 0.1}, {0.2, 0.495}},
                        {{0.3, 0.1}, {0.305, 0.502}},
@@ -104,7 +104,7 @@ TEST(TraceGraph, CoincidentTracesAreOne) {
     EXPECT_EQ(length_of(graph, 1), 0.0);
 }
 
-// All of their boxes overlap, but none of the traces meets another one.
+// The bounding boxes of all traces overlap, but no trace meets another.
 TEST(TraceGraph, ManyParallelTracesMeetTheWallsAlone) {
     constexpr int count = 20'000;
     Lines traces;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Voronoi cells: they fill the domain exactly, belong to their nearest seed, and stand exactly `thick` apart.
+// Tests Voronoi cells: they fill the domain exactly, contain the points nearest to their centre, and are exactly
+// `thick` apart.
 
 #include <set>
 
@@ -21,7 +22,8 @@ TEST(Voronoi, CellAreasSumToTheDomains) {
     for (const auto& specimen : testing::specimens()) {
         SCOPED_TRACE(specimen.name);
         const Mesh mesh = make_mesh(specimen.centres, specimen.domain, voronoi(0.0));
-        // Far from the origin a position is rounded at eps times its coordinate, an area at that times the spacing.
+        // Far from the origin, the round-off of a position is epsilon times its coordinate; that of an area is this
+        // value times the spacing.
         EXPECT_TRUE(
             agrees("area of " + specimen.name, testing::sum_of_areas(mesh), testing::area_of(specimen.domain), 1e-12));
         EXPECT_TRUE(agrees("reported", mesh.report.area_before_inset, testing::area_of(specimen.domain), 1e-12));
@@ -88,7 +90,8 @@ TEST(Voronoi, EdgesHalveAndAreOrthogonalToTheirDelaunayDuals) {
                 }
             }
         }
-        // Lengths across the bisector; a badly shaped triangle multiplies the rounding of its circumcentre.
+        // The tolerance is for lengths across the bisector, because in a badly shaped triangle the round-off of the
+        // circumcentre is multiplied.
         const double tolerance = 1e-11 * testing::scale_of(specimen.domain);
         EXPECT_TRUE(within("slant of Voronoi edges of " + specimen.name, slant, 0.0, tolerance));
         EXPECT_TRUE(within("their distance from the middle", off_middle, 0.0, tolerance));
@@ -198,7 +201,7 @@ TEST(Voronoi, MirroredSeedsGiveMirroredCells) {
 TEST(Voronoi, MergingLeavesNeighboursInPlaceOfADestroyedCell) {
     const Rectangle domain{0.0, 1.0, 0.0, 1.0};
     auto centres = testing::lattice(10, 10, domain, 0.3);
-    centres.push_back({centres[44].x + 1e-4, centres[44].y});  // the cells of both are 5e-2 long, half as wide
+    centres.push_back({centres[44].x + 1e-4, centres[44].y});  // the cells of both are 5e-2 long and half as wide
     centres.push_back({centres[44].x - 1e-4, centres[44].y});  // leaves 44 a cell 1e-4 wide
     MeshRequest request = voronoi(1e-3);
     EXPECT_THROW(make_mesh(centres, domain, request), MeshError);

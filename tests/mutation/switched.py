@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All faults in one build, each behind a switch that the environment sets: CRACKLE_FAULT=n, n from 1 in the list's order.
+"""Puts all faults into one build, each behind a switch that the environment sets: CRACKLE_FAULT=n, with n from 1 in the order of the list.
 
-A fault's new text becomes a choice between it and the old one: by itself where only a number, a name or a whole statement differs. Elsewhere it does
-so by the fault's `switch = [part of the source, the same with a choice]`, where `@` stands for its switch."""
+A fault's new text becomes a choice between new and old text. The choice is derived if only a number, a name or a whole statement differs.
+Otherwise the fault has `switch = [part of the source, the same part with a choice]`, in which `@` stands for the switch."""
 
 import re
 
@@ -24,11 +24,11 @@ _token = re.compile(r'"(?:\\.|[^"\\])*"|\d[\w.]*|[A-Za-z_]\w*|->|::|<=|>=|==|!=|
 _number = r"[\d.]+(?:e\d+)?"
 _name = r"[A-Za-z_]\w*"
 _constant = re.compile(r"\s*(?:inline |static )*constexpr ")
-_owner = re.compile(r"(?:[A-Za-z_]\w*(?:\[\w+\])?(?:\.|->|::))*$")  # of a member
+_owner = re.compile(r"(?:[A-Za-z_]\w*(?:\[\w+\])?(?:\.|->|::))*$")  # what precedes a member's name
 
 
 def _derived(old, new):
-    """The choice between two texts that differ by a number, a name, or as whole statements; None of others."""
+    """The choice between two texts that differ by a number, a name, or as whole statements; otherwise None."""
     before, after = _token.findall(old), _token.findall(new)
     first = 0
     while first < min(len(before), len(after)) and before[first] == after[first]:
@@ -57,7 +57,7 @@ def _derived(old, new):
 
 
 def choices(faults, tree):
-    """@return complaints; and by file where each choice stands: begin, end, text, name of the fault"""
+    """@return error messages; and by file the place of each choice: begin, end, text, name of the fault"""
     complaints, places = [], {}
     for number, fault in enumerate(faults, 1):
         part, choice = fault.get("switch") or (fault["old"], _derived(fault["old"], fault["new"]))

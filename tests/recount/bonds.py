@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which points are bonded, their share of a face, and what they stand (solver/MODEL.md 4.5 and 5)."""
+"""Which points are bonded, their shares of faces, and their strengths (solver/MODEL.md 4.5 and 5)."""
 
 import math
 from dataclasses import dataclass
@@ -10,11 +10,11 @@ import numpy as np
 from model import Points, single
 from outlines import outset
 
-least_facing = 0.9  # minus the cosine between edges that face each other: those of a mesh lie parallel
-least_lap, flush = 0.01, 1e-9  # of the mean radius; of both: rounding of flat faces that lie flush
-facing_share = 1e-6  # of bond.thick: rounding; faces of an open joint that lie against each other
-parallel_within = 1e-6  # sine between edges of one trace, apart from the rounding of corners
-overhang = 0.05  # of bond.thick: gap at which corners of polygons are still bonded, if bond.gap is not given
+least_facing = 0.9  # minus the cosine between edges that face each other, which are parallel in a mesh
+least_lap, flush = 0.01, 1e-9  # fractions of the mean radius; flush: rounding of flat faces that touch without overlap
+facing_share = 1e-6  # fraction of bond.thick: rounding for touching faces of an open joint
+parallel_within = 1e-6  # sine of the angle between edges on the same trace: rounding of corners
+overhang = 0.05  # fraction of bond.thick: largest gap at which corners of polygons are bonded, if bond.gap is not given
 _all_bits = (1 << 64) - 1
 
 
@@ -22,9 +22,9 @@ _all_bits = (1 << 64) - 1
 class Bonds(Points):
     """Bonded points; `overlap` is δ0."""
 
-    held: np.ndarray  # never breaks and never slides
-    tensile: np.ndarray  # N, T; by back-tension k_n δ0
-    cohesion: np.ndarray  # N, C; by back-tension μ k_n δ0
+    held: np.ndarray  # true if it never breaks and never slides
+    tensile: np.ndarray  # N, T; for back-tension k_n δ0
+    cohesion: np.ndarray  # N, C; for back-tension μ k_n δ0
 
 
 def mixed(x):
@@ -36,7 +36,7 @@ def mixed(x):
 
 
 def root_between(f, low, high):
-    """By bisection of a monotonous function."""
+    """Root of a monotonic function, by bisection."""
     rises = f(high) > f(low)
     for _ in range(200):
         middle = (low + high) / 2
@@ -56,7 +56,7 @@ def quantile_of(distribution, cv):
         m = root_between(excess, 0.2, 1e5)
         return lambda p: (-math.log1p(-p)) ** (1 / m) / math.gamma(1 + 1 / m)
 
-    # A normal distribution of mean 1 and deviation s before it is truncated at 0, then scaled to a mean of 1.
+    # A normal distribution with mean 1 and standard deviation s is truncated at 0 and then scaled to a mean of 1.
     def truncated(s):
         ratio = NormalDist().pdf(1 / s) / NormalDist().cdf(1 / s)
         mean = 1 + s * ratio
@@ -68,7 +68,7 @@ def quantile_of(distribution, cv):
 
 
 def factors(results, ids_a, ids_b):
-    """Random factor of each pair of bodies' ids."""
+    """Random strength factor of each pair of bodies."""
     distribution = results.key("bond", "strength_distribution", "none")
     if distribution == "none":
         return np.ones(len(ids_a))
@@ -84,17 +84,17 @@ def factors(results, ids_a, ids_b):
 
 @dataclass
 class Face:
-    """Where two bodies face each other, the one with the smaller id first."""
+    """The face between two bodies; the first body is the one with the smaller id."""
 
     length: float  # m
-    distance: float  # m, of the centroids across it; of a platen from the middle of the gap
-    begin: np.ndarray  # along the edge of the first, in the middle of the gap
+    distance: float  # m, between the centroids; for a platen from the centroid to the middle of the gap
+    begin: np.ndarray  # along the edge of the first body, in the middle of the gap
     end: np.ndarray
-    parallel: bool  # both edges
+    parallel: bool  # whether both edges are parallel
 
 
 def face(model, i, j, gap):
-    """None where they face each other nowhere. @param i  the one with the smaller id"""
+    """The face between two bodies; None if no edges face each other. @param i  the body with the smaller id"""
     best = None
     outlines = [outset(model.centre[b] + model.outline[b, : model.corner_count[b]], gap / 2) for b in (i, j)]
     for k, a in enumerate(outlines[0]):
@@ -110,18 +110,18 @@ def face(model, i, j, gap):
                 best = (stop - start, b, other / math.hypot(*other), a + start * to, a + stop * to, to)
     if best is None:
         return None
-    length, at, along, begin, end, to = best  # of a platen, which is the second, its own line
+    length, at, along, begin, end, to = best  # a platen is always the second body
     held = j >= model.count
     distance = abs(np.cross(along, model.centre[i] - at)) if held else math.dist(model.centre[i], model.centre[j])
     return Face(length, distance, begin, end, abs(np.cross(to, along)) < parallel_within)
 
 
 def faces_of(model, p):
-    """Faces of each pair of polygons with points among these, by its bodies, the smaller id first."""
+    """Faces of the pairs of polygons to which these points belong, by pair, with the smaller id first."""
     found = {}
     for pair, own in by_pairs(p).items() if model.polygons else ():
         i, j = sorted(pair, key=lambda b: model.ids[b])
-        # Corners overhang: the least gap is that of the faces.
+        # Corners may overhang, so the smallest gap is that of the faces.
         one = face(model, i, j, np.min(model.thick - p.overlap[own]))
         if one is not None:
             found[i, j] = one
@@ -129,7 +129,7 @@ def faces_of(model, p):
 
 
 def share_faces(model, p, faces):
-    """Sets the shares of stiffness of bonded points. @return of the length that strengths in Pa act on, m"""
+    """Sets the stiffness shares of bonded points. @return length on which a strength in Pa acts, m"""
     flat = ~np.isnan(p.lap)
     length, distance, count = np.where(flat, 1.0, model.lengths(p)), model.distances(p), np.ones(len(p.i))
     own = by_pairs(p)
@@ -137,14 +137,14 @@ def share_faces(model, p, faces):
         of_pair = own.get(frozenset(pair), [])
         length[of_pair], distance[of_pair], count[of_pair] = found.length, found.distance, len(of_pair)
     left, left_of_shear = model.across_joint(p, distance)
-    lap = np.where(flat, p.lap, 1.0)  # shares of flat faces are kept for a metre
+    lap = np.where(flat, p.lap, 1.0)  # shares of flat faces are stored per metre of lap
     p.share = single(length / distance / count * left) * lap
     p.shear_share = p.share * single(np.sqrt(left_of_shear / left)) ** 2
     return length / count * lap
 
 
 def faces_on_traces(model, p, faces):
-    """Middle (m) and length of each pair's face that is listed as on a trace, by their ids."""
+    """Middle (m) and length of each face that is listed as on a trace, by the ids of its bodies."""
     found = {}
     for pair, own in by_pairs(p).items():
         ids = frozenset(model.ids[b] for b in pair)
@@ -155,7 +155,7 @@ def faces_on_traces(model, p, faces):
 
 
 def by_pairs(p):
-    """Numbers of the points of each pair of bodies."""
+    """Indices of the points of each pair of bodies."""
     pairs = {}
     for k, pair in enumerate(zip(p.i.tolist(), p.j.tolist())):
         pairs.setdefault(frozenset(pair), []).append(k)
@@ -163,7 +163,7 @@ def by_pairs(p):
 
 
 def make_bonds(model, points):
-    """Bonded points of the specimen at rest, among all that come near. The model learns what these keep for good."""
+    """Bonded points of the specimen at rest, selected from all points that come near. The model stores the properties that these keep."""
     case = model.results.key
     gap = np.zeros(len(points.i))
     if model.coulomb and model.polygons:
@@ -184,7 +184,7 @@ def make_bonds(model, points):
     if model.polygons:
         p.trace = np.array([model.trace_of(i, j) for i, j in zip(p.i.tolist(), p.j.tolist())], int)
     is_open = model.joints.of("bonded", p.trace, 1.0) == 0
-    # Corners that overhang are as contacts met later.
+    # Overhanging corners have the properties of contacts that form later.
     facing = ~is_open | ~np.isnan(p.lap) | (p.overlap >= -facing_share * model.thick)
     p, is_open, length = p.chosen(facing), is_open[facing], length[facing]
     if model.by_area:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Texts of the cases that recount_test.py runs, put together from parts."""
+"""The cases that recount_test.py runs, assembled from parts."""
 
 rock = """
 [packing]
@@ -79,7 +79,7 @@ rate = "axial_strain_rate = 0.02\n"
 bonded = 'platens = "bonded"\n'
 friction = 'platens = "frictional"\nplaten_friction_angle = 15.0\n'
 
-# The bodies with bonds of strengths of their own, and with stiffness and strengths of an area.
+# Coulomb bonds between the same bodies, and stiffnesses and strengths per area.
 packing = rock[: rock.index("[material]")]
 area = """[material]
 units = "area"
@@ -101,7 +101,7 @@ def scattered(distribution, cv):
 factors = "tensile_factor = 1.0\ncohesion_factor = 3.0\nrange = 0.05\n" + scattered("lognormal", 0.3)
 circles_every_step = rock[len(packing) :] + cohesive + factors + squeezed + "axial_strain_rate = 0.3\n"
 
-# Joints at 60 degrees through the middle of 80 particles, 0.2556 m wide, and of 16 to 24.
+# Joints at 60 degrees through the middle of specimens with 80 particles (0.2556 m wide) and with 16 to 24.
 joint = '[joints]\nseed = 1\n[[joint_set]]\nname = "plane"\nangle = 60.0\nspacing = 10.0\nthrough = [0.128, 0.256]\n'
 gaps = joint.replace("spacing = 10.0", 'length = "gaps"\nlength_mean = 0.1\ngap_mean = 0.1\nspacing = 10.0')
 joint_of_few = joint.replace("0.128, 0.256", "0.07, 0.14")
@@ -115,7 +115,7 @@ shear_stiffness = 4.0e11
 weaker = "strength_factor = 0.05\nresidual_friction_angle = 15.0\n"
 open_faces = "bonded = false\nfriction_angle = 25.0\n"
 dilating = "dilation_angle = 5.0\ndilation_slip = 2e-4\n"
-wide_gaps = cells.replace("1e-3", "5e-3")  # slips stay below them
+wide_gaps = cells.replace("1e-3", "5e-3")  # slips stay below the gaps
 jointed = packing + area + strengths
 touching = cohesive + "range = 0.05\n"  # circles
 a_row_a_step = '[output]\nframe_precision = "double"\nframes = 60000\ncurve_rows = 60000\n'

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests whose platen turns round (specimens/setup/METHODS.md): the strain travelled, first loading, figures of cycles."""
+"""Tests whose platen reverses (specimens/setup/METHODS.md): travelled strain, first loading, figures of cycles."""
 
 import math
 
 import numpy as np
 
-unload_to = 0.1  # of the stress where unloading begins, if loading.unload_to is not given
-creep = 0.05  # of the largest rate
+unload_to = 0.1  # fraction of the stress at which unloading begins, if loading.unload_to is not given
+creep = 0.05  # fraction of the largest rate
 
 
 def unloads(results):
@@ -18,7 +18,7 @@ def turns_round(results):
 
 
 def first_loading(results, strain):
-    """Rows that lie farther than all before them; all of a test that is not unloaded."""
+    """Rows whose strain is larger than in all earlier rows; all rows if the test is not unloaded."""
     if not unloads(results):
         return np.arange(len(strain))
     farthest = np.maximum.accumulate(np.concatenate([[-math.inf], strain[:-1]]))
@@ -26,14 +26,14 @@ def first_loading(results, strain):
 
 
 def travel(results, strain):
-    """Strain travelled back and forth up to each row, and what turns between rows may add to all of it."""
+    """Strain travelled back and forth up to each row, and the most that reversals between rows can add to it."""
     steps = np.diff(strain, prepend=strain[0])
     turns = int(np.sum(steps[1:] * steps[:-1] < 0)) if turns_round(results) else 0
     return np.cumsum(np.abs(steps)), 2 * turns * np.abs(steps).max()
 
 
 def first_share(results, limit, first, transit, modulus):
-    """Share of the largest rate at which a test begins whose first turn is near. @param first  strain at which bonds yield"""
+    """Share of the largest rate at which a test begins if its first reversal is near. @param first  strain at which bonds yield"""
     if not unloads(results):
         return 1.0
     at = results.key("loading", "unload_at_strain")
@@ -43,7 +43,7 @@ def first_share(results, limit, first, transit, modulus):
 
 
 def recount_cycles(r):
-    """Every unloading and what is loaded again after it, of all rows."""
+    """Figures of each unloading and reloading, from all rows."""
     if not unloads(r.results):
         return
     c = r.curve
@@ -72,7 +72,7 @@ def recount_cycles(r):
         way, drop = strain[turn] - strain[low], stress[turn] - stress[low]
         modulus, stated = drop / way, r.summary["cycles"][k]["modulus"]
         still = not (c["bonds_broken"][stop] or np.any(c["bonds_slid"][rows]) or np.any(c["points_sliding"][rows]))
-        # Whether something came to touch is in no row: of what else stays as it was either modulus may stand.
+        # Rows do not show whether contacts formed; if nothing else changed, either modulus is accepted.
         elastic = still and stated == whole
         unbalanced = sum(abs(c["stress_top"][row] - c["stress_bottom"][row]) / 2 for row in (turn, low))
         r.key(label + "strain", strain[turn], 0.0)

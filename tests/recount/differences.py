@@ -6,12 +6,12 @@ import re
 
 class Differences:
     def __init__(self):
-        self.figures = {}  # name: times compared, tests, difference and tolerance where it is the largest share of it
+        self.figures = {}  # by name: number of comparisons, tests, and the difference and tolerance with the largest ratio
 
     def take(self, folder, lines):
         for name, stated, ours, difference, tolerance, _ in lines:
             if stated != stated and ours != ours:
-                continue  # not a number in both: that says nothing of the figure
+                continue  # both are NaN, which says nothing about the figure
             name = re.sub(r"^frame \d+:", "frames:", re.sub(r" \[\d+ of \d+\]$", "", name))
             name = re.sub(r"^(minerals\[)\d+\]", r"\1]", name)
             seen = self.figures.setdefault(name, [0, set(), 0.0, tolerance])

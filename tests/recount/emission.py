@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Acoustic events: ae.csv against the breaks of events.csv, and what the summary says of them (specimens/emission/METHODS.md)."""
+"""Acoustic events: ae.csv against the breaks in events.csv, and the figures of the summary (specimens/emission/METHODS.md)."""
 
 import math
 
@@ -9,7 +9,7 @@ from model import rounding
 
 
 def cluster(events, diameter, speed):
-    """Breaks by event. @return lists of row numbers of events.csv, in the order in which the events began"""
+    """Groups breaks into events. @return lists of row numbers of events.csv, in the order in which the events began"""
     open_events, ended = [], []
     for k, (time, x, y) in enumerate(zip(events["time"], events["x"], events["y"])):
         place = np.array([x, y])
@@ -74,7 +74,7 @@ def recount_b(r, magnitudes):
     r.key(names + "error", error)
     stated = [math.nan if end is None else end for end in r.summary["b_value"]["interval"]]
     r.rows(names + "interval", stated, [low, high], rounding * (abs(b) if b == b else 0.0))
-    # The stated magnitude is one of those tried, and none of them is nearer to a line.
+    # The stated magnitude must be one of the tried ones, and no other one may give a smaller distance from a line.
     other, tried = r.summary["b_value"]["least_distance"], np.sort(magnitudes)
     if other["completeness"] is None:
         r.true(names + "least_distance: none of fewer than 50", len(magnitudes) < 50 and other["b"] is None)
@@ -85,7 +85,7 @@ def recount_b(r, magnitudes):
     if not distances:
         return
     least = min(distances)[0]
-    # Either of two places that differ by rounding may be named.
+    # If two magnitudes differ only by rounding, either is accepted.
     best = min((m for d, m in distances if d <= least + 1e-12), key=lambda m: abs(m - other["completeness"]))
     r.key(names + "least_distance.completeness", best)
     above = tried[tried > best] - best
@@ -94,7 +94,7 @@ def recount_b(r, magnitudes):
 
 
 def recount_emission(r, model):
-    """Every row of ae.csv against its breaks and its own moments, and the summary against the rows."""
+    """Compares every row of ae.csv with its breaks and its own moments, and the summary with the rows."""
     a, e, s = r.results.emission, r.events, r.summary.get("emission")
     if a is None:
         r.true("emission: null without ae.csv", s is None and r.summary.get("b_value") is None)
@@ -112,7 +112,7 @@ def recount_emission(r, model):
     r.key("emission.window", 2 * diameter / speed)
     ratios = {m["ratio"] for m in model.materials}
     if len(ratios) == 1 and None not in ratios:
-        r.key("emission.damping_ratio", ratios.pop(), 1e-6)  # shares are in single precision
+        r.key("emission.damping_ratio", ratios.pop(), 1e-6)  # stored shares are in single precision
     count = len(a["time"])
     r.key("emission.events", count)
     xx, xy, yy = (np.asarray(a["moment_" + part], float) for part in ("xx", "xy", "yy"))
@@ -125,7 +125,7 @@ def recount_emission(r, model):
         energy = np.asarray(a["energy"], float)
         of_energy = np.where(energy > 0, 2 / 3 * np.log10(thickness * energy) - 3.2, math.nan)
         percent = 100 * 2 * mean / (2 * np.abs(mean) + 2 * half)
-    # Digits of M are those of its logarithm.
+    # The accuracy of a magnitude is that of a logarithm.
     r.rows("ae: moment_magnitude", a["moment_magnitude"], magnitude, 1e-12)
     r.rows("ae: energy_magnitude", a["energy_magnitude"], of_energy, 1e-12)
     r.rows("ae: isotropic", a["isotropic"], percent, 1e-9)
@@ -140,7 +140,7 @@ def recount_emission(r, model):
            1e-12 * np.asarray(a["duration"], float))
     recount_b(r, known)
     if r.summary["interrupted"]:
-        return  # events were open that have no row yet
+        return  # events that are still open have no row yet
     clusters = cluster(e, r.summary["emission"]["radius"], r.summary["emission"]["shear_wave_speed"])
     r.compare("ae: events of the breaks", count, len(clusters), 0)
     r.compare("ae: breaks", np.sum(a["breaks"]), len(e["time"]), 0)
@@ -148,7 +148,7 @@ def recount_emission(r, model):
     r.compare("ae: energy of all breaks", np.sum(energy), taken, 1e-12 * abs(taken))
     if count != len(clusters) or not count:
         return
-    # Rows are in the order in which events ended; those of one moment lie in different places.
+    # Rows are in the order in which events ended; events that ended in the same step are identified by their places.
     rows = np.lexsort((a["y"], a["x"], a["time"]))
     clusters.sort(key=lambda one: (e["time"][one["rows"][0]], *one["centre"]))
     size = model.width + model.height

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Breaks: rows of events.csv against the bonds, the curve and each other; `r`, `model` and `bonds` as in frames.py."""
+"""Breaks: compares rows of events.csv with the bonds, the curve and each other; `r`, `model` and `bonds` as in frames.py."""
 
 import math
 
@@ -8,14 +8,16 @@ import numpy as np
 from cycles import turns_round
 from model import rounding
 
-# Share of a strength by which a force may grow in a step. At 0.8 of the stable one the stiffest motion turns by 106 degrees.
+# Fraction of a strength by which a force can grow in a step. At 0.8 of the stable step, the phase of the stiffest mode
+# advances by 106 degrees per step.
 one_step = 0.5
-# Share of the energy of all breaks by which their forces grew in the last step, in the mean; for a few breaks it scatters by one_step.
+# Mean growth of the forces in the last step, as a fraction of the energy of all breaks; for single breaks it scatters
+# by one_step.
 mean_step = 0.1
 
 
 def recount_events(r, model, bonds):
-    """Every row of events.csv against the bonds, the curve, and each other."""
+    """Compares every row of events.csv with the bonds, the curve, and the other rows."""
     e, c = r.events, r.curve
     count = len(e["time"])
     r.key("bonds_broken", count)
@@ -36,7 +38,7 @@ def recount_events(r, model, bonds):
         guess = r.results.key("loading", "axial_strain_rate") * e["time"]
         r.rows("events: axial_strain", e["axial_strain"], guess, 1e-9 * guess + 1e-15)
     else:
-        # Where the platen turns between two rows they lie nearer to each other than it has gone.
+        # If the platen reverses between two rows, their distance is smaller than the travelled strain.
         apart = np.abs(np.diff(c["axial_strain"])).max() if turns_round(r.results) else np.abs(width)
         r.rows("events: axial_strain", e["axial_strain"], guess, apart + 1e-12)
     r.rows("events: time", e["time"], c["time"][row - 1] + inside * (c["time"][row] - c["time"][row - 1]),
@@ -48,7 +50,7 @@ def recount_events(r, model, bonds):
     in_shear = np.array([model.coulomb and m == "shear" for m in e["mode"]])
 
     def limit(m, k):
-        """Strength that bond m would have shown in row k."""
+        """Strength that bond m would have in row k."""
         return bonds.cohesion[m] + friction[m] * e["normal_force"][k] if in_shear[k] else bonds.tensile[m]
 
     strength, ours_last, of_bond = [], [], []
@@ -63,7 +65,7 @@ def recount_events(r, model, bonds):
         own.remove(m)
         strength.append(limit(m, k))
         ours_last.append(0)
-    # The last of an interface is the last row of its pair, once no bond of the pair is left.
+    # The last break of an interface is the last row of its pair, provided that no bond of the pair is left.
     final = {frozenset((int(a), int(b))): k for k, (a, b) in enumerate(zip(e["body_i"], e["body_j"]))}
     for pair, k in final.items():
         if left.get(pair) == [] and not held_between(model, bonds, pair):
@@ -77,7 +79,7 @@ def recount_events(r, model, bonds):
     else:
         force = np.hypot(e["normal_force"], e["shear_force"])
         # Normal and shear force are kept in single precision.
-        # 0: it never carried half its strength, since it broke from one step to the next.
+        # They are 0 if the bond never carried half its strength because it broke from one step to the next.
         r.true("events: forces at half the strength or more, or 0",
                np.all((force >= 0.5 * e["strength"] * (1 - 1e-6)) | (force == 0)))
         shear = (np.asarray(e["slid"]) == 1) & (np.abs(e["shear_force"]) > np.abs(e["normal_force"]))
@@ -101,7 +103,7 @@ def held_between(model, bonds, pair):
 
 
 def recount_envelope(r, model, bonds, of_bond, in_shear):
-    """Rows of coulomb bonds: forces when they failed, limits exceeded, energies (solver/MODEL.md 5.2)."""
+    """Rows of coulomb bonds: forces at failure, exceeded limits, energies (solver/MODEL.md 5.2)."""
     e = r.events
     known = of_bond >= 0
     m, in_shear = of_bond[known], in_shear[known]
@@ -109,13 +111,14 @@ def recount_envelope(r, model, bonds, of_bond, in_shear):
     tensile, limit = bonds.tensile[m], bonds.cohesion[m] + model.friction(bonds)[m] * normal
     parts, shears = -normal >= tensile * (1 - rounding), shear >= limit - rounding * bonds.cohesion[m]
     r.compare("events: rows within both limits", int(np.sum(~(parts | shears))), 0, 0)
-    # Where two limits are exceeded in one step, the way decides, which only a frame per step holds (history.py).
+    # If both limits are exceeded in one step, the mode depends on the path within the step, which only a frame per step
+    # shows (history.py).
     r.compare("events: rows with another mode", int(np.sum(np.where(in_shear, ~shears, ~parts))), 0, 0)
     r.compare("events: coulomb bonds that slid", int(np.sum(e["slid"])), 0, 0)
     over = np.where(in_shear, shear - limit, -normal - tensile)
     r.rows("events: force beyond the limit", over, np.zeros(len(over)), one_step * (bonds.tensile + bonds.cohesion).mean())
     r.true("events: no energy below 0", np.all(np.asarray(e["energy"]) >= 0))
-    # What flat faces have turned by is in no file: history.py follows it.
+    # The rotation of flat faces is in no file; history.py follows it.
     at_rest = np.isnan(bonds.lap[m])
     if not at_rest.all():
         r.leave("events: energy of flat faces", "what their circles have turned by is in no file")
@@ -124,7 +127,7 @@ def recount_envelope(r, model, bonds, of_bond, in_shear):
     kept = np.maximum(0.0, normal + kn * (bonds.overlap[m] - model.rest_after(bonds.overlap[m])))
     rubs = np.minimum(shear, model.residual_friction(bonds)[m] * kept)
     stored = (normal**2 - kept**2) / 2 / kn + (shear**2 - rubs**2) / 2 / ks
-    # The account takes the mean force of the last step: at most as much beyond as the force grew in it.
+    # The energy account uses the mean force of the last step, so it differs by at most the growth of the force in it.
     size = (np.abs(normal) + kept) ** 2 / 2 / kn + shear**2 / 2 / ks
     energy = np.asarray(e["energy"])[known]
     r.rows("events: energy of the forces", energy, stored, size)
@@ -148,7 +151,7 @@ def recount_parting(r, model):
         own = [b for b in (i, j) if b < model.count]
         cracks.setdefault(min(group[i]), []).append((np.mean(model.centre[own, 1]) - model.deck.y1, len(own) < 2))
     most = max(len(crack) for crack in cracks.values())
-    found = []  # of two alike either may be named
+    found = []  # all cracks of the largest size; either of two is accepted
     for crack in cracks.values():
         if len(crack) == most:
             height, of_platen = np.mean([c[0] for c in crack]), sum(c[1] for c in crack)

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Flat faces of circles at straight traces (solver/MODEL.md 5.4): who has which part of a trace, and where two meet."""
+"""Flat faces of circles at straight traces (solver/MODEL.md 5.4): which circle has which part of a trace, and where two faces meet."""
 
 import math
 from dataclasses import dataclass
 
 import numpy as np
 
-depth_in_diameters = 2.0  # of the largest circle, to which circles beside a trace have a face
-farthest_reach = 3.0  # radii to both sides
-fewest_neighbours, neighbour_gap, rounds = 2, 0.3, 4  # of circles that a side holds; the gap over the mean radius
+depth_in_diameters = 2.0  # in diameters of the largest circle: distance from a trace up to which circles have a face
+farthest_reach = 3.0  # radii on each side
+fewest_neighbours, neighbour_gap, rounds = 2, 0.3, 4  # a circle is held by a side if it has this many neighbours there; gap over the mean radius
 
 
 @dataclass
@@ -17,16 +17,16 @@ class Part:
 
     trace: int
     begin: np.ndarray
-    along: np.ndarray  # unit
+    along: np.ndarray  # unit vector
     length: float
     from_outside: bool
     to_outside: bool
 
 
 def line_of(faces, own, table, deck):
-    """A point of the straight trace on which faces lie, its direction, and how far off it may be a metre on.
+    """A point of the straight trace on which faces lie, its direction, and the error of the direction.
 
-    @param faces  joints.Faces  @param own  its faces  @param table  of the case  @return None where it is bent"""
+    @param faces  joints.Faces  @param own  its faces  @param table  of the case  @return None if the trace is bent"""
     ends = np.concatenate([faces.middle[own] - faces.along[own] / 2, faces.middle[own] + faces.along[own] / 2])
     last = ends[np.argmax(np.hypot(*(ends - ends[0]).T))]
     at = ends[np.argmax(np.hypot(*(ends - last).T))]
@@ -41,7 +41,7 @@ def line_of(faces, own, table, deck):
 
 
 def line_of_case(table):
-    """Line of a set through a point, or of a trace of two points; None for others."""
+    """Line of a joint set through a given point, or of a trace with two points; otherwise None."""
     points = table.get("points", [])
     if len(points) == 4:
         at, way = np.array(points[:2]), np.array(points[2:]) - points[:2]
@@ -53,7 +53,7 @@ def line_of_case(table):
 
 
 def chord(at, along, deck):
-    """Where a line enters the box and leaves it, m along it."""
+    """Where a line enters and leaves the box, as distances along it, m."""
     low, high = -math.inf, math.inf
     for x, way, least, most in ((at[0], along[0], deck.x1, deck.x2), (at[1], along[1], deck.y1, deck.y2)):
         if way != 0.0:
@@ -63,7 +63,7 @@ def chord(at, along, deck):
 
 
 def part_in_box(trace, faces, own, table, deck, stated):
-    """The trace whose faces these are; None where they do not say where it lies and ends.
+    """The straight trace on which these faces lie; None if they do not determine its position and ends.
 
     @param stated  its length in the box, m"""
     line = line_of(faces, own, table, deck) if own.any() else None
@@ -82,9 +82,9 @@ def part_in_box(trace, faces, own, table, deck, stated):
 
 
 def share_trace(foot, distance, radius, length):
-    """Which stretch of a trace each circle of one side has, by their power diagram: the lower envelope of lines."""
+    """The part of a trace that belongs to each circle of one side, by their power diagram: the lower envelope of lines."""
     at_begin = foot**2 + distance**2 - radius**2
-    envelope = []  # circle and where its stretch begins
+    envelope = []  # circles, and where their parts begin
     for k in sorted(range(len(foot)), key=lambda k: (foot[k], at_begin[k])):
         if envelope and foot[envelope[-1][0]] == foot[k]:
             continue
@@ -104,7 +104,7 @@ def share_trace(foot, distance, radius, length):
 
 
 def take_sides(foot, height, radius):
-    """@return which circles lie on the right of a trace, and which their side holds; those that go over have done so"""
+    """@return which circles lie on the right of a trace, after circles have changed sides, and which are held by their side"""
     apart = np.hypot(foot[:, None] - foot, height[:, None] - height)
     beside = (apart <= (1 + neighbour_gap / 2) * (radius[:, None] + radius)) & ~np.eye(len(foot), dtype=bool)
     right, gone_over = height < 0, np.zeros(len(foot), bool)
@@ -121,7 +121,8 @@ def take_sides(foot, height, radius):
 
 @dataclass
 class FlatFaces:
-    """Face on one part: `body`, its side, and its stretch along the trace from its centre, m, at the height of that."""
+    """Faces on one straight part: bodies, their sides, and the ends of each face along the trace, m from the body's centre. height is the
+    centre's distance from the trace."""
 
     part: Part
     body: np.ndarray
@@ -143,7 +144,7 @@ def lay_faces(model, part):
     body, foot, height = circle[near], foot[near], height[near]
     r = radius[body]
     right, held = take_sides(foot, height, r)
-    distance = np.where(right, -height, height)  # below 0 of those that have gone over
+    distance = np.where(right, -height, height)  # negative for circles that have changed sides
     start, stop, at = -r, r.copy(), np.minimum(r, distance)
     start[held & (foot > part.length)] = (part.length - foot)[held & (foot > part.length)]
     stop[held & (foot < 0)] = -foot[held & (foot < 0)]
@@ -158,7 +159,7 @@ def lay_faces(model, part):
 
 
 def meetings(faces, centre):
-    """Every two faces on opposite sides: their bodies, overlap, lap (m, below 0 where they lie apart), normal, place."""
+    """All pairs of faces on opposite sides: bodies, overlap, lap (m, negative if they are apart), normal, place."""
     a, b = np.flatnonzero(~faces.right), np.flatnonzero(faces.right)
     a, b = (grid.ravel() for grid in np.meshgrid(a, b, indexing="ij"))
     i, j = faces.body[a], faces.body[b]

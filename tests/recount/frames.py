@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What follows from the frames of a test: contacts, forces, stresses, energies, fragments, places of events.
+"""Figures that follow from the frames of a test: contacts, forces, stresses, energies, fragments, places of events.
 
 `r` is a recount.Recount, `model` the specimen between its platens, `bonds` its bonded points at the start."""
 
@@ -11,12 +11,12 @@ from measures import recount_fragments
 from model import dot, platen_depth, rounding, turned
 
 
-touching_floor = 1e-14  # of the height: what rests on frictional platens touches them by rounding, or not
-least_sliding_force = 1e-9  # of the mean strength
+touching_floor = 1e-14  # fraction of the height: whether bodies that rest on frictional platens touch them depends on rounding
+least_sliding_force = 1e-9  # fraction of the mean strength
 
 
 def recount_places(r, model, bonds, rows, what, e):
-    """Places and orientations of events or slips against the bodies in the frames before and after each.
+    """Compares places and orientations of events or slips with the bodies in the frames before and after each.
 
     @param what  their name  @param e  their table"""
     times, places = [], []
@@ -34,13 +34,13 @@ def recount_places(r, model, bonds, rows, what, e):
         moved = max(math.dist(places[after][b], places[before][b]) for b in (i, j))
         at = np.array([e["x"][k], e["y"][k]])
         for b in (i, j):
-            if b >= model.count:  # platens: their face
+            if b >= model.count:  # for platens, their face
                 face = places[before][b, 1] + (1 if b == model.bottom else -1) * platen_depth * model.height / 2
                 off.append(abs(at[1] - face))
                 allowed.append(moved + 2 * model.thick)
                 continue
             distance = math.dist(at, places[before][b])
-            if frozenset((i, j)) in across:  # flat faces: midway between the centres
+            if frozenset((i, j)) in across:  # for flat faces, midway between the centres
                 off.append(distance - math.dist(places[before][i], places[before][j]) / 2)
             elif b in circle:
                 off.append(distance - circle[b])
@@ -63,7 +63,7 @@ def recount_places(r, model, bonds, rows, what, e):
 
 
 def match(model, points, frame, first_frame, bonds):
-    """Index into `points` of each contact of a frame, by pair and place; bonds by where they were at the start."""
+    """Index into `points` of each contact of a frame, found by pair and place; for bonds by their place at the start."""
     names = frame.contacts
     i = np.array([model.index[n] for n in names["body_i"]])
     j = np.array([model.index[n] for n in names["body_j"]])
@@ -84,7 +84,8 @@ def match(model, points, frame, first_frame, bonds):
             own = [m for m in start_by_pair.get(pair, []) if m not in taken]
             if not own:
                 continue
-            # Corner against corner makes two points at one place: the file names the corner's body first.
+            # Two corners that meet make two points at one place; in the file, the body of the point's corner comes
+            # first.
             m = min(own, key=lambda m: (bonds.i[m] != i[k], math.dist(bonds.position[m], start_places[k])))
             taken.add(m)
             of_bond[k] = m
@@ -109,7 +110,7 @@ def contact_places(model, frame):
 
 
 def bodies_of(model, p):
-    """Order of a frame's particles in the model; then by body place, angle, velocity and rotation rate."""
+    """Indices in the model of a frame's particles; then place, angle, velocity and rotation rate by body."""
     order = np.array([model.index[n] for n in p["id"]])
     places, velocity = model.centre.copy(), np.zeros((len(model.mass), 2))
     angle, spin = np.zeros(len(model.mass)), np.zeros(len(model.mass))
@@ -120,39 +121,40 @@ def bodies_of(model, p):
 
 
 def relative_motion(q, places, velocity, spin):
-    """Arms of both bodies to each point, and the velocity of i against j there."""
+    """Lever arms of both bodies to each point, and the velocity of i relative to j there."""
     arm_i, arm_j = q.position - places[q.i], q.position - places[q.j]
     way = (velocity[q.i] + turned(arm_i) * spin[q.i][:, None]) - (velocity[q.j] + turned(arm_j) * spin[q.j][:, None])
     return arm_i, arm_j, way
 
 
 def force_scale(model, bonds):
-    """N, beside which rounding is measured."""
+    """Force to which rounding errors are relative, N."""
     return bonds.tensile.mean()
 
 
 def sliding_scale(model, bonds):
-    """N, mean tensile strength of coulomb bonds that can break; mean back-tension."""
+    """Mean tensile strength of the coulomb bonds that can break, or mean back-tension, N."""
     if not model.coulomb:
         return np.mean(model.normal_stiffness(bonds) * bonds.overlap)
     return 0.0 if np.all(bonds.held) else bonds.tensile[~bonds.held].mean()
 
 
 def forces_by_history(model, q, bonded):
-    """Points whose overlap without force has moved: of flat faces, which turn, and of joints that dilate as they slide."""
+    """Points whose force-free overlap has changed: flat faces, which rotate, and joints, which dilate as they slide."""
     dilates = model.joints.of("dilation_angle", q.trace, 0.0) > 0
     return ~np.isnan(q.lap) | (dilates & ~bonded)
 
 
 def recount_by_history(r, model, bonds, label, q, bonded, angle, stated, normal, kn, places):
-    """What is known of these forces. @param stated, normal  N, that of the file and that without any motion of the rest"""
+    """Checks what is known about the forces of such points. @param stated, normal  N, force in the file, and force for an unchanged
+    force-free overlap"""
     flat, found = ~np.isnan(q.lap), stated - normal
     turned_only, slid_open = flat & bonded, ~flat & forces_by_history(model, q, bonded)
     if turned_only.any():
-        # What both circles have turned by closes their faces, to the first order of their motion.
+        # To first order, the rotation of both circles closes their faces.
         tangent = turned(q.normal)
         offset, before = (dot(at[q.j] - at[q.i], tangent) for at in (places, model.centre))
-        # They may have turned there and back: as far as any of them.
+        # They may have rotated back and forth, at most as far as any circle.
         room = np.abs(offset - before)[turned_only].max() * (np.abs(angle[q.i]) + np.abs(angle[q.j]))[turned_only].max()
         closed = kn * before * (angle[q.i] + angle[q.j]) / 2
         r.rows(label + "normal_force of bonded flat faces, by their turn", found[turned_only], -closed[turned_only],
@@ -169,7 +171,7 @@ def recount_by_history(r, model, bonds, label, q, bonded, angle, stated, normal,
 
 
 def recount_frame(r, model, bonds, frame, first, row):
-    """Forces, stresses, energies and fragments of one moment. @param row  the curve's, or None if it was not written"""
+    """Forces, stresses, energies and fragments of one frame. @param row  its row in the curve, or None if it was not written"""
     label = f"frame {frame.row}: "
     p = frame.particles
     order, places, angle, velocity, spin = bodies_of(model, p)
@@ -179,7 +181,7 @@ def recount_frame(r, model, bonds, frame, first, row):
     chosen, of_bond = match(model, points, frame, first, bonds)
     state = frame.contacts["state"]
     r.compare(label + "contacts without a partner", int(np.sum((chosen < 0) & ((state < 2) | (state > 2)))), 0, 0)
-    # Whether faces touch whose overlap without force has moved is in the history alone.
+    # Whether faces touch after their force-free overlap has changed depends on the history.
     moved = forces_by_history(model, points, np.zeros(len(points.i), bool))
     known = (chosen < 0) | ~moved[chosen]
     bonded_once, beyond = set(bonds.keys()), points.overlap - points.rest
@@ -199,7 +201,7 @@ def recount_frame(r, model, bonds, frame, first, row):
     q = points.chosen(chosen[acting])
     bond = of_bond[acting]
     bonded = (bond >= 0) & (state[acting] < 2)
-    for name in ("share", "shear_share"):  # laps of flat faces follow once they are not bonded
+    for name in ("share", "shear_share"):  # the laps of flat faces change once they are not bonded
         setattr(q, name, np.where(bonded, getattr(bonds, name)[bond], getattr(q, name)))
     rest = np.where(bonded, bonds.overlap[bond], np.where(bond >= 0, model.rest_after(bonds.overlap[bond]), q.rest))
     kn, ks = model.normal_stiffness(q), model.shear_stiffness(q)
@@ -211,7 +213,7 @@ def recount_frame(r, model, bonds, frame, first, row):
     normal = np.where(by_history, stated, normal)
     r.rows(label + "normal_force", stated, normal, rounding * tension)
     shear = np.asarray(frame.contacts["shear_force"])[acting].copy()
-    # The file's shear force acts on its body_i: along the same line on ours, whichever of the two we call i.
+    # The shear force in the file acts on its body_i. Its sign is the same here, even if body_i is our j.
     if model.coulomb:
         limit = np.where(bonded, math.inf, model.residual_friction(q) * normal)
     else:
@@ -225,7 +227,7 @@ def recount_frame(r, model, bonds, frame, first, row):
     sticks = ~slides
     counted = np.abs(shear) > least_sliding_force * sliding_scale(model, bonds)
     shear_all = shear - np.where(sticks, cs * dot(relative, tangent), 0.0)
-    force = -q.normal * normal_all[:, None] + tangent * shear_all[:, None]  # on i
+    force = -q.normal * normal_all[:, None] + tangent * shear_all[:, None]  # force on i
     total, moment = np.zeros_like(velocity), np.zeros(len(spin))
     for body, arm, sign in ((q.i, arm_i, 1.0), (q.j, arm_j, -1.0)):
         np.add.at(total, body, sign * force)
@@ -235,10 +237,10 @@ def recount_frame(r, model, bonds, frame, first, row):
     fine = rounding * tension * math.sqrt(len(kn)) / model.width
     r.compare(label + "axial_stress", frame.axial_stress, (stress_top + stress_bottom) / 2, fine)
     strain = model.sense * -p["displacement"][list(p["id"]).index(model.ids[model.top]), 1] / model.height
-    confined = r.summary["kind"] == "biaxial"  # strains count from the pressure on, displacements of frames from bonding
+    confined = r.summary["kind"] == "biaxial"  # strains are measured from the application of the pressure, displacements from bonding
     if not confined:
         r.compare(label + "axial_strain", frame.axial_strain, strain, 1e-14)
-    # Particles' mean stress by the springs alone, the back-tension left out.
+    # The particles' mean stress contains only the forces of the springs, without the back-tension.
     springs = -q.normal * normal[:, None] + tangent * shear[:, None]
     sums = np.zeros((len(spin), 3))
     for body, arm, sign in ((q.i, arm_i, 1.0), (q.j, arm_j, -1.0)):
@@ -250,7 +252,7 @@ def recount_frame(r, model, bonds, frame, first, row):
     size = tension / model.reach[: model.count].min()
     for k, name in enumerate(("stress_xx", "stress_yy", "stress_xy")):
         r.rows(label + name, p[name], sums[order, k], 10 * rounding * size)
-    # Fragments: joined by intact bonds, numbered by falling area, then by lowest id.
+    # Fragments are particles joined by intact bonds, numbered by decreasing area, then by lowest id.
     root = list(range(model.count))
 
     def find(a):
@@ -267,7 +269,7 @@ def recount_frame(r, model, bonds, frame, first, row):
     groups = {}
     for k in range(model.count):
         groups.setdefault(find(k), []).append(k)
-    all_area = model.area[: model.count].sum()  # areas that differ by the rounding of sums are equal
+    all_area = model.area[: model.count].sum()  # areas that differ only by rounding count as equal
     ranked = sorted(groups.values(), key=lambda g: (-round(sum(model.area[k] for k in g) / all_area, 12), min(model.ids[k] for k in g)))
     number = np.full(len(spin), -1)
     for n, group in enumerate(ranked):
@@ -281,7 +283,7 @@ def recount_frame(r, model, bonds, frame, first, row):
     by_events = int(np.sum(r.events["time"] <= frame.time * (1 + 1e-12))) if len(r.events["time"]) else 0
     r.compare(label + "broken bonds of events.csv", broken, by_events, 0)
     for name in ("time", "energy", "strength", "orientation", "body_i", "body_j", *(("trace",) if model.joints.traces else ())):
-        drawn = frame.cracks.get("polygon time" if name == "time" else name, [])  # the moment's own comes first
+        drawn = frame.cracks.get("polygon time" if name == "time" else name, [])  # the first array of this name is the time of the frame
         r.rows(label + f"cracks: {name} of events.csv", drawn, r.events[name][:by_events], 0)
     shears = [float(mode == "shear") for mode in r.events["mode"][:by_events]]
     r.rows(label + "cracks: mode of events.csv", frame.cracks.get("mode", []), shears, 0)
@@ -296,7 +298,7 @@ def recount_frame(r, model, bonds, frame, first, row):
     r.compare(label + "curve: stress_top", c["stress_top"][row], stress_top, fine)
     r.compare(label + "curve: stress_bottom", c["stress_bottom"][row], stress_bottom, fine)
     spring = np.sum(normal**2 / kn / 2 + np.where(ks > 0, shear**2 / np.where(ks > 0, ks, 1) / 2, 0))
-    # The consistent integrator's forces and energies hold defects of points, which are in no file.
+    # Forces and energies of the consistent integrator contain corrections at the points, which are in no file.
     leapfrog = r.results.key("numerics", "integrator", "leapfrog") == "leapfrog"
     if leapfrog:
         r.compare(label + "curve: strain_energy", c["strain_energy"][row], spring,
@@ -309,24 +311,25 @@ def recount_frame(r, model, bonds, frame, first, row):
         own = model.mass[free] * dot(middle, middle) + model.inertia[free] * middle_spin**2
         return (own.sum() + np.sum(model.mass[model.count :] * dot(velocity, velocity)[model.count :])) / 2
 
-    # A step that changes is known as its mean between two rows; at the start there has been no kick.
+    # If the time step changes, only its mean between two rows is known; at the start there has been no kick.
     steps = np.diff(c["time"]) / np.diff(c["step"])
     before, after = steps[max(row - 1, 0)], steps[min(row, len(steps) - 1)]
     kinetic = kinetic_after((before + after) / 2 if row > 0 else 0.0)
     either = abs(kinetic_after(before) - kinetic_after(after)) if row > 0 else 0.0
     if row == len(steps) and np.ptp(steps) > rounding * before:
-        either += abs(kinetic_after(1.01 * before) - kinetic)  # the step to come is in no file
-    if leapfrog and (not confined or row == 0):  # what the membrane adds to a kick is in no file
+        either += abs(kinetic_after(1.01 * before) - kinetic)  # the length of the next step is in no file
+    if leapfrog and (not confined or row == 0):  # the membrane's forces, which are part of a kick, are in no file
         r.compare(label + "curve: kinetic_energy", c["kinetic_energy"][row], kinetic, 1e-6 * kinetic + either)
     if leapfrog:
-        # A bond that breaks in shear in this step drops to the limit and counts as a break.
+        # A bond that breaks in shear in this step drops to the limit; it counts as a break, not as sliding.
         breaking = int(np.sum(r.events["step"] == c["step"][row])) if model.coulomb and len(r.events["step"]) else 0
-        # The program turns bodies by cosine and sine, the frames have the angle: apart by up to a rounding a step. Of a stiff point that
-        # is more than the rounding of its shear force, so that it may be at its limit or not.
+        # The program stores rotations as cosine and sine, but frames contain the angle; the two differ by up to one
+        # rounding per step. At a stiff point this exceeds the rounding of the shear force, so whether it is at its
+        # limit is not certain.
         arm = np.maximum(np.hypot(*arm_i.T), np.hypot(*arm_j.T))
         apart = np.finfo(float).eps * c["step"][row] * arm * kn
         unsure = counted & sticks & (np.abs(shear) >= limit - apart)
-        # Before the first step nothing moves, and nothing slides.
+        # Nothing moves or slides before the first step.
         sliding = int(np.sum(slides & counted)) if row > 0 else 0
         r.compare(label + "curve: points_sliding", c["points_sliding"][row], sliding, breaking + int(np.sum(unsure)))
     slid = int(np.sum(state == 1)) + int(np.sum(np.asarray(r.events["slid"])[:by_events]))

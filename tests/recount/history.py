@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What depends on history, from a test with a row and a frame per step: shear forces, losses, work, energies of breaks.
+"""Figures that depend on history, from a test with a row and a frame per step: shear forces, losses, work, energies of breaks.
 
 Follows every contact point from frame to frame by solver/MODEL.md 4, 5 and 8; `r`, `model` and `bonds` as in frames.py."""
 
@@ -11,12 +11,13 @@ import numpy as np
 from frames import bodies_of, match, relative_motion, touching_floor
 from model import dot, rounding, turned
 
-# Relative, of numbers kept in single precision: forces of events by back-tension, dashpots' of the step before.
+# Relative tolerance of numbers stored in single precision: forces of back-tension events, dashpot forces of the
+# previous step.
 single = 1e-7
 
 
 def holds_every_step(r, rows):
-    """Whether each step has its row and its frame, and the model followed here is the one that ran."""
+    """Whether every step has a row and a frame, and the test used the integrator that is followed here."""
     return (
         len(rows) == len(r.curve["step"])
         and bool(np.all(np.diff(r.curve["step"]) == 1))
@@ -25,7 +26,7 @@ def holds_every_step(r, rows):
 
 
 class Values(NamedTuple):
-    """Constants of a contact point in a frame: m, m/s, N/m, N s/m."""
+    """State and constants of a contact point in a frame, in m, m/s, N/m, N s/m."""
 
     overlap: float
     closing: float
@@ -35,28 +36,28 @@ class Values(NamedTuple):
     friction: float
     cn: float
     cs: float
-    rest: float  # overlap without force of one that is not bonded, before it slides
-    dilation: float  # tangent
+    rest: float  # force-free overlap of a point without a bond, before it slides
+    dilation: float  # tangent of the dilation angle
     dilation_slip: float
-    lap: float  # of flat faces, else nan
-    turning: float  # m, of the step
+    lap: float  # of flat faces, otherwise NaN
+    turning: float  # m, closure of flat faces by rotation in the step
     aperture: float
 
 
 class Point:
-    """A contact point: shear spring, dashpots, and what its bond remembers."""
+    """A contact point: shear spring, dashpots, and the history of its bond."""
 
     def __init__(self, bond=None, rest=0.0):
-        self.bond = bond  # number of the bond, None without
-        self.rest = rest  # overlap without force, m
+        self.bond = bond  # index of the bond, or None
+        self.rest = rest  # force-free overlap, m
         self.shear = self.normal_dashpot = self.shear_dashpot = 0.0
         self.slid = self.in_shear = False
         self.lap = math.nan  # m, of flat faces without a bond
-        self.failing = (0.0, 0.0)  # N, forces that events.csv states
+        self.failing = (0.0, 0.0)  # N, normal and shear force for events.csv
 
 
 def settle_rounding(model, q, frame, first, bonds):
-    """Points that touch by rounding or not do so as in the frame."""
+    """Sets the sign of overlaps at the level of rounding so that these points touch exactly if they do in the frame."""
     open_question = np.abs(q.overlap) <= touching_floor * model.height
     if not model.frictional or not np.any(open_question):
         return
@@ -68,18 +69,18 @@ def settle_rounding(model, q, frame, first, bonds):
 
 
 def moment(model, r, bonds, row, first, dt):
-    """Contact points of a frame: their keys, overlaps, closing and slip rates, laws; and the frame's own contacts."""
+    """The frame, and its contact points by key, with overlaps, closing and slip rates, and constants."""
     frame = r.results.frame(row)
     _, places, angle, velocity, spin = bodies_of(model, frame.particles)
     q = model.points(places, angle)
     settle_rounding(model, q, frame, first, bonds)
     arm_i, arm_j, way = relative_motion(q, places, velocity, spin)
     tangent = turned(q.normal)
-    # Over a step an arm turns by w = spin dt. A turn of both bodies as one moves it along the face by w x arm less
-    # w^2/2 arm, since places are those at the end.
+    # A lever arm rotates by w = spin dt in a step. Places are those at the end of the step, so a point moves by w x arm
+    # minus w^2/2 arm.
     half = dt / 2
     slip = dot(way, tangent) + half * (spin[q.i] ** 2 * dot(arm_i, tangent) - spin[q.j] ** 2 * dot(arm_j, tangent))
-    # What the turning of two circles closes their flat faces by, at the middle of the step.
+    # Closure of flat faces by the rotation of their two circles, evaluated at the middle of the step.
     offset = dot(places[q.j] - places[q.i], tangent)
     turning = half * (offset + half * dot(velocity[q.i] - velocity[q.j], tangent)) * (spin[q.i] + spin[q.j])
     joint = [model.joints.of(name, q.trace, 0.0) for name in ("dilation_angle", "aperture")]
@@ -91,14 +92,14 @@ def moment(model, r, bonds, row, first, dt):
 
 
 def share_to_limit(before, now):
-    """Share of a step at which what is left of a strength is used up."""
+    """Fraction of a step after which the remaining strength is exhausted."""
     if now > 0:
         return math.inf
     return max(0.0, before / (before - now)) if before > now else 0.0
 
 
 class Follower:
-    """All contact points from step to step. `touching` by key, `breaks` as (step, key, energy, Point)."""
+    """Follows all contact points from step to step. touching: Point by key; breaks: (step, key, energy, Point)."""
 
     def __init__(self, model, bonds):
         self.coulomb = model.coulomb
@@ -106,20 +107,20 @@ class Follower:
         self.rest_after = dict(zip(bonds.keys(), model.rest_after(bonds.overlap).tolist()))
         self.bonded = list(zip(*(column.tolist() for column in (
             model.normal_stiffness(bonds), model.shear_stiffness(bonds), *model.dashpots(bonds)))))
-        self.rests = {}  # of joints' faces that have slid or turned, m
-        self.slid = {}  # m, of faces that dilate
+        self.rests = {}  # m, force-free overlaps of joint faces that have slid or rotated
+        self.slid = {}  # m, slip of faces that dilate
         self.laps, self.met = bonds.lap.tolist(), model.met
         self.held = bonds.held.tolist()
         self.strength = list(zip(bonds.tensile.tolist(), bonds.cohesion.tolist(), model.friction(bonds).tolist()))
         self.broken, self.breaks = set(), []
 
     def follow(self, step, key, values, dt):
-        """One point through one step. @return friction and dashpot loss, J"""
+        """Follows one point through one step. @return friction and dashpot loss, J"""
         flat = not math.isnan(values.lap)
         point = self.touching.get(key)
         lost = 0.0
         if flat and point is not None and point.bond is not None:
-            kn, ks, cn, cs = self.bonded[point.bond]  # their lap stays
+            kn, ks, cn, cs = self.bonded[point.bond]  # the lap of bonded faces does not change
             values = values._replace(kn=kn, ks=ks, cn=cn, cs=cs)
         elif point is not None and point.bond is None and values.dilation > 0:
             lost = self._dilate(key, point, values, dt)
@@ -142,7 +143,7 @@ class Follower:
                     return 0.0, self._break_coulomb(step, key, point, values, dt)
                 holds = True
             elif overlap <= 0:
-                # A force that turned within the step has passed through none.
+                # A force whose sign changed within the step has passed through zero.
                 normal, shear = max(0.0, (opening - closing * dt) * opening), max(0.0, point.shear * trial)
                 energy = kn / 2 * normal + (shear / 2 / ks if ks > 0 else 0.0)
                 self._part(step, key, energy, point)
@@ -165,7 +166,7 @@ class Follower:
         return lost, dashpot
 
     def _dilate(self, key, point, values, dt):
-        """Lets a face that slides open (solver/MODEL.md 5.3). @return J, that comes out of what the slider takes"""
+        """Opens a face that slides (solver/MODEL.md 5.3). @return energy that the opening adds to the friction loss, J"""
         opening, left = values.overlap - point.rest, values.dilation_slip - self.slid.get(key, 0.0)
         excess = abs(point.shear - values.ks * values.slip * dt) - values.friction * values.kn * opening
         if opening <= 0 or left <= 0 or excess <= 0:
@@ -177,7 +178,7 @@ class Follower:
         return -values.kn / 2 * (max(0.0, opening - values.closing * dt) + opening + rise) * rise
 
     def _follow_faces(self, key, point, values):
-        """Flat faces: closed by the turn of their circles; without a bond their lap follows (solver/MODEL.md 5.4)."""
+        """Flat faces close by the rotation of their circles; without a bond, their lap changes too (solver/MODEL.md 5.4)."""
         if point is None:
             return
         point.rest += values.turning
@@ -186,7 +187,8 @@ class Follower:
             point.lap = values.lap
 
     def _rest_apart(self, key, values, rest):
-        """Faces that part meet again there; flat ones that have met later, and are open wider, where they first did."""
+        """Stores the force-free overlap for the next contact. Flat faces that first met during loading lose what rotation added, down to
+        the aperture."""
         stays = math.isnan(values.lap) or self.met(key)
         self.rests[key] = rest if stays else max(values.aperture, min(rest, values.overlap))
 
@@ -199,7 +201,7 @@ class Follower:
         return dt / 2 * (point.normal_dashpot * closing + point.shear_dashpot * slip)
 
     def _slack(self, point, normal, shear):
-        """Left of the tensile and of the shear strength, N."""
+        """Remaining tensile and shear strength, N."""
         tensile, cohesion, friction = self.strength[point.bond]
         return tensile + normal, cohesion + friction * normal - abs(shear)
 
@@ -207,7 +209,7 @@ class Follower:
         return min(self._slack(point, normal, shear)) <= 0
 
     def _break_coulomb(self, step, key, point, values, dt):
-        """The rest continues as a contact without a bond. @return dashpot loss, J"""
+        """Breaks a bond, which continues as a contact without a bond if it still overlaps. @return dashpot loss, J"""
         overlap, closing, slip, kn, ks, friction, cn, _ = values[:8]
         opening = overlap - point.rest
         before = opening - closing * dt
@@ -259,12 +261,12 @@ def recount_history(r, model, bonds, rows):
     scale = max(dashpot[-1], friction[-1], c["platen_work"][-1])
     r.rows("history: dashpot_loss", c["dashpot_loss"], dashpot, single * scale)
     r.rows("history: friction_loss", c["friction_loss"], friction, rounding * scale)
-    # The upper platen moves alone; the speed that its drive gives it brings its kinetic energy.
+    # Only the upper platen moves. The work includes the kinetic energy that its drive gives it.
     force = (c["stress_top"][1:] + c["stress_top"][:-1]) / 2 * model.width
     work = np.concatenate([[0.0], np.cumsum(force * np.diff(c["axial_strain"]) * model.height)])
     work += model.mass[model.top] / 2 * (np.array(speed) ** 2 - speed[0] ** 2)
     r.rows("history: platen_work", c["platen_work"], work, rounding * work[-1])
-    # Breaks of one step stand in the order of the points: by pair and energy here.
+    # Breaks of one step are in the order of the points; here they are sorted by pair and energy.
     stated = sorted(
         (*sorted((model.index[int(e["body_i"][k])], model.index[int(e["body_j"][k])])), e["step"][k], e["energy"][k], k)
         for k in range(len(e["time"]))

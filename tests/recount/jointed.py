@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests with joints: of every kind that has them, and of all kinds of particles; for recount_test.py."""
+"""Tests with joints, for recount_test.py: every kind of test that can have joints, and all kinds of particles."""
 
 from cases import (
     area, cells, cohesive, dilating, friction, gaps, joint, joint_of_few, jointed, minerals_of_an_area, open_faces, output, packing,
@@ -54,7 +54,7 @@ class JointedTests:
         flat = joint.replace("60.0", "20.0") + weak
         self.agrees(run("joint_pulled_cells", jointed + cells + cohesive + scatter + pulled + output + flat), 280)
         self.agrees(run("joint_pulled_circles", jointed + touching + pulled + output + flat), 280)
-        # Pulled, open faces bear nothing.
+        # In tension, open faces carry no force.
         self.agrees(run("joint_pulled_gaps", jointed + wedges + cohesive + pulled + output + gaps + open_faces), 280)
 
     def test_joints_under_a_pressure(self):
@@ -100,7 +100,7 @@ class JointedTests:
 
 
 class WrongJoints:
-    """Keys of a joint that the recount reads as others than the program, and figures of traces that are not theirs."""
+    """Changes the keys of a joint that the recount reads, and figures of traces: each must be found."""
 
     def differs_by(self, key, value, figure, sound):
         def what(folder):
@@ -116,7 +116,7 @@ class WrongJoints:
                                    ("friction_angle", 31.0, "events: strength"), ("residual_friction_angle", 19.0, "Coulomb limit"),
                                    ("normal_stiffness", 1.01e12, "youngs_modulus"), ("shear_stiffness", 4.1e11, "youngs_modulus")):
             for sound in (weak_cells(), weak_circles()):
-                if (key, sound) != ("residual_friction_angle", weak_circles()):  # nothing slides there yet
+                if (key, sound) != ("residual_friction_angle", weak_circles()):  # nothing slides in that test
                     self.differs_by(key, value, figure, sound)
 
     def test_figures_of_traces(self):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Joints: what the case says of each trace, which bodies they part, and what came of them (solver/MODEL.md 5.3, 5.4).
+"""Joints: the keys of each trace, the bodies that it separates, and its state (solver/MODEL.md 5.3, 5.4).
 
 Which faces lie on traces is read from the first joints_*.vtp: no file holds the traces themselves."""
 
@@ -42,13 +42,13 @@ class Joints:
         return any(own.get("dilation_angle") for own in self.keys)
 
     def parts(self, faces, deck):
-        """Straight parts of traces that have mechanics. @param faces  Faces"""
+        """The straight traces that have properties of their own. @param faces  Faces"""
         of_trace = np.asarray(self.first["trace"])
         return [part_in_box(k, faces, of_trace == k, self.tables[trace["source"]], deck, trace["length"])
                 for k, trace in enumerate(self.traces) if self.keys[k]]
 
     def of(self, name, trace, otherwise):
-        """A key of each point's joint, where that gives it. @param trace  by point, -1 through the rock"""
+        """Value of a key of each point's joint, or `otherwise` if the joint does not give it. @param trace  by point, -1 in the rock"""
         values = np.broadcast_to(np.asarray(otherwise, float), trace.shape).copy()
         for number, own in enumerate(self.keys):
             if name in own:
@@ -57,14 +57,14 @@ class Joints:
 
 
 def sides_of_bodies(faces):
-    """(trace, side) of the bodies that have a face on one: 0 on one side of it, 1 on the other.
+    """The pairs (trace, side) of each body that has a face on a trace; side is 0 or 1.
 
-    @param faces  rows (trace, i, j, begin, end): i lies on the right of the way from begin to end, j on the left"""
+    @param faces  rows (trace, i, j, begin, end): seen from begin to end, i is on the right and j on the left"""
     sides = {}
     for trace in {face[0] for face in faces}:
         own = [face for face in faces if face[0] == trace]
         turned_round = {0: False}
-        # Faces follow each other along a trace: each is turned as the nearest that is turned already.
+        # Faces form a chain along a trace: each gets the direction of the nearest face whose direction is known.
         while len(turned_round) < len(own):
             apart, k, flip = min(
                 (math.dist(own[a][3 + end_a], own[b][3 + end_b]), b, turned_round[a] ^ (end_a == end_b))
@@ -80,7 +80,7 @@ def sides_of_bodies(faces):
 
 
 class Faces:
-    """Faces on traces as they lay before loading, from the lines of the first frame, and how they have moved since."""
+    """Faces on traces before loading, from the lines of the first frame, and their motion since then."""
 
     def __init__(self, r, joints):
         self.r, self.file = r, joints.first
@@ -88,7 +88,7 @@ class Faces:
         deck = r.results.specimen
         self.centre = {b.id: centroid(b) for b in deck.bodies}
         places, points = self._places(r.results.frame_rows()[0]), self.file["points"][:, :2]
-        # Lines are drawn where both bodies have carried them, on the mean: turned back.
+        # Frames contain lines at the mean of the positions to which both bodies carry them; this is undone here.
         begin, end = points[0::2].astype(float), points[1::2].astype(float)
         self.middle, self.along = np.zeros_like(begin), np.zeros_like(begin)
         for k, pair in enumerate(self.ids):
@@ -100,13 +100,13 @@ class Faces:
         self.rounding = np.finfo(points.dtype).eps * (deck.width + deck.height)  # m, of a place
 
     def _places(self, row):
-        """By id: where the centroid is, and the turn since loading began."""
+        """Centroid and rotation since loading began, by id."""
         p = self.r.results.particles(row)
         return {int(b): (self.centre[int(b)] + way[:2], turn)
                 for b, way, turn in zip(p["id"], p["displacement"], p["angle"]) if int(b) in self.centre}
 
     def motion(self, row):
-        """Opening and slip of each face, and what their own rounding is, m."""
+        """Opening and slip of each face, and their rounding error, m."""
         places = self._places(row)
         opening, slip, off = (np.zeros(len(self.ids)) for _ in range(3))
         for k, (i, j) in enumerate(self.ids):
@@ -119,7 +119,7 @@ class Faces:
         return opening, slip, off
 
     def state(self, row):
-        """State of each face by its bonds: 0 holds, 2 has lost them all, 4 never had one; and whether it has had one."""
+        """State of each face by its bonds: 0 if one is intact, 2 if all are broken, 4 if it never had one."""
         contacts = self.r.results.contacts(row)
         bonds = {}
         for a, b, state in zip(contacts["body_i"], contacts["body_j"], contacts["state"]):
@@ -135,7 +135,7 @@ def rotation(angle):
 
 
 def recount_joints(r, joints):
-    """What traces have come to, of any kind of test: every face from the places of its two bodies (specimens/joints/METHODS.md)."""
+    """The figures of traces for any kind of test: the state of every face follows from the places of its two bodies (specimens/joints/METHODS.md)."""
     if not joints.traces:
         return None
     sources = [trace["source"] for trace in joints.traces]
@@ -163,7 +163,7 @@ def recount_joints(r, joints):
         groups.append((f"joints[{k}].", np.isin(of_trace, own)))
         r.key(f"joints[{k}].traces", len(own))
         r.key(f"joints[{k}].length", sum(joints.traces[n]["length"] for n in own))
-    # A length is that of its two ends.
+    # The error of a length is that of its two ends.
     fine = max(1e-9, 4 * faces.rounding / length.min()) if len(length) else 0.0
     for name, own in groups:
         whole, bonded = length[own].sum(), length[own & had_bond].sum()
@@ -185,7 +185,7 @@ def recount_joints(r, joints):
 
 
 def recount_faces(r, model, faces):
-    """The lines of the first frame against the specimen as it was bonded. @param faces  as of recount_joints()"""
+    """Compares the lines of the first frame with the bonded specimen. @param faces  as from recount_joints()"""
     pairs = [frozenset(pair) for pair in faces.ids]
     r.true("faces on traces: each between bodies that face each other", all(pair in model.on_traces for pair in pairs))
     known = [k for k, pair in enumerate(pairs) if pair in model.on_traces]
@@ -198,7 +198,7 @@ def recount_faces(r, model, faces):
 
 
 def recount_length(r, faces, name, own, table):
-    """Length of a trace through the whole box, by the line that its faces lie on. @param table  of the case"""
+    """Length of a trace through the whole box, from the line on which its faces lie. @param table  of the case"""
     deck = r.results.specimen
     whole = table.get("length", "persistent") == "persistent" and ("spacing" in table or "number" in table)
     line = line_of(faces, own, table, deck) if whole and own.any() else None
@@ -206,13 +206,13 @@ def recount_length(r, faces, name, own, table):
         r.leave(name, "no file holds the traces")
         return
     low, high = chord(*line[:2], deck)
-    # Where a line leaves the box moves with its direction, the more the flatter they meet.
+    # An error of the direction moves the point where the line leaves the box, the more the flatter they intersect.
     steep = np.abs(line[1])
     r.key(name, high - low, 1e-9, line[2] * (high - low) / steep[steep > 0].min())
 
 
 def recount_breaks(r):
-    """On joints and in the rock, by the events' column."""
+    """Breaks on joints and in the rock, by the column of events.csv."""
     on_joint, steps = np.asarray(r.events["trace"], float) >= 0, np.asarray(r.events["step"], float)
     moments = [("", np.ones(len(steps), bool))]
     if r.peak is not None:

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests that are not between platens: what their stress and strain refer to, and what follows from the peak. Their bonds
-and frames are not recounted."""
+"""Kinds of test without two parallel platens: the reference of their stress and strain, and figures at the peak. Their bonds and frames are
+not recounted."""
 import math
 
 import numpy as np
 
 from measures import recount_energies
 
-default_notch = 0.5  # of half a disc's radius
-default_span = {"bending": 4.0, "scb": 0.8}  # over the depth; over the diameter
+default_notch = 0.5  # notch length of a half disc over its radius
+default_span = {"bending": 4.0, "scb": 0.8}  # span over the depth (bending), over the diameter (scb)
 default_half_angle = 10.0  # degrees
 
 
@@ -33,7 +33,7 @@ def recount_kind(r):
     width, height = s["initial_width"], s["initial_height"]
     suffix = "" if s["failed"] else "_so_far"
     peak = r.curve["axial_stress"][r.peak] if r.peak is not None else math.nan
-    intensity = None  # K_I over the nominal stress
+    intensity = None  # stress intensity factor K_I over the nominal stress
     if kind == "brazilian":
         alpha = math.radians(key("loading", "half_angle", default_half_angle))
         even = key("loading", "platens") != "frictional" or key("loading", "jaws", "arc") == "arc"
@@ -69,7 +69,7 @@ def recount_kind(r):
 
 
 def recount_box(r, height, length, force, spring):
-    """@param force N, that presses the upper half box down  @param spring N/m, by which it grows with the rise"""
+    """@param force N, pressing the upper half box down  @param spring N/m, by which the force grows with the rise"""
     c = r.curve
     rise = c["lateral_strain"] * height
     r.key("dilation_end", rise[-1])
@@ -77,7 +77,7 @@ def recount_box(r, height, length, force, spring):
         r.key("normal_stress_end", (force + spring * rise[-1]) / length)
         if r.peak is not None:
             r.key("normal_stress_at_peak" + ("" if r.summary["failed"] else "_so_far"), (force + spring * rise[r.peak]) / length)
-    # What the normal force does is minus its mean times the rise, to the rounding of a sum of steps.
+    # The work of the normal force is minus its mean times the rise, up to the rounding of a sum over steps.
     r.rows("curve: confinement_work", c["confinement_work"], -(force + 0.5 * spring * rise) * rise,
            1e-9 * (force + spring * np.max(np.abs(rise))) * np.max(np.abs(rise)) + 1e-12 * np.abs(c["platen_work"]) + 1e-15 * np.max(np.abs(c["platen_work"])))
     if r.summary["ended_by"] == "max_axial_strain":

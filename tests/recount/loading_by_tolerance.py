@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""First rate, first motion, and what the rate rule makes of a curve with a row per step (specimens/loading/METHODS.md).
+"""The first rate, the first velocities, and the rates that the rule gives for a curve with a row per step (specimens/loading/METHODS.md).
 
 `r`, `model` and `bonds` as in frames.py; `solution` is the motion for an axial strain of 1, by model.py."""
 
@@ -11,7 +11,7 @@ from cycles import first_share
 from model import dot, turned
 
 looks_a_transit = 20
-slowest_share = 0.15  # of the first rate
+slowest_share = 0.15  # fraction of the first rate
 
 
 def by_tolerance(r):
@@ -19,7 +19,7 @@ def by_tolerance(r):
 
 
 def yield_strain(r, model, bonds, motion):
-    """Axial strain at which one bonded point in fifty has slid or parted; a held one never does."""
+    """Axial strain at which one bonded point in fifty has slid or broken; unbreakable ones do not count."""
 
     def at(body):
         arm = bonds.position - model.centre[body]
@@ -28,7 +28,7 @@ def yield_strain(r, model, bonds, motion):
     way = at(bonds.i) - at(bonds.j)
     closing, slipping = dot(way, bonds.normal), np.abs(dot(way, turned(bonds.normal)))
     friction, kn, ks = model.friction(bonds), model.normal_stiffness(bonds), model.shear_stiffness(bonds)
-    # A coulomb bond parts by its envelope, one by back-tension slides at a limit of the same form.
+    # A coulomb bond breaks at its envelope; a back-tension bond slides at a limit of the same form.
     margin = friction * kn * closing - ks * slipping
     with np.errstate(divide="ignore"):
         parting = np.where(closing < 0, -bonds.tensile / (kn * closing), math.inf)
@@ -39,9 +39,9 @@ def yield_strain(r, model, bonds, motion):
 
 
 def recount_start(r, model, bonds, solution, modulus, elastic):
-    """First rate and first velocities, in the first frame; the rate rule where each step has its row.
+    """Checks the rate and the velocities of the first frame, and the rate rule if every step has a row.
 
-    @param elastic  bodies that the solution moves"""
+    @param elastic  which bodies the solution moves"""
     motion = solution.reshape(-1, 3)
     first = yield_strain(r, model, bonds, motion)
     transit = model.height / math.sqrt(modulus / (model.mass[: model.count].sum() / (model.width * model.height)))
@@ -56,7 +56,7 @@ def recount_start(r, model, bonds, solution, modulus, elastic):
     expected = limit * motion
     kept = np.concatenate([elastic, [True, True]])[order]
     size = np.abs(expected[:, :2]).max()
-    # The softest motions carry the rounding of the stiffest, as Poisson's ratio does.
+    # The softest modes contain the rounding errors of the stiffest, as for Poisson's ratio.
     r.compare("first rate by tolerance", np.abs(p["velocity"][order == model.top, 1])[0] / model.height, limit, 1e-6 * limit)
     r.rows("first velocities along x", p["velocity"][kept, 0], expected[order[kept], 0], 1e-6 * size)
     r.rows("first velocities along y", p["velocity"][kept, 1], expected[order[kept], 1], 1e-6 * size)
@@ -65,7 +65,7 @@ def recount_start(r, model, bonds, solution, modulus, elastic):
 
 
 def loading_energy(model, motion, elastic):
-    """Kinetic energy of the loading itself at a rate of 1/s; what no bond moves goes along with the height."""
+    """Kinetic energy of uniform loading at a rate of 1/s; bodies without bonds move in proportion to their height."""
     motion = motion.copy()
     loose = np.flatnonzero(~elastic)
     low, high = model.centre[model.bottom, 1], model.centre[model.top, 1]
@@ -75,7 +75,7 @@ def loading_energy(model, motion, elastic):
 
 
 def follow_rule(r, model, energy_per_rate, modulus, first, transit):
-    """The rate of every step by the curve's stresses and energies, and what the summary says of rates."""
+    """The rate of every step from the curve's stresses and energies, and the summary's figures about rates."""
     c, tolerance = r.curve, r.results.key("loading", "rate_tolerance")
     root = math.sqrt(tolerance)
     stress_floor = modulus * first
@@ -100,7 +100,7 @@ def follow_rule(r, model, energy_per_rate, modulus, first, transit):
             next_look = c["time"][n] + transit / looks_a_transit
         rates.append(rate)
     rates = np.array(rates)
-    # Strains are known to the rounding of the platen's place; the rule's scales to that of the solution.
+    # Strains contain the rounding of the platen's position, and the scales of the rule that of the solution.
     seen = np.diff(c["axial_strain"]) / np.diff(c["time"])
     r.rows("rate of every step by the rule", seen, rates, 1e-6 * limit + 1e-15 / np.diff(c["time"]))
     for which, stated, ours in zip(("slowest", "fastest"), r.summary["axial_strain_rate_range"], (rates.min(), rates.max())):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measures of a test that are read off its whole curve, its breaks and its fragments (specimens/measures/METHODS.md)."""
+"""Figures that follow from a test's whole curve, its breaks and its fragments (specimens/measures/METHODS.md)."""
 
 import math
 
@@ -9,7 +9,7 @@ from model import rounding
 
 
 def regression(x, y):
-    """Slope of y over x, and the root of the mean square left."""
+    """Slope of y over x by least squares, and the root mean square of the residuals."""
     if len(x) < 3:
         return math.nan, math.nan
     line = np.polynomial.Polynomial.fit(x, y, 1)
@@ -22,7 +22,7 @@ def first(holds):
 
 
 def recount_moduli(r, at_peak, strain, stress, lateral, sense):
-    """Moduli of ISRM's windows and beyond the peak. Columns of all judged rows. @param at_peak  row of the peak among them"""
+    """Moduli in the ISRM's windows and beyond the peak, from the columns of the judged rows. @param at_peak  row of the peak among them"""
     peak, rising = stress[at_peak], stress[: at_peak + 1]
     windows = []
     for k in range(71):
@@ -30,7 +30,7 @@ def recount_moduli(r, at_peak, strain, stress, lateral, sense):
         windows.append(slice(begin, (at_peak if end is None else end) + 1))
     windows = [w for w in windows if w.stop - w.start >= 3]
     left = [regression(strain[w], stress[w])[1] for w in windows]
-    # Either of two windows that a line fits alike, apart from rounding, may be the best.
+    # If a line fits two windows equally well apart from rounding, either is accepted.
     alike = [w for w, misfit in zip(windows, left) if misfit <= min(left) * (1 + 1e-6)]
     stated = r.summary["average_modulus"]
     slopes = [(regression(strain[w], stress[w])[0], sense * regression(strain[w], lateral[w])[0]) for w in alike]
@@ -54,7 +54,8 @@ def recount_moduli(r, at_peak, strain, stress, lateral, sense):
 
 
 def recount_stick(stress, broken, peak):
-    """Where the count changes its slope, by a fit at each of many places. @return the break, and how far apart they lie"""
+    """Where the number of breaks changes its slope, from bilinear fits with many trial places. @return the best place, and the distance
+    between trial places"""
     largest = np.maximum.accumulate(stress)
     more = np.diff(broken, prepend=0) > 0
     if np.sum(largest[more] <= 0.8 * peak) < 10:
@@ -137,8 +138,7 @@ def recount_measures(r):
 
 
 def recount_rose(r, model, bonds):
-    """Directions of the cracks between particles; lengths where all are circles, whose faces are as long as the smaller
-    one is wide."""
+    """Directions of cracks between particles. Their lengths only if all are circles, whose faces are as long as the smaller diameter."""
     e, s = r.events, r.summary["crack_rose"]
     if r.peak is None:
         return
@@ -163,7 +163,7 @@ def recount_rose(r, model, bonds):
         direction = math.degrees(np.angle(mean) / 2) % 180 if len(own) else math.nan
         stated = s[name]["direction"]
         if len(own) and stated is not None and abs(stated - direction) > 90:
-            direction += math.copysign(180, stated - direction)  # 0 and 180 are one
+            direction += math.copysign(180, stated - direction)  # 0 and 180 degrees are the same direction
         r.key(label + "direction", direction, floor=1e-9)
         if len(own):
             n = length.sum() ** 2 / np.sum(length**2)
@@ -174,7 +174,7 @@ def recount_rose(r, model, bonds):
 
 
 def recount_fragments(r, model, areas):
-    """D50 and the law of sizes. @param areas  of the fragments at the end, m2"""
+    """D50, and the Rosin-Rammler distribution of sizes. @param areas  of the fragments at the end, m2"""
     areas = np.sort(np.asarray(areas))
     sizes = np.sqrt(4 * areas / math.pi)
     passed = np.concatenate([[0.0], np.cumsum(areas)])
@@ -187,7 +187,7 @@ def recount_fragments(r, model, areas):
     size, exponent = (r.summary["fragment_rosin_rammler"][name] for name in ("size", "exponent"))
     if exponent is None:
         return
-    # At the maximum the likelihood's derivatives by size and exponent are 0, each within what 1e-6 of it changes.
+    # The stated parameters must maximise the likelihood: changes by 0.1 % may not increase it.
     weight, x = areas[kept] / areas[kept].sum(), sizes[kept]
 
     def likelihood(size, n):

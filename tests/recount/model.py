@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The specimen between its platens: masses, contact points, laws, small-strain solution (solver/MODEL.md 2 to 7).
 
-Written from the documents. Everything is an array over bodies or over contact points; SI units, per unit thickness."""
+Written from the documents, not from the program. Values are arrays over bodies or contact points, in SI units, per unit thickness."""
 
 import math
 from dataclasses import dataclass
@@ -12,9 +12,10 @@ from flat_faces import lay_faces, meetings
 from joints import sides_of_bodies
 from outlines import clump_centre, outset, polygon_moments
 
-# Relative: sums of thousands of terms, and places known to 1e-16 of a specimen where overlaps are 1e-4 of it.
+# Relative rounding error of sums of thousands of terms, and of overlaps, which are 1e-4 of the coordinates they are
+# computed from.
 rounding = 1e-9
-platen_width, platen_depth = 2.0, 0.05  # of the specimen's width and height (specimens/setup/METHODS.md)
+platen_width, platen_depth = 2.0, 0.05  # fractions of the specimen's width and height (specimens/setup/METHODS.md)
 
 
 def dot(a, b):
@@ -27,24 +28,24 @@ def turned(v):
 
 
 def single(values):
-    """The value in single precision."""
+    """The value rounded to single precision."""
     return values.astype(np.float32).astype(float)
 
 
 def unset(points):
-    """What Points have beyond the geometry, as of the rock in point units."""
+    """Properties of Points besides their geometry, with the values for rock in point units."""
     count = len(points)
     return np.ones(count), np.ones(count), np.full(count, math.nan), np.full(count, -1), np.zeros(count)
 
 
 def together(*parts):
-    """Points of several kinds as one table."""
+    """Combines points of several kinds into one table."""
     return Points(*(np.concatenate([getattr(p, name) for p in parts]) for name in Points.__dataclass_fields__))
 
 
 @dataclass
 class Points:
-    """Contact points: element (circle or corner) of body i against body j."""
+    """Contact points between an element (circle or corner) of body i and body j."""
 
     i: np.ndarray
     element: np.ndarray
@@ -52,11 +53,11 @@ class Points:
     overlap: np.ndarray  # m
     normal: np.ndarray  # from i to j
     position: np.ndarray  # m
-    share: np.ndarray  # of the material's stiffness, solver/MODEL.md 4.5; 1 in point units
-    shear_share: np.ndarray  # likewise of the shear stiffness, which joints change by itself
-    lap: np.ndarray  # m, of the flat faces of two circles; nan of other points
-    trace: np.ndarray  # across which it is, -1 through the rock
-    rest: np.ndarray  # m, overlap without force while it is not bonded and has not been
+    share: np.ndarray  # fraction of the material's stiffness, solver/MODEL.md 4.5; 1 in point units
+    shear_share: np.ndarray  # fraction of the shear stiffness, which joints change separately
+    lap: np.ndarray  # m, for the flat faces of two circles; NaN for other points
+    trace: np.ndarray  # index of the trace that the point crosses, or -1 in the rock
+    rest: np.ndarray  # m, force-free overlap of a point that has never been bonded
 
     def fields(self):
         return {name: getattr(self, name) for name in self.__dataclass_fields__}
@@ -69,7 +70,7 @@ class Points:
 
 
 class Model:
-    """Bodies of the specimen in the order of their file, then the lower and the upper platen."""
+    """The bodies in the order of the particle file, followed by the lower and the upper platen."""
 
     def __init__(self, results, joints):
         self.results = results
@@ -96,7 +97,7 @@ class Model:
         self.mesh_gap = 2 * inset if inset else results.key("mesh", "thick", deck.thick)
         self.thick = results.summary["bond_thick"] if not self.polygons else results.key("bond", "thick", self.mesh_gap)
         self.reach_of_bonds = self._reach_of_bonds()
-        self._kept = {}  # of points that were bonded or open from the start: share, shear share, trace, rest
+        self._kept = {}  # for points that were bonded or open at the start: share, shear share, trace, force-free overlap
         self.joints = joints
         self.sides, self.flat_faces, self.parted = {}, [], set()
         self.frictional = results.key("loading", "platens") == "frictional"
@@ -116,7 +117,7 @@ class Model:
         return self.results.key("bond", "range", 0.0) * max(b.circles[:, 2].max() for b in self.deck.bodies)
 
     def _named_pairs(self):
-        """Tables [[mineral_pair]]: (indices of its materials, its keys)."""
+        """For each [[mineral_pair]], the indices of its two materials, and its keys."""
         names = [m["name"] for m in self.minerals]
         pairs = []
         for table in self.results.case.get("mineral_pair", []):
@@ -151,7 +152,7 @@ class Model:
             np.array([(right, y1), (left, y1), (left, y1 - depth), (right, y1 - depth)]),
             np.array([(left, y2), (right, y2), (right, y2 + depth), (left, y2 + depth)]),
         ]
-        # The material of [material] stands behind the minerals'.
+        # The material of [material] follows those of the minerals.
         material = len(self.minerals) if self.minerals else self.deck.bodies[0].material
         if self.frictional:
             friction = dict(self.materials[material])
@@ -206,7 +207,7 @@ class Model:
         return np.where(a + b > 0, 2 * a * b / np.where(a + b > 0, a + b, 1), 0.0)
 
     def _overridden(self, name, p, value):
-        """By a table of the pair, where there is one."""
+        """Replaces values by those of [[mineral_pair]] tables."""
         a, b = self.material[p.i], self.material[p.j]
         for (c, d), table in self.pairs:
             if name in table:
@@ -227,7 +228,7 @@ class Model:
         return np.tan(np.radians(self._friction_angle(p)))
 
     def residual_friction(self, p):
-        """Friction of contacts without a bond; a residual angle is at most the pair's own."""
+        """Friction of contacts without a bond; the residual angle is limited to the friction angle."""
         angle = self.joints.of("friction_angle", p.trace, self.weaker("residual_friction_angle", p))
         angle = self.joints.of("residual_friction_angle", p.trace, angle)
         return np.tan(np.radians(np.minimum(angle, self._friction_angle(p))))
@@ -236,11 +237,12 @@ class Model:
         return self.joints.of("friction_angle", p.trace, self.weaker("friction_angle", p))
 
     def strength(self, name, p, rock):
-        """Strength of a joint, where it has one of its own or a factor. @param rock  tensile_strength or cohesion without it"""
+        """Strength of points, which joints may replace or multiply by a factor. @param rock  tensile_strength or cohesion of the rock"""
         return self.joints.of(name, p.trace, self.joints.of("strength_factor", p.trace, 1.0) * rock)
 
     def across_joint(self, p, distance):
-        """Shares of stiffness left in series with a joint's. @param distance  m, over which the face's own acts"""
+        """Fractions of normal and shear stiffness that remain in series with a joint's stiffness. @param distance  m, over which the rock's
+        modulus acts"""
         left = []
         for name in ("normal_stiffness", "shear_stiffness"):
             own = self.joints.of(name, p.trace, math.inf)
@@ -248,11 +250,11 @@ class Model:
         return left
 
     def weaker(self, name, p):
-        """Value for two materials, unless a table of the pair states it."""
+        """The smaller value of two materials, unless a table of the pair gives one."""
         return self._overridden(name, p, np.minimum(*self._pair(name, p.i, p.j)))
 
     def _root_term(self, name, p):
-        """2 h sqrt(k) of two materials in series; of a pair's own stiffness with the two h in series."""
+        """2 h sqrt(k) of two materials in series. If the pair has a stiffness of its own, only the two h are in series."""
         (h_i, h_j), (k_i, k_j) = self._pair("ratio", p.i, p.j), self._pair(name, p.i, p.j)
         term = self._series(2 * h_i * np.sqrt(k_i), 2 * h_j * np.sqrt(k_j))
         own = self._overridden(name, p, np.full(len(p.i), np.nan))
@@ -260,13 +262,13 @@ class Model:
         return np.where(np.isnan(own), term, 2 * self._series(h_i, h_j) * np.sqrt(own)) * np.sqrt(share)
 
     def rest_after(self, overlap):
-        """Overlap without force of a bond of this δ0 once it is broken, m."""
+        """Force-free overlap of a broken bond with the initial overlap δ0, m."""
         return np.maximum(overlap, 0.0) if self.coulomb else np.zeros_like(overlap)
 
     # shares of an area, solver/MODEL.md 4.5
 
     def lengths(self, p):
-        """L of contacts met later, m."""
+        """L of contacts that form later, m."""
         between = self.corner_count[p.i] + self.corner_count[p.j] == 0
         radius = np.zeros(len(self.mass))
         radius[self.circle_body] = self.circle_radius
@@ -279,13 +281,13 @@ class Model:
         return length
 
     def distances(self, p):
-        """l of contacts met later, m."""
+        """l of contacts that form later, m."""
         radius = np.sqrt(self.area / math.pi)
-        radius[self.count :] = 0.0  # held
+        radius[self.count :] = 0.0  # platens
         return radius[p.i] + radius[p.j]
 
     def _set_properties(self, p):
-        """Shares, traces and rests of points as contacts met later have them, and of those that kept their own."""
+        """Sets shares, traces and force-free overlaps, as for contacts that form later, or as stored by keep()."""
         flat = ~np.isnan(p.lap)
         p.trace = np.array([self._trace_between(i, j) for i, j in zip(p.i.tolist(), p.j.tolist())], int)
         p.trace[flat] = -1 - p.element[flat]
@@ -293,7 +295,7 @@ class Model:
         if self.by_area:
             distance = self.distances(p)
             left, left_of_shear = self.across_joint(p, distance)
-            # Shares of flat faces are kept for a metre.
+            # Shares of flat faces are stored per metre of lap.
             p.share = single(np.where(flat, 1.0, self.lengths(p)) / distance * left) * np.where(flat, np.maximum(p.lap, 0.0), 1.0)
             p.shear_share = p.share * single(np.sqrt(left_of_shear / left)) ** 2
         for k, key in enumerate(p.keys()):
@@ -303,31 +305,32 @@ class Model:
                     p.share[k], p.shear_share[k], p.trace[k] = self._kept[key][:3]
 
     def keep(self, points):
-        """Points that were bonded, or open from the start, have what they have for good, flat faces the rest alone."""
+        """Stores the properties of points that are bonded or open at the start; they never change. For flat faces, only the force-free
+        overlap is used."""
         self._kept |= dict(zip(points.keys(), zip(points.share, points.shear_share, points.trace, points.rest)))
 
     # joints, solver/MODEL.md 5.3
 
     def met(self, key):
-        """Whether a point was bonded, or open from the start."""
+        """Whether a point was bonded or open at the start."""
         return key in self._kept
 
     def learn_faces(self, faces):
-        """Which bodies lie on which sides of traces. @param faces  by pair of bodies, of bonds.faces_of()"""
+        """Stores which bodies lie on which sides of traces. @param faces  by pair of bodies, from bonds.faces_of()"""
         on_traces = []
         for (i, j), found in faces.items():
             trace = self.joints.pairs.get(frozenset((self.ids[i], self.ids[j])))
-            # A slender cell lets others reach past it: these have an edge on the trace that the other one does not.
+            # A body may reach past a slender cell to a face on the trace; then the edges are not parallel.
             if trace is not None and found.parallel:
                 on_traces.append((trace, j, i, found.begin, found.end))
         self.sides = sides_of_bodies(on_traces)
 
     def trace_of(self, i, j):
-        """Trace on which two bodies are bonded, or lie against each other."""
+        """Trace between two bodies."""
         return self.joints.pairs.get(frozenset((self.ids[i], self.ids[j])), self._trace_between(i, j))
 
     def _trace_between(self, i, j):
-        """The first trace on opposite sides of which two bodies have faces, -1 if there is none."""
+        """The first trace with faces of the two bodies on opposite sides, or -1."""
         others = self.sides.get(j, ())
         return min((trace for trace, side in self.sides.get(i, ()) if (trace, 1 - side) in others), default=-1)
 
@@ -342,7 +345,7 @@ class Model:
     # contact points, solver/MODEL.md 3
 
     def near(self, centre, beyond):
-        """Pairs of bodies i < j whose bounding circles, or for platens faces, come within `beyond`."""
+        """Pairs of bodies i < j whose bounding circles (for platens, their faces) are closer than `beyond`."""
         order = np.argsort(centre[: self.count, 0])
         x, pairs = centre[order, 0], []
         widest = self.reach[: self.count].max()
@@ -358,7 +361,7 @@ class Model:
         return np.array(pairs, int).reshape(-1, 2)
 
     def points(self, centre, angle):
-        """All contact points whose surfaces come near, touching or not, of bodies placed so."""
+        """All contact points of bodies at these positions whose surfaces are close, whether they touch or not."""
         c, s = np.cos(angle), np.sin(angle)
         rotation = np.stack([np.stack([c, -s], -1), np.stack([s, c], -1)], -2)
         pairs = self.near(centre, 2 * self.thick + 0.05 * self.reach[: self.count].mean() + self.reach_of_bonds)
@@ -367,7 +370,7 @@ class Model:
         for e, b in enumerate(self.circle_body):
             own[b].append(e)
         at = centre[self.circle_body] + np.einsum("eij,ej->ei", rotation[self.circle_body], self.circle_at)
-        # Circle and circle, circle and outline, corner and outline.
+        # Circle against circle, circle against outline, corner against outline.
         cc = [(a, ea, b, eb) for a, b in pairs if (a, b) not in self.parted for ea in own[a] for eb in own[b]]
         for faces in self.flat_faces:
             found.append(self._flat_points(faces, centre))
@@ -404,7 +407,7 @@ class Model:
         return points
 
     def lay_flat_faces(self, parts):
-        """Sides of circles at these straight traces: two on opposite sides of one meet there and nowhere else."""
+        """Gives circles at these straight traces their flat faces. Two circles on opposite sides of a trace meet only at these faces."""
         self.flat_faces = [lay_faces(self, part) for part in parts]
         for faces in self.flat_faces:
             i, j = meetings(faces, self.centre)[:2]
@@ -446,9 +449,9 @@ class Model:
     # small strain, solver/MODEL.md 7 and 10
 
     def matrices(self, p, centre):
-        """Stiffness and damping over all 3 N displacements (x, y, turn of each body): sums of g gᵀ over the points.
+        """Stiffness and damping matrices for all 3 N displacements (x, y, rotation of each body): sums of k g gᵀ and c g gᵀ over the points.
 
-        g: growth of the overlap along the normal, slip of i along j across it, by the displacements of both bodies."""
+        g: derivatives of the overlap, or of the slip between i and j, with respect to the displacements of both bodies."""
         size = 3 * len(self.mass)
         places = np.concatenate([3 * p.i[:, None] + np.arange(3), 3 * p.j[:, None] + np.arange(3)], axis=1)
         stiffness, damping = np.zeros(size * size), np.zeros(size * size)
@@ -487,7 +490,8 @@ class Model:
                     for b in self.deck.bodies
                 ]
             else:
-                # Meshed cells had an edge there, which the inset may have taken: outset, they reach beyond the side then.
+                # Meshed cells had an edge at the side. If the inset has removed it, the outset cell extends beyond the
+                # side.
                 by = self.mesh_gap / 2 if self.results.key("mesh", "kind") else 0.0
 
                 def inward(corners, side=side):

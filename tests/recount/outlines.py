@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bodies as shapes: areas, centroids, outlines set outwards."""
+"""Shapes of bodies: areas, centroids, outlines moved outwards."""
 
 import numpy as np
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Peak, failure and largest stress of a curve (specimens/measures/METHODS.md), from its rows alone."""
+"""Peak, failure and largest stress of a curve (specimens/measures/METHODS.md), only from its rows."""
 
 
 def find_fall(way, stress, share):
-    """Largest row before the stress stays below a share of it for a tenth of the way there and for ten rows, and the row that
-    shows it. The second is None where no such fall follows, the first too where there is no stress."""
+    """Row of the peak: the largest stress before it stays below a share of the peak for a tenth of the strain travelled to the peak and for
+    ten rows. Second, the row at which this is known; None if no such fall follows. Both are None without stress."""
     peak, below = None, None
     for k in range(len(stress)):
         if stress[k] > (stress[peak] if peak is not None else 0.0):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Computes the figures of a test again from what it has left, by another program written from the documents.
+"""Recomputes the figures of a test from its files, independently of the program: the code is written from the documents.
 
-A line a figure: name, as stated, as recounted, difference over tolerance. What each tolerance is: README.md."""
+Prints a line per figure: name, stated value, recounted value, difference over tolerance. README.md explains the tolerances."""
 
 import math
 import re
@@ -33,14 +33,14 @@ absent = object()
 
 
 class Recount:
-    """Lines of what was compared, and which keys of the summary were."""
+    """Collects the comparisons as lines, and the compared keys of the summary."""
 
     def __init__(self, results):
         self.results, self.lines, self.keys = results, [], set()
-        self.left = {}  # figures that no file holds what they need of, and why
-        self.peak = None  # row of the peak, where all rows are written
+        self.left = {}  # figures that cannot be recounted from the files, with the reason
+        self.peak = None  # row of the peak, if all rows are written
         self.summary, self.curve, self.events = results.summary, results.curve, results.events
-        # Rows that peak, moduli and thresholds are read from, and which of them is the peak.
+        # Rows from which peak, moduli and thresholds are determined, and the index of the peak among them.
         self.first_loading = first_loading(results, self.curve["axial_strain"])
         self.judged = {name: column[self.first_loading] for name, column in self.curve.items()}
         self.peak_judged = None
@@ -56,7 +56,7 @@ class Recount:
         self.lines.append((name, stated, ours, difference, tolerance, holds))
 
     def key(self, name, ours, relative=rounding, floor=0.0):
-        """A figure of summary.json, and the same in Pa where there is one."""
+        """Compares a figure of summary.json, and its value in Pa if there is one."""
         at = self.summary
         for part in re.findall(r"[^.\[\]]+", name):
             at = at.get(part, absent) if isinstance(at, dict) else at[int(part)] if isinstance(at, list) else absent
@@ -71,17 +71,17 @@ class Recount:
         in_pascal = name + "_pa"
         if in_pascal in self.summary:
             self.keys.add(in_pascal)
-            # In area units stresses are in Pa as they are.
+            # In area units, stresses are already in Pa.
             by_area = self.results.key("material", "units", "point") == "area"
             over = 1.0 if by_area else self.results.key("output", "out_of_plane_thickness", 1.0)
             self.compare(in_pascal, self.summary[in_pascal], ours / over, tolerance / over)
 
     def leave(self, name, reason):
-        """A figure that is not recounted, by its name."""
+        """Records a figure that is not recounted, with the reason."""
         self.left[name] = reason
 
     def rows(self, name, stated, ours, tolerance):
-        """A column: the worst row stands for all."""
+        """Compares a column; the worst row is recorded."""
         stated, ours = np.asarray(stated, float), np.asarray(ours, float)
         tolerance = np.broadcast_to(tolerance, stated.shape)
         if stated.shape != ours.shape:
@@ -106,7 +106,7 @@ def slope(x, y):
 
 
 def recount_curve(r, joints):
-    """What follows from curve.csv alone."""
+    """Figures that follow from curve.csv alone."""
     c, case = r.curve, r.results.key
     r.rows("curve: axial_stress", c["axial_stress"], (c["stress_top"] + c["stress_bottom"]) / 2,
            1e-14 * (np.abs(c["stress_top"]) + np.abs(c["stress_bottom"])))
@@ -130,7 +130,7 @@ def recount_curve(r, joints):
     if r.uniaxial:
         r.key("area_strain_end", sense * strain[-1] - lateral[-1])
     if case("output", "curve_rows", 2000) < 2000:
-        return  # peak and windows are those of rows that were not written
+        return  # peak and windows depend on rows that were not written
     way, more = travel(r.results, strain)
     judged = r.judged["axial_stress"]
     gone = way if case("loading", "control") == "lateral" else r.judged["axial_strain"]
@@ -140,7 +140,8 @@ def recount_curve(r, joints):
     r.key("failed", failed)
     if end is not None:
         r.key("ended_by", "failure")
-        # A drop lasts by the strain travelled, which rows have, except for a turn between them.
+        # The length of a drop is measured in travelled strain, which rows show exactly except at reversals between
+        # them.
         r.compare("row at which failure is found", len(stress) - 1, r.first_loading[end], 2 if more else 0)
     else:
         r.true("ended_by: not failure", r.summary["ended_by"] != "failure" or more > 0)
@@ -176,7 +177,7 @@ def recount_curve(r, joints):
 
 
 def recount_tangents(r, peak, sense):
-    """Moduli of the curve before the peak, of a test between platens. @param peak  its row among those judged"""
+    """Moduli of the curve before the peak, for a test between platens. @param peak  its index among the judged rows"""
     c = r.judged
     strain, stress, lateral = c["axial_strain"], c["axial_stress"], c["lateral_strain"]
     rising = np.arange(peak + 1)
@@ -197,13 +198,13 @@ def recount_tangents(r, peak, sense):
         r.key(w + "bonds_broken", c["bonds_broken"][early[-1]] - c["bonds_broken"][early[0]])
         r.key(w + "points_sliding", c["points_sliding"][early[-1]])
         ends = r.first_loading[early[[0, -1]]]
-        if set(ends.tolist()) <= set(r.results.frame_rows()):  # states 3 and 4: touching without a bond
+        if set(ends.tolist()) <= set(r.results.frame_rows()):  # states 3 and 4: touching, without a bond
             loose = [np.sum(r.results.contacts(row)["state"] >= 3) for row in ends]
             r.key(w + "contacts_gained", int(loose[1]) - int(loose[0]))
 
 
 def recount_given(r, model):
-    """What the case gives or a rule derives from it."""
+    """Figures that the case gives or that follow from it."""
     for table, name in (("loading", "rate_tolerance"), ("output", "out_of_plane_thickness")):
         if r.results.key(table, name) is not None:
             r.key(name, r.results.key(table, name), 0.0)
@@ -233,7 +234,7 @@ def recount_given(r, model):
 
 
 def recount_lengths(r):
-    """Lengths of the files beside the summary; the program checks their hashes."""
+    """Sizes of the files listed in the summary; the program checks their hashes."""
     for name, stated in r.summary.get("files", {}).items():
         figure = f"files.{name}.bytes"
         r.compare(figure, stated["bytes"], (r.results.folder / name).stat().st_size, 0)
@@ -245,7 +246,7 @@ def number(value):
 
 
 def recount_errors(r):
-    """Stated errors from the companions' own results (specimens/loading/METHODS.md)."""
+    """Stated errors, from the companions' results (specimens/loading/METHODS.md)."""
     errors = r.summary.get("numerical_errors") or {}
     if "companions" not in errors or not r.summary.get("failed"):
         return
@@ -258,15 +259,15 @@ def recount_errors(r):
     for name, (step, rate, damping) in asked.items():
         run = errors["companions"][name]
         label = f"companion {name}: "
-        # More damping lowers the stable step, less raises it: theirs is not compared.
+        # Damping changes the stable step, so the steps of companions with other damping are not compared.
         if damping == 1:
             over = run["time_step"] / r.summary["time_step_mean"]
-            # The bound of a mean over rows moves where contacts open and close otherwise.
+            # The bound, and so the mean step, changes if contacts open and close differently.
             r.compare(label + "time step over the test's", over, step, 0.02 * step)
-        # By tolerance the rate follows what breaks, between 0.15 and 1 of its limit.
+        # With a tolerance, breaks change the rate between 0.15 and 1 of its limit.
         over = run["axial_strain_rate"] / r.summary["axial_strain_rate"]
         r.compare(label + "rate over the test's", over, rate, 1e-3 * rate if at_a_rate else 0.4 * rate)
-        if run["damping"] is not None:  # the test has some
+        if run["damping"] is not None:  # the test has damping
             r.compare(label + "damping over the test's", run["damping"], damping, 1e-12)
     peak = {"peak_stress": r.summary["peak_stress"], "peak_strain": r.summary["peak_strain"]}
     thresholds = {name: number(r.summary[name]) for name in ("crack_initiation_stress", "crack_damage_stress") if name in errors}
@@ -281,7 +282,7 @@ def recount_errors(r):
               max(abs(runs[k][name] - value) / value for k in ("half_damping", "double_damping")))
         resolution = number(errors[name]["resolution"])
         column = r.curve["axial_strain" if name == "peak_strain" else "axial_stress"]
-        row = r.peak if name in peak else first(column >= value)  # of a threshold the row that first comes to it
+        row = r.peak if name in peak else first(column >= value)  # for a threshold, the first row that reaches it
         if r.peak:
             r.key(f"numerical_errors.{name}.resolution", abs(column[row] - column[row - 1]) / value if row else math.nan if math.isnan(value) else 0.0)
         stated = math.hypot(resolution, max(3 * rate, 2.92 * math.sqrt(2) * spread / value))
@@ -314,7 +315,7 @@ def recount(folder):
         r.key("confining_side", r.results.key("confinement", "side", "membrane"))
         if r.summary["confining_side"] == "membrane":
             r.key("membrane.work", r.curve["confinement_work"][-1], 0.0)
-        else:  # walls are no bodies of the model: the curve is all that is recounted
+        else:  # the model has no walls, so only the curve is recounted
             recount_packing(r)
             recount_lengths(r)
             return r
@@ -327,7 +328,7 @@ def recount(folder):
 
 
 def recount_model(r, joints, faces):
-    """What follows from the specimen between its platens. @param faces  on traces, of joints.py"""
+    """Figures that follow from the specimen between its platens. @param faces  faces on traces, from joints.py"""
     model = Model(r.results, joints)
     recount_lengths(r)
     if joints.have_mechanics() and not model.polygons:
@@ -367,7 +368,7 @@ def shown(value):
 
 
 def figures(table, before=""):
-    """Names of all numbers of the summary."""
+    """Names of all figures in the summary."""
     names = set()
     for name, value in table.items():
         if isinstance(value, dict):

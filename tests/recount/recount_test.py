@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small tests of each kind, recounted; and files made wrong on purpose, each of which the recount must find."""
+"""Recounts small tests of each kind, and falsifies files on purpose: the recount must find each fault."""
 
 import json
 import shutil
@@ -44,7 +44,7 @@ def every_step_of_few(name, case):
 
 
 def rubble():
-    """Circles that carry again, and more, once they are wedged."""
+    """Circles whose fragments wedge after the peak and carry more than before."""
     return run("rubble", rock + squeezed + "stop_at_share_of_peak = 0.3\n" + rate + output)
 
 
@@ -66,8 +66,8 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
         r = recounted(circles())
         left = {name for name in figures(r.summary) - r.keys if ".companions." not in name}
         self.assertEqual(left, {
-            "initial_tangent_window.contacts_gained",  # needs a frame at the window's last row
-            "numerical_errors.youngs_modulus.stated",  # the solve's own residual
+            "initial_tangent_window.contacts_gained",  # needs a frame at the last row of the window
+            "numerical_errors.youngs_modulus.stated",  # the residual of the linear solve
             "list_builds", "threads",
             "step_seconds", "wall_seconds",
         })
@@ -76,7 +76,7 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
     def test_pieces_that_carry_more_than_the_specimen(self):
         folder = rubble()
         summary = json.loads((folder / "summary.json").read_text())
-        self.assertGreater(summary["largest_stress"], 1.5 * summary["peak_stress"], "the case that the rule is for")
+        self.assertGreater(summary["largest_stress"], 1.5 * summary["peak_stress"], "a case to which the rule applies")
         self.agrees(folder, 200)
 
     def test_circles_pulled_by_tolerance_between_glued_platens(self):
@@ -96,10 +96,10 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
                                  ("walls_cells", voronoi, 'side = "walls"\n')):
             text = rock + mesh + squeezed.replace('"compression"', '"biaxial"') + "[confinement]\npressure = 2e3\n" + side + output
             self.assertIn("biaxial", text)
-            self.agrees(run(name, text), 80 if side else 200)  # walls are no bodies of the recount's model
+            self.agrees(run(name, text), 80 if side else 200)  # the recount's model has no walls
 
     def test_cells_that_are_not_between_platens(self):
-        """What section, length and toughness are is computed by other formulas' code; bonds and frames are not."""
+        """Only section, length and toughness are recounted, with separate formulas; bonds and frames are not."""
         box = "[packing]\nwidth = {}\nheight = {}\nradius_min = 1.333e-2\nradius_max = 2.667e-2\nmean_overlap = 7.74e-5\nseed = 3\n"
         for kind, width, height, keys, shape in (
                 ("brazilian", 0.6, 0.6, "half_angle = 12.0\n", ""), ("bending", 1.3, 0.25, "", ""),
@@ -125,14 +125,14 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
         self.agrees(run("triangles", rock + triangles + squeezed + friction + output), 100)
 
     def test_cells_of_micrometres(self):
-        # Grains of 4 micrometres: an area of a fragment is some 1e-11 m2.
+        # With grains of 4 micrometres, fragments have areas of about 1e-11 m2.
         tiny = packing.replace("1.333e-2", "1.333e-6").replace("2.667e-2", "2.667e-6").replace("7.74e-5", "7.74e-9")
         small_cells = cells.replace("thick = 1e-3", "thick = 1e-7")
         case = tiny + area + strengths + small_cells + cohesive + scattered("weibull", 0.3) + squeezed + output
         self.agrees(run("micrometres", case), 300)
 
     def test_errors_of_crack_initiation(self):
-        """The result of a specimen that breaks often enough to have one."""
+        """Compares the errors for a specimen with enough breaks to have a crack initiation."""
         shipped = Path(__file__).parents[2] / "specimens/guide_rock/delaunay_compression.toml"
         folder = run("verified_triangles", f'include = "{shipped}"\n[packing]\ncount = 40\n' + output, "--verify")
         r = recounted(folder)
@@ -168,7 +168,7 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
         self.agrees(cells_of_an_area_pulled(), 200)
 
     def test_cells_of_an_area_between_frictional_platens(self):
-        for angle in ("30.0", "15.0"):  # above and below the residual one
+        for angle in ("30.0", "15.0"):  # above and below the residual friction angle
             platens = squeezed + friction.replace("15.0", angle)
             self.agrees(run("cells_frictional_" + angle, packing + area + strengths + cells + cohesive + platens + output), 200)
 
@@ -212,7 +212,7 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
                 folder = run("rule_" + name, text)
                 r = recounted(folder)
                 self.assertIn("strain_share_above_tolerance", r.keys)
-                self.assertGreater(r.summary["strain_share_above_tolerance"], 0.0, "the rule had something to do")
+                self.assertGreater(r.summary["strain_share_above_tolerance"], 0.0, "the rule changed the rate")
                 self.agrees(folder, 100)
 
     def test_companions_are_the_tests_that_they_say(self):
@@ -234,7 +234,7 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
                                              ("crack_damage_stress", "crack_damage_stress")):
                     expected = other.summary[from_summary]
                     with self.subTest(kind=kind, companion=name, figure=figure):
-                        if figure == "axial_strain_rate":  # off its rows, and as given
+                        if figure == "axial_strain_rate":  # computed from rows here, but given in the case there
                             self.assertAlmostEqual(stated[figure], expected, delta=1e-9 * expected)
                         else:
                             self.assertEqual(stated[figure], expected)
@@ -301,7 +301,7 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
                 break
             time.sleep(0.002)
         process.wait()
-        self.assertTrue(json.loads((folder / "summary.json").read_text())["interrupted"], "stopped in between")
+        self.assertTrue(json.loads((folder / "summary.json").read_text())["interrupted"], "stopped during the run")
         subprocess.run([program, "test", "-q", "--resume", str(folder)], check=True)
         self.agrees(folder, 150)
 

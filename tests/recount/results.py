@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The files of a test as a user has them (specimens/results/FILES.md): case, specimen, curve, events, frames, summary.
+"""Reads the files of a test (specimens/results/FILES.md): case, specimen, curve, events, frames, summary.
 
-Reads with numpy and the standard library alone, and nothing of the program."""
+Uses only numpy and the standard library, no code of the program."""
 
 import base64
 import csv
@@ -17,7 +17,7 @@ import numpy as np
 
 
 class Unreadable(Exception):
-    """A file that is missing or not as FILES.md describes it; the text names it and what to do."""
+    """Raised for a file that is missing or differs from FILES.md; the message names it and a remedy."""
 
 
 @dataclass
@@ -99,7 +99,7 @@ def read_deck(path):
 
 
 def read_table(path):
-    """Columns of a CSV by name: numbers as arrays, words as lists."""
+    """Columns of a CSV file by name: numbers as arrays, words as lists."""
     with path.open(newline="") as lines:
         rows = list(csv.reader(lines))
     head, rows = rows[0], rows[1:]
@@ -119,7 +119,7 @@ _attribute = re.compile(r'(\w+)="([^"]*)"')
 
 
 def _unpack(text, kind):
-    """One array in VTK's inline form: a packed header of block sizes, then the zlib blocks."""
+    """Decodes an inline VTK array: a header with the sizes of blocks, followed by the blocks, compressed with zlib."""
     text = text.strip()
     count = int.from_bytes(base64.b64decode(text[:12])[:8], "little")
     header_letters = 4 * math.ceil(8 * (3 + count) / 3)
@@ -133,7 +133,7 @@ def _unpack(text, kind):
 
 
 def read_vtp(path):
-    """Arrays of a .vtp by name; field data as numbers; those of three components as rows."""
+    """Arrays of a .vtp file by name. Field data are numbers; arrays with three components have a row for each point or cell."""
     arrays = {}
     text = path.read_text()
     for attributes, values in _array.findall(text):
@@ -151,7 +151,7 @@ def read_vtp(path):
 
 @dataclass
 class Frame:
-    """One moment: particles, contacts and cracks, each by the names of FILES.md."""
+    """One frame: particles, contacts and cracks, each with the array names of FILES.md."""
 
     row: int
     particles: dict
@@ -165,7 +165,7 @@ class Frame:
 
 
 class Results:
-    """All that a folder OUT holds."""
+    """All results in an output folder."""
 
     def __init__(self, folder):
         self.folder = Path(folder)
@@ -215,7 +215,7 @@ class Results:
         return read_vtp(self.folder / f"frames/contacts_{row:05d}.vtp")
 
     def joints(self, row):
-        """Faces on traces, of a jointed specimen."""
+        """Faces on the traces of a jointed specimen."""
         return read_vtp(self.folder / f"frames/joints_{row:05d}.vtp")
 
     def frame(self, row):

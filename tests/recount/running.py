@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests run once, recounted once, and their files made wrong on purpose."""
+"""Runs and recounts each test once, and falsifies copies of its files on purpose."""
 
 import functools
 import json
@@ -29,7 +29,7 @@ def run(name, case, *options):
 
 @functools.cache
 def recounted(folder):
-    """Results of a folder that does not change."""
+    """Recount of a folder that does not change."""
     return recount(folder)
 
 
@@ -38,7 +38,7 @@ def differing(r):
 
 
 class SoundFiles:
-    """Results of files as the program has left them."""
+    """Checks of unchanged files."""
 
     def agrees(self, folder, fewest):
         r = recounted(folder)
@@ -52,10 +52,10 @@ class SoundFiles:
 
 
 class WrongFiles:
-    """Each a fault as a program might have it, put into the files of a test that agrees, sound() if none is named."""
+    """Puts faults into copies of correct results (sound() by default), as a faulty program could write them."""
 
     def spoilt(self, what, sound=None):
-        """@return figures that differ then and did not before"""
+        """@return figures that differ after the change, but not before"""
         folder, sound = scratch / "spoilt", sound or self.sound()
         shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(sound, folder)

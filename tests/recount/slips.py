@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""First slips of bonded points, where slips.csv was asked for; `r`, `model` and `bonds` as in frames.py."""
+"""First slips of bonded points, if the test wrote slips.csv; `r`, `model` and `bonds` as in frames.py."""
 
 import math
 
@@ -9,7 +9,7 @@ from model import rounding
 
 
 def recount_slips(r, model, bonds):
-    """Every row against the curve and each bond once: its limit is friction times the force with the back-tension."""
+    """Compares the rows with the curve, and each with one bond, whose limit is friction times the sum of normal force and back-tension."""
     rows, c = r.results.slips, r.curve
     if rows is None:
         return

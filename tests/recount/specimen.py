@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The specimen as it was made and bonded: packing, minerals, cells, contacts, stable step; `r` and `model` as in frames.py."""
+"""The bonded specimen before loading: packing, minerals, cells, contacts, stable step; `r` and `model` as in frames.py."""
 
 import math
 
@@ -13,7 +13,7 @@ from outlines import outset, polygon_moments
 
 
 def recount_packing(r):
-    """packing.* from the circles between their walls (specimens/packing/METHODS.md)."""
+    """Figures packing.*, from the circles between their walls (specimens/packing/METHODS.md)."""
     deck = r.results.circles
     if deck is None or "packing" not in r.summary:
         return
@@ -21,7 +21,7 @@ def recount_packing(r):
     x, y, radius = circles.T
     box, solid = deck.width * deck.height, np.sum(math.pi * radius**2)
     r.key("packing.void_ratio", (box - solid) / solid)
-    stiffness = deck.materials[-1]["normal_stiffness"]  # [material]'s, behind the minerals'
+    stiffness = deck.materials[-1]["normal_stiffness"]  # that of [material], which follows the minerals
     apart = np.hypot(x[:, None] - x, y[:, None] - y)
     overlap = radius[:, None] + radius - apart
     i, j = np.nonzero(np.triu(overlap > 0, 1))
@@ -46,12 +46,12 @@ def recount_packing(r):
     force += np.stack([left - right, bottom - top], 1)
     all_walls = np.concatenate([w[w > 0] for w in (left, right, bottom, top)])
     mean = np.concatenate([between, all_walls]).mean()
-    # A residue of cancelling forces: places carry rounding of 1e-16 of the box.
+    # This is a residual of cancelling forces; coordinates have rounding errors of 1e-16 of the box.
     r.key("packing.unbalanced", np.hypot(*force.T).max() / mean, floor=20 * 1e-16 * deck.height / mean)
 
 
 def recount_minerals(r, model):
-    """Shares and grains of each mineral, and what it is made of (specimens/making/METHODS.md)."""
+    """Area share, grains and material of each mineral (specimens/making/METHODS.md)."""
     stated, case = r.summary.get("minerals", []), r.results.case
     r.true("minerals: as many as the case has", len(stated) == len(model.minerals))
     material, area = model.material[: model.count], model.area[: model.count]
@@ -87,7 +87,7 @@ def recount_minerals(r, model):
 
 
 def recount_cells(r):
-    """packing.cell_* from the polygons, each set outwards by the depth of the inset (specimens/making/METHODS.md)."""
+    """Figures packing.cell_*, from the polygons after moving their edges outwards by the depth of the inset (specimens/making/METHODS.md)."""
     if "cell_diameter" not in r.summary.get("packing", {}):
         return
     depth = r.results.key("mesh", "inset", r.results.key("mesh", "thick") / 2)
@@ -96,14 +96,15 @@ def recount_cells(r):
         area = polygon_moments(outset(body.corners, depth))[0]
         diameter.append(math.sqrt(4 * area / math.pi))
     diameter = np.array(diameter)
-    # An edge that the inset took leaves a corner too far out: some depth squared of one cell in ten.
+    # If the inset has removed an edge, moving outwards gives a corner that is too far out; about one cell in ten gains
+    # an area of depth squared.
     lost = 0.1 * (depth / diameter.mean()) ** 2
     r.key("packing.cell_diameter", diameter.mean(), lost + 1e-9)
     r.key("packing.cell_spread", diameter.std() / diameter.mean(), 30 * lost + 1e-9)
 
 
 def stable(model, stiffness, damping, step):
-    """Whether leapfrog is, by solver/MODEL.md 7."""
+    """Whether leapfrog is stable with this step, by solver/MODEL.md 7."""
     root = np.concatenate([np.repeat(model.mass[: model.count, None], 2, 1), model.inertia[: model.count, None]], 1)
     root = 1 / np.sqrt(root.ravel())
     free = np.arange(len(root))
@@ -146,10 +147,10 @@ def recount_specimen(r, model):
     bonds = make_bonds(model, points)
     r.key("bonds_initial", len(bonds.i))
     bonded = set(bonds.keys())
-    points = model.points(model.centre, np.zeros(len(model.mass)))  # as bonding has left them
+    points = model.points(model.centre, np.zeros(len(model.mass)))  # again, with the properties that bonding has set
     beyond = points.overlap - points.rest
     unbonded = np.array([key not in bonded for key in points.keys()]) & ~(points.lap <= 0)
-    # Flat faces lie flush: they touch by rounding, or not.
+    # Whether flat faces touch at the start depends on rounding.
     floor = touching_floor * model.height * (model.frictional | ~np.isnan(points.lap))
     fewest, most = (len(bonds.i) + np.sum(unbonded & (beyond > side * floor)) for side in (1, -1))
     r.compare("contacts_initial", s["contacts_initial"], (fewest + most) / 2, (most - fewest) / 2)
@@ -157,7 +158,7 @@ def recount_specimen(r, model):
     pairs = {(min(a, b), max(a, b)) for a, b in zip(bonds.i, bonds.j)}
     r.key("interfaces_initial", len(pairs))
     tension = model.normal_stiffness(bonds) * bonds.overlap
-    # Gaps and overlaps cancel.
+    # In a mesh, gaps and overlaps nearly cancel.
     tiny = 1e-15 * model.height
     r.key("mean_bond_overlap", bonds.overlap.mean(), floor=rounding * np.abs(bonds.overlap).mean() + tiny)
     scale = rounding * np.abs(tension).mean() + tiny * model.normal_stiffness(bonds).mean()
@@ -183,14 +184,14 @@ def recount_specimen(r, model):
     scaled = scale[:, None] * stiffness[np.ix_(free, free)] * scale
     load = -scale * (stiffness[free] @ solution)
     values, vectors = np.linalg.eigh(scaled)
-    regular = values > 1e-11  # floating bodies and mechanisms move without a force
+    regular = values > 1e-11  # floating bodies and mechanisms can move without a force
     solution[free] = scale * (vectors[:, regular] @ ((vectors[:, regular].T @ load) / values[regular]))
     force = stiffness @ solution
     stress = (force[3 * model.bottom + 1] - force[3 * model.top + 1]) / 2 / model.width * model.sense
     strained = -solution[3 * model.top + 1] / model.height * model.sense
-    # The eigenvectors of the softest motions carry the rounding of the stiffest, 1e-16 over the smallest eigenvalue.
+    # The eigenvectors of the softest modes contain rounding errors of the stiffest, 1e-16 over the smallest eigenvalue.
     if stress * model.width < 1e-9 * strained * model.height * model.normal_stiffness(bonds).max():
-        stress = math.nan  # nothing holds the platens together
+        stress = math.nan  # no bonds connect the platens
     r.key("youngs_modulus", stress / strained, 1e-7)
     loose = np.abs(scale[:, None] * vectors[:, ~regular]).reshape(model.count, -1).max(axis=1, initial=0.0)
     elastic = loose <= 1e-6 * scale.max()
@@ -217,7 +218,7 @@ def recount_specimen(r, model):
         r.true("stable_time_step: stable", stable(model, stiffness, damping, step))
         r.true("stable_time_step: unstable two millionths above", not stable(model, stiffness, damping, step * (1 + 2e-6)))
         r.keys.update({"stable_time_step", "time_step_bound"})
-        if len(model.closed.i):  # faces of open joints bear a step later
+        if len(model.closed.i):  # faces of open joints carry forces only after the first step
             stiffness, damping = model.matrices(bonds, model.centre)
         r.true("time_step_bound: stable for what bears when loading begins", stable(model, stiffness, damping, s["time_step_bound"]))
         if r.results.key("numerics", "time_step") is None:

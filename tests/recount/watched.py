@@ -1,12 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which test watches each figure that a user can read: the table watched.md.
+"""Makes watched.md: which test checks each figure that a user can read.
 
-  tests/recount/watched.py --write    makes the table again
-  tests/recount/watched.py            ends with 1 where it is stale, a row is empty, or a test named there is none
+  tests/recount/watched.py --write    writes the table
+  tests/recount/watched.py            exits with 1 if the table is stale, a row is empty, or a named test does not exist
 
-Figures are read from the sources that declare them, those of summary.json from FILES.md, which is printed from these. What the recount compares stands in differences.md; tests of the others
-are named in elsewhere.toml."""
+Figures are read from the sources that declare them, and those of summary.json from FILES.md. The figures that the recount compares are in differences.md; tests of the others are listed in elsewhere.toml."""
 
 import fnmatch
 import re
@@ -90,7 +89,7 @@ sections = {"summary": ("summary.json", summary), "curve": ("curve.csv", curve),
 
 
 def recounted():
-    """What the recount compares with a value, by names as keys have them: [] for a number, * for a name of several."""
+    """Figures that the recount compares with a value. In names, [] replaces a number, and * one of several names."""
     found = {}
     for name, tests in re.findall(r"^\| (.+?) \| (\d+) \|", (here / "differences.md").read_text(encoding="utf-8"), re.MULTILINE):
         found[re.sub(r"\[\d+\]", "[]", name)] = int(tests)
@@ -101,7 +100,7 @@ def watched_by_recount(section, figure, known):
     names = {"summary": [figure, figure.replace("*", "?*")], "curve": [f"curve: {figure}", f"curve: {figure} *", f"frames: curve: {figure}", f"history: {figure}"],
              "emission": [f"ae: {figure}", f"ae: {figure} *"]}.get(section, [])
     names += [name + end for name in names if section == "summary" for end in (":*", ".*") if end == ":*"]
-    # [[] stands for a bracket in patterns.
+    # In patterns, [[] is a bracket.
     return sum(tests for name, tests in known.items() if any(fnmatch.fnmatchcase(name, one.replace("[]", "[[]]")) for one in names))
 
 
@@ -132,13 +131,13 @@ def table():
         all_names = list(dict.fromkeys(names()))
         for figure in all_names:
             if any(other.startswith((figure + ".", figure + "[]")) for other in all_names):
-                continue  # a table of those that follow
+                continue  # a table, whose figures follow
             by, times = [], watched_by_recount(section, figure, known)
             if times:
                 by.append(f"recount ({times})")
             fitting = [one for one in elsewhere.get(section, {}) if fnmatch.fnmatchcase(figure, one.replace("[]", "[[]]"))]
             if fitting:
-                pattern = max(fitting, key=len)  # what is stated for one figure goes before what is stated for many
+                pattern = max(fitting, key=len)  # the most specific pattern counts
                 named = elsewhere[section][pattern]
                 used.add((section, pattern))
                 by += [named] if isinstance(named, str) else named

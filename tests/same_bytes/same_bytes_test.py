@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A difference is named with its first row and column, between two results and against the record."""
+"""Tests that a difference is reported with its first row and column, between two results and against the record."""
 
 import importlib.machinery
 import importlib.util

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is run to compare bytes: everything shipped, and one small case a kind."""
+"""The scenes whose bytes are compared: all shipped cases and decks, and one small case of each kind."""
 
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
-# Small cases: what a shipped one is made of, and what makes it small or takes another way through the program.
+# Small cases: a shipped case, and keys that make it small or use another part of the program.
 CIRCLES = "[packing]\ncount = 60\n[output]\nframes = 3\n"
 LOGNORMAL = '[packing]\ncount = 60\nsizes = "lognormal"\nradius_median = 0.02\nradius_log_deviation = 0.25\nradius_min = 0.01\nradius_max = 0.04\n[output]\nframes = 3\n'
 SMALL = {
@@ -28,7 +28,7 @@ PACKING = "pack --count 300 --lognormal-median 0.01 --lognormal-deviation 0.3 --
 
 
 def scenes(small):
-    """{name: ({name of a file or folder: its text, or the path of its original}, commands of crackle in the folder of the scene)}. Their outputs are compared."""
+    """{name: ({name of a file or folder: its text, or the path of its original}, commands of crackle that run in the scene's folder)}"""
     found = {
         "packing": ({}, [PACKING]),
         "delaunay_mesh": ({}, [PACKING, "mesh in_gm.dat --kind delaunay --thick 5e-4 --merge -o mesh.dat"]),

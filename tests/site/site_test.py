@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The site builds without a warning, has its pages, and its links lead to files and anchors that are there.
+"""Tests that the site builds without warnings, contains all pages, and has only links to existing files and anchors.
 
   tests/site/site_test.py           with the program and the Python module of build/release
   CRACKLE_BUILD=DIR tests/site/site_test.py    with those of another build
@@ -20,7 +20,7 @@ BUILD = Path(os.environ.get("CRACKLE_BUILD", TOP / "build" / "release")).resolve
 
 
 class Page(HTMLParser):
-    """Anchors of a page, and what it links to or shows."""
+    """Anchors, links and pictures of a page."""
 
     def __init__(self, path):
         super().__init__()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Running shipped decks in scratch folders and reading their outputs back.
+// Runs shipped decks in temporary folders and reads their outputs.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ inline std::filesystem::path shipped_deck(const std::string& name) {
     return std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens" / "demseg" / name;
 }
 
-/// An empty folder, removed at the end of the test.
+/// An empty temporary folder, removed at the end of the test.
 class ScratchFolder {
   public:
     ScratchFolder() {
@@ -39,7 +39,7 @@ class ScratchFolder {
     ScratchFolder(const ScratchFolder&) = delete;
     ScratchFolder& operator=(const ScratchFolder&) = delete;
     ~ScratchFolder() {
-        std::error_code ignored;  // a leftover folder is emptied by the next run
+        std::error_code ignored;  // the next run empties a folder that was left
         std::filesystem::remove_all(path_, ignored);
     }
     std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
@@ -48,7 +48,7 @@ class ScratchFolder {
     std::filesystem::path path_;
 };
 
-/// Numbers of every line that is no comment.
+/// Numbers of every line that is not a comment.
 inline Rows read_rows(const std::filesystem::path& path) {
     const std::string text = read_file(path);
     Rows rows;
@@ -71,7 +71,7 @@ inline Rows read_rows(const std::filesystem::path& path) {
     return rows;
 }
 
-/// One moment of output.dat, cont.dat or cont2.dat.
+/// One frame of output.dat, cont.dat or cont2.dat.
 struct DeckFrame {
     double step, time;
     Rows rows;

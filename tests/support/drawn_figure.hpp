@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A figure of `crackle plot` as SVG, taken apart: lines, axes and the letters of its panels.
+// Reads a figure of `crackle plot` as SVG: lines, axes and the letters of its panels.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace crackle::testing {
 
-/// Numbers of a path as they stand in it, pairs of x and y.
+/// Numbers of a path in order, as pairs of x and y.
 inline std::vector<Vec2> corners_of(const std::string& path) {
     std::vector<double> numbers;
     for (const char* at = path.c_str(); *at != '\0';) {
@@ -32,7 +32,7 @@ inline std::vector<Vec2> corners_of(const std::string& path) {
     return corners;
 }
 
-/// Open paths of an SVG, in order of their drawing, the glyphs' left out.
+/// Open paths of an SVG in drawing order, without those of glyphs.
 inline std::vector<std::vector<Vec2>> lines_of(const std::string& svg) {
     pugi::xml_document document;
     EXPECT_TRUE(document.load_string(svg.c_str()));
@@ -44,7 +44,7 @@ inline std::vector<std::vector<Vec2>> lines_of(const std::string& svg) {
     return lines;
 }
 
-/// Axes drawn as down and to the right: upper left, lower left and lower right corner of each.
+/// Axes, drawn downwards and then to the right: upper left, lower left and lower right corner of each.
 inline std::vector<std::vector<Vec2>> frames_of(const std::string& svg) {
     std::vector<std::vector<Vec2>> frames;
     for (const std::vector<Vec2>& line : lines_of(svg)) {
@@ -54,7 +54,8 @@ inline std::vector<std::vector<Vec2>> frames_of(const std::string& svg) {
     return frames;
 }
 
-/// Where the letters of panels stand: (a), (b), ..., each three glyphs of the bold font, the outer two alike.
+/// Positions of the panels' letters (a), (b), ..., each three glyphs of the bold font; the first and last glyphs are
+/// the same for all.
 inline std::vector<Vec2> letters_of(const std::string& svg) {
     pugi::xml_document document;
     EXPECT_TRUE(document.load_string(svg.c_str()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The files of a test's folder, compared byte by byte.
+// Reads the files of a test's folder for comparison byte by byte.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace crackle::testing {
 
-/// Every file by name; summary.json without what depends on the clock.
+/// Contents of every file by name; summary.json without values that depend on the clock.
 inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

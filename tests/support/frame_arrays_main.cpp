@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the frames of a test hold, in our own terms, for a test that reads them with VTK:
-//   frame_arrays read FILE...   of each .vtp file, every array as our reader reads it
-//   frame_arrays state OUT      of the end of a test, the same arrays from the solver's state in OUT/checkpoint
-//                               (view_point() and the bodies: neither painter nor reader has a part in it), and its
-//                               shapes
-// JSON: each array as [minimum, maximum, sum, sum of magnitudes]; of an empty one [0, 0, 0, 0].
+// Prints the contents of a test's frames, for a test that reads them with VTK:
+//   frame_arrays read FILE...   every array of each .vtp file, as read by the program's own reader
+//   frame_arrays state OUT      the same arrays at the end of a test, from the solver's state in OUT/checkpoint
+//                               (view_point() and the bodies, without painter or reader), and the shapes of
+//                               particles
 
 #include <fmt/format.h>
 
@@ -62,7 +61,7 @@ json read_file(const std::string& file) {
             {"counts", {data.points.size(), lines, data.cells.size() - lines, corners}}};
 }
 
-/// Cell data of particles and contacts as they must be at the end of a test.
+/// Cell data of particles and contacts that the last frame of a test must contain.
 json state_of(const std::string& folder) {
     std::ifstream in(folder + "/checkpoint", std::ios::binary);
     TestCheckpoint test = load_test(in, folder + "/checkpoint");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The program as a user calls it and ends it by a signal once it has come to some point. No time is waited, since
-// machines and sanitizers differ by a factor of twenty.
+// Runs the program and ends it by a signal once it has reached a given state. There are no waiting times, since the
+// speed of machines and sanitizers differs by a factor of twenty.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 namespace crackle::testing {
 
-/// Starts the program in a folder, standard output and error in out.txt and err.txt there.
+/// Starts the program in a folder, with standard output and error in out.txt and err.txt there.
 inline pid_t started_call(const std::filesystem::path& folder, std::vector<std::string> words) {
     const pid_t child = ::fork();
     if (child != 0) return child;
@@ -30,15 +30,16 @@ inline pid_t started_call(const std::filesystem::path& folder, std::vector<std::
     ::_exit(127);
 }
 
-/// Waits for its end. @return its exit code; -1 if a signal ended it
+/// Waits for the process to end. @return its exit code; -1 if a signal ended it
 inline int ended_call(pid_t child) {
     int status = 0;
     ::waitpid(child, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// Runs the program and sends the signal once `ready` says so.
-/// @return its exit code; -1 if a signal ended it, it ended before it was ready, or was not ready in two minutes
+/// Runs the program and sends the signal once `ready` returns true.
+/// @return its exit code; -1 if a signal ended it, if it ended before `ready`, or if it was not ready within two
+/// minutes
 template <class Ready>
 int interrupted_call(const std::filesystem::path& folder, const std::vector<std::string>& words, int signal,
                      const Ready& ready) {

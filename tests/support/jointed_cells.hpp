@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Square cells in rows and columns with traces of joints between some of them.
+// Square cells in rows and columns, with joint traces between some of them.
 #pragma once
 
 #include <map>
@@ -18,14 +18,14 @@ struct JointedCells {
     double size = 0.02, thick = 2e-5;  // m
     double modulus = 5e9;              // Pa
     double damping_ratio = 0.1;
-    /// By the row, or column, above which, or right of which, a trace runs through all cells: into `joints`, -1 as the
-    /// rock. Traces run up and to the right.
+    /// Traces through all cells, by the row above which or the column to the right of which they run. The value is an
+    /// index into `joints`, or -1 for a trace that behaves like the rock. Traces run upwards or to the right.
     std::map<int, int> above_row, right_of_column;
     std::vector<Joint> joints;
     Integrator integrator = Integrator::leapfrog;
 };
 
-/// Ids from 1, row by row from the lower left.
+/// The scene; ids start at 1, row by row from the lower left.
 inline Scene jointed_scene(const JointedCells& cells) {
     Scene scene;
     Material rock = undamped_rock(cells.modulus, 35.0, 0.4);
@@ -60,7 +60,7 @@ inline Scene jointed_scene(const JointedCells& cells) {
                 r * cells.columns + c + 1, 0,
                 {{low.x + h, low.y + h}, {high.x - h, low.y + h}, {high.x - h, high.y - h}, {low.x + h, high.y - h}},
                 true);
-            // Cells above a trace, and to the left of one that runs up, lie to its left.
+            // Cells above a trace, or to the left of one that runs upwards, are on its left side.
             sides.insert(sides.end(),
                          {side(false, r - 1, 0), side(true, c, 0), side(false, r, 1), side(true, c - 1, 1)});
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Circles in a close packing of rows, with a straight trace of a joint through it.
+// Circles in closely packed rows, with a straight joint trace through them.
 #pragma once
 
 #include <cmath>
@@ -14,16 +14,16 @@ namespace crackle::testing {
 
 struct JointedCircles {
     int columns = 12, rows = 12;
-    double radius = 0.01;  // m; one circle in three is smaller, by a tenth
+    double radius = 0.01;  // m; one of three circles is smaller by a tenth
     double modulus = 5e9;  // Pa
     double damping_ratio = 0.1;
-    Vec2 from{-0.02, 0.07}, to{0.26, 0.13};  // m, of the trace
-    double turn = 0.0;                       // rad, of the rows
+    Vec2 from{-0.02, 0.07}, to{0.26, 0.13};  // m, ends of the trace
+    double turn = 0.0;                       // rad, rotation of the rows
     Joint joint;
     int threads = 1;
 };
 
-/// Ids from 1, row by row from the lower left.
+/// The scene; ids start at 1, row by row from the lower left.
 inline Scene scene_of(const JointedCircles& circles) {
     Scene scene;
     Material rock = undamped_rock(circles.modulus, 35.0, 0.4);
@@ -43,7 +43,7 @@ inline Scene scene_of(const JointedCircles& circles) {
     const double width = step * (circles.columns + 0.5), height = step * circles.rows * std::sqrt(0.75);
     const Vec2 middle{0.5 * width, 0.5 * height};
     const Vec2 turn{std::cos(circles.turn), std::sin(circles.turn)};
-    // Turned rows come from farther off; what lies outside of the box is left out.
+    // For rotated rows, more circles are created, and those outside the box are omitted.
     const int more = circles.turn == 0.0 ? 0 : circles.rows + circles.columns;
     int id = 0;
     for (int row = -more; row < circles.rows + more; ++row) {
@@ -60,7 +60,7 @@ inline Scene scene_of(const JointedCircles& circles) {
     return scene;
 }
 
-/// Bonded, over gaps too.
+/// Builds a world and bonds it, also across gaps.
 inline World bonded_circles(Scene scene) {
     World world = build_world(std::move(scene));
     Bonding bonding;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Workers of a process, ended from outside as the system ends those for which there is no memory, or that crash.
+// Kills worker processes, to simulate a lack of memory or a crash.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,8 +14,8 @@
 
 namespace crackle::testing {
 
-/// Ends `count` workers of a process by a signal, one after the other, each as soon as it is there.
-/// @return how many; fewer only where the process has ended, which is left to be waited for, or after two minutes
+/// Kills `count` workers of a process one after another, each as soon as it exists.
+/// @return number of workers killed; fewer if the process has ended (it must still be waited for), or after two minutes
 inline int kill_workers(pid_t process, int count, int signal = SIGKILL) {
     const auto last = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     int killed = 0, before = 0;

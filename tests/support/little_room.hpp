@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A process whose files cannot grow beyond some bytes: what a full disc does, without one.
+// Limits the size of this process's files, to simulate a full disc.
 #pragma once
 
 #include <sys/resource.h>
@@ -8,7 +8,7 @@
 
 namespace crackle::testing {
 
-/// As long as it lives writing beyond `bytes` of a file fails with EFBIG, «File too large».
+/// During its lifetime, writing beyond `bytes` of a file fails with EFBIG, «File too large».
 class LittleRoom {
   public:
     explicit LittleRoom(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

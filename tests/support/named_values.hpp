@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether enums and their names lead to each other. Tested by tests/solver/base/names_test.cpp.
+// Checks that enum values and their names correspond. Tested by tests/solver/base/names_test.cpp.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 namespace crackle::testing {
 
-/// What the source calls a value: "flat" of Jaws::flat.
+/// Name of a value in the source: "flat" for Jaws::flat.
 template <auto value>
 std::string identifier_of() {
     const std::string_view text = __PRETTY_FUNCTION__;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Takes a page of `crackle report` or `crackle view` apart, by the rules of tools/page/page_data.hpp and without its
-// code.
+// Reads a page of `crackle report` or `crackle view` as described in tools/page/page_data.hpp, without using the
+// program's code.
 #pragma once
 
 #include <fmt/format.h>
@@ -53,8 +53,8 @@ class PageContents {
 
     struct Table {
         double quantum = 0.0;
-        double growth = 0.0;                    ///< 0: value = quantum n, else quantum / growth sinh(growth n)
-        std::vector<std::vector<double>> rows;  ///< as many as the block has frames; of contacts one
+        double growth = 0.0;                    ///< if 0, value = quantum n; otherwise quantum / growth sinh(growth n)
+        std::vector<std::vector<double>> rows;  ///< one row per frame of the block; a single row for contacts
     };
     bool has(const std::string& name, std::size_t group, std::size_t t = 0) const {
         return test(t)["groups"][group]["arrays"].contains(name);
@@ -86,7 +86,7 @@ class PageContents {
         }
         return table;
     }
-    /// The row of one frame of all.
+    /// The row of a frame, counted over all blocks.
     std::vector<double> row(const std::string& name, std::size_t frame, std::size_t t = 0) const {
         for (std::size_t g = 0; g < test(t)["groups"].size(); ++g) {
             const nlohmann::json& group = test(t)["groups"][g];

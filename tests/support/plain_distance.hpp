@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plain reference geometry: distances by looking at everything, in world coordinates, sharing no code with the solver.
+// Reference geometry: distances by exhaustive search in world coordinates, sharing no code with the solver.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ inline double distance_to_segment(Vec2 p, Vec2 a, Vec2 b) {
     return norm(p - (a + share * (b - a)));
 }
 
-/// By the crossing number.
+/// Whether a point is inside a polygon, by the crossing number.
 inline bool inside_polygon(Vec2 p, const std::vector<Vec2>& corners) {
     bool inside = false;
     for (std::size_t k = 0, l = corners.size() - 1; k < corners.size(); l = k++) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle COMMAND ...`, or another program, as a user calls it, in a scratch folder: what it answers, and that a
-// refusal touches no file.
+// Calls `crackle COMMAND ...` or another program in a temporary folder, and checks its output and that a refusal
+// changes no file.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ struct Answer {
     std::string out, err;
 };
 
-/// Base of the tests of one command; without a name, of a program.
+/// Base class for tests of one command, or without a name, of a program.
 class ProgramCall : public ::testing::Test {
   protected:
     explicit ProgramCall(std::string command, std::string program = CRACKLE_PROGRAM)
@@ -58,7 +58,7 @@ class ProgramCall : public ::testing::Test {
         return files;
     }
 
-    /// Exit code 2, one line that says it, and no file made, changed or lost.
+    /// Expects exit code 2, one line that contains `says`, and no created, changed or removed file.
     void expect_refused(const std::string& words, const std::string& says) const {
         const auto before = snapshot();
         const Answer answer = call(words);
@@ -67,7 +67,7 @@ class ProgramCall : public ::testing::Test {
         EXPECT_NE(answer.err.find(says), std::string::npos) << "expected: " << says << "\ngot: " << answer.err;
         EXPECT_EQ(std::count(answer.err.begin(), answer.err.end(), '\n'), 1) << answer.err;
         EXPECT_TRUE(answer.out.empty()) << answer.out;
-        EXPECT_TRUE(snapshot() == before) << "files were made, changed or lost";
+        EXPECT_TRUE(snapshot() == before) << "files were created, changed or lost";
     }
 
     static constexpr const char *out_ = "out.txt", *err_ = "err.txt";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Message where something is refused.
+// Returns messages of refusals.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 
 namespace crackle::testing {
 
-/// The words of the InputError that `act` ends in, printed, too; "accepted" where it ends in none.
+/// Message of the InputError thrown by `act`, which is also printed; "accepted" if there is none.
 inline std::string refusal(const std::function<void()>& act) {
     try {
         act();

@@ -15,7 +15,7 @@ bool same_bytes(const std::vector<T, Room>& a, const std::vector<T, Room>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// What the steps so far have made of two worlds of the same points.
+/// Compares the results of the steps so far in two worlds with the same points.
 inline void expect_same_run(const World& one, const World& other) {
     EXPECT_TRUE(same_bytes(one.bodies.state, other.bodies.state));
     EXPECT_TRUE(same_bytes(one.points.force, other.points.force));

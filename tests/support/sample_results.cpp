@@ -22,7 +22,7 @@ constexpr double width = 0.55, height = 1.1;  // m
 constexpr double wave_time = 0.01;            // 1/s, strain rate
 
 struct Particle {
-    std::vector<Vec2> outline;  // shared corners before the inset
+    std::vector<Vec2> outline;  // corners before the inset, shared by neighbours
     Vec2 centre;
     double radius = 0.0;
 };
@@ -34,7 +34,7 @@ struct Break {
     bool shear = false;
 };
 
-/// Even numbers in [0, 1), the same on every platform.
+/// Uniformly distributed numbers in [0, 1), the same on every platform.
 class Dice {
   public:
     explicit Dice(std::uint64_t seed) : engine_(seed) {}
@@ -96,7 +96,7 @@ std::vector<Particle> make_particles(const SampleTest& test) {
                 cell.centre = mean(cell.outline);
                 particles.push_back(cell);
             } else {
-                for (std::size_t k : {0U, 1U}) {  // the triangle above to the right, and straight above
+                for (std::size_t k : {0U, 1U}) {  // the triangles above to the right, and directly above
                     Particle triangle{{here, ring[k], ring[k + 1]}, {}, 0.0};
                     if (cross(ring[k] - here, ring[k + 1] - here) < 1e-7) continue;
                     triangle.centre = mean(triangle.outline);
@@ -117,7 +117,7 @@ bool touch(const Particle& a, const Particle& b, double spacing) {
     return shared >= 2;
 }
 
-/// Height of the band in which the specimen parts.
+/// Height of the band in which the specimen breaks.
 double band(const SampleTest& test, double x) {
     return test.kind == "tension" ? 0.62 * height + 0.02 * std::sin(25.0 * x) : 0.5 * height + 1.3 * (x - 0.5 * width);
 }
@@ -137,7 +137,8 @@ struct Bonds {
     std::vector<Slip> slips;
 };
 
-/// Strain at which a bond slips, by the angle of its normal early or late: of every third bond, none after the end.
+/// Strain at which a bond slips, which depends on the angle of its normal; only every third bond slips, and none after
+/// the end.
 std::optional<double> slip_strain(const SampleTest& test, double orientation, Dice& dice) {
     if (dice.next() > 0.33) return std::nullopt;
     const double off_diagonal = std::abs(std::abs(orientation) - 0.25 * std::numbers::pi);
@@ -172,7 +173,7 @@ Bonds break_bonds(const SampleTest& test, const std::vector<Particle>& particles
     return bonds;
 }
 
-/// Stress in N/m: curved up to the peak, then dropping in steps.
+/// Stress in N/m: curved up to the peak, then falling in steps.
 double stress_at(const SampleTest& test, double strain) {
     const double share = strain / test.peak_strain;
     const double peak = 0.75 * test.modulus * test.peak_strain;
@@ -287,14 +288,14 @@ std::string slips_text(const std::vector<Slip>& slips) {
     return text;
 }
 
-/// Events along the specimen's height as time goes on.
+/// Events whose positions move along the specimen's height with time.
 std::string emission_text(const SampleTest& test) {
     std::string text =
         "time,axial_strain,duration,x,y,radius,breaks,breaks_in_shear,energy,moment_xx,moment_xy,moment_yy,"
         "scalar_moment,rise_time,moment_magnitude,energy_magnitude,isotropic,type\n";
     for (int k = 0; k < test.emission; ++k) {
         const double share = (k + 0.5) / test.emission, strain = share * last_strain(test);
-        // By leaps through the quantiles: large and small ones take turns.
+        // Quantiles in an irregular order, so that large and small magnitudes alternate.
         const double magnitude = -6.0 - std::log10((((37 * k) % test.emission) + 0.5) / test.emission);
         const double moment = std::pow(10.0, 1.5 * (magnitude + 6.0));
         text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", strain / wave_time, strain, 1e-5,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sample_results ROOT: six made-up folders of results. One has not failed; one has a thickness, and pieces that carry
-// more than the specimen. One has slips, one recorded slips and had none, and one has texts that try to be markup.
+// sample_results ROOT: writes six generated results folders. One specimen has not failed, and one has a thickness and
+// fragments that carry more than the specimen. One has slips, one has recorded slips without any, and one has texts
+// that contain markup.
 #include <fstream>
 #include <iostream>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A rock of 100 circles with known keys, whose tests take a few hundredths of a second, and files to calibrate it by.
+// A rock of 100 circles with known keys, whose tests take a few hundredths of a second, and files for its calibration.
 #pragma once
 
 #include <fmt/format.h>
@@ -11,8 +11,8 @@
 
 namespace crackle::testing {
 
-/// Writes compression.toml and tension.toml of coulomb bonds. @param ratio cohesion over tensile strength; where it is
-/// high, and circles are few, all breaks are in tension and the strengths do not depend on it
+/// Writes compression.toml and tension.toml with coulomb bonds. @param ratio cohesion over tensile strength; if it is
+/// high and there are few circles, all breaks are in tension and strengths do not depend on it
 inline void write_circles_rock(const std::filesystem::path& folder, double modulus = 20e9, double stiffness_ratio = 2.5,
                                double tensile = 10e6, double ratio = 2.0, int circles = 100) {
     for (const auto& [kind, strain] : {std::pair("compression", 0.03), std::pair("tension", 0.008)})
@@ -33,13 +33,13 @@ inline std::string target_text(const std::string& test, const std::string& figur
 }
 
 inline const char* const circles_tests = "[[test]]\ncase = \"compression.toml\"\n[[test]]\ncase = \"tension.toml\"\n";
-/// The compression under two pressures besides.
+/// TOML for the compression test under two further pressures.
 inline const char* const pressed_tests =
     "[[test]]\nname = \"pressed\"\ncase = \"compression.toml\"\n"
     "set = {\"loading.kind\" = \"biaxial\", \"confinement.pressure\" = 1e6}\n"
     "[[test]]\nname = \"squeezed\"\ncase = \"compression.toml\"\n"
     "set = {\"loading.kind\" = \"biaxial\", \"confinement.pressure\" = 3e6}\n";
-/// Target of a law of these and of the compression.
+/// TOML for a target of a law fitted to these tests and the compression.
 inline std::string law_target_text(const std::string& figure, double value,
                                    const std::string& tests = "[\"compression\", \"pressed\", \"squeezed\"]") {
     return fmt::format("[[target]]\ntests = {}\nfigure = \"{}\"\nvalue = {:.10g}\n", tests, figure, value);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A campaign that takes a second: cases of 60 circles, and plans of them.
+// Files for a campaign that takes a second: cases of 60 circles, and plans for them.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ inline void write_text(const std::filesystem::path& file, const std::string& tex
     std::ofstream(file, std::ios::binary) << text;
 }
 
-/// @param more further lines, tables of their own
+/// @param more further lines, which may contain tables
 inline std::filesystem::path write_packed_case(const std::filesystem::path& file, const std::string& kind = "tension",
                                                const std::string& more = "") {
     write_text(file, fmt::format("[packing]\ncount = 60\nradius_min = 1.333e-2\nradius_max = 2.667e-2\n"
@@ -26,7 +26,7 @@ inline std::filesystem::path write_packed_case(const std::filesystem::path& file
     return file;
 }
 
-/// Two kinds of test, an axis of two values, and `packings` packings.
+/// Writes a plan of two kinds of test, an axis of two values, and `packings` packings.
 inline std::filesystem::path write_small_plan(const std::filesystem::path& folder, int packings = 2,
                                               const std::string& more = "") {
     write_packed_case(folder / "tension.toml");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A small specimen and its case, written as a user would. Discs lie on a slightly shaken triangular lattice between
-// four walls that they overlap, so that bonding has something to bond. Polygons are cells of the same centres.
+// Writes a small specimen and its case as files. Discs lie on a slightly irregular triangular lattice between four
+// walls, with overlaps so that they can be bonded. Polygons are cells of the same centres.
 #pragma once
 
 #include <fmt/format.h>
@@ -14,11 +14,11 @@
 
 namespace crackle::testing {
 
-/// N/m; springs in series, 2kk/(k + k), miss it in the last bit.
+/// N/m; the last bit of 2kk/(k + k), for springs in series, differs from this value
 inline constexpr double odd_stiffness = 16572823.625;
 
 inline constexpr double rock_radius = 0.02;      // m
-inline constexpr double rock_overlap = 7.74e-5;  // m, mean
+inline constexpr double rock_overlap = 7.74e-5;  // m, mean overlap
 
 inline Scene small_rock_scene(int columns = 6, int rows = 14, std::uint64_t seed = 1) {
     std::mt19937_64 generator(seed);
@@ -33,7 +33,7 @@ inline Scene small_rock_scene(int columns = 6, int rows = 14, std::uint64_t seed
     material.shear_stiffness = 2.5e6;
     material.friction_angle = 27.0;
     scene.materials = {material};
-    int id = 100;  // ids of a file need not begin at 1
+    int id = 100;  // ids in a file need not start at 1
     for (int row = 0; row < rows; ++row) {
         for (int column = 0; column < columns - row % 2; ++column) {
             const Vec2 centre{first + spacing * (column + 0.5 * (row % 2)) + 0.5 * rock_overlap * random(),
@@ -55,22 +55,22 @@ inline void write_small_rock(const std::filesystem::path& file, int columns = 6,
     write_geometry(out, small_rock_scene(columns, rows));
 }
 
-/// What a test wants to vary of a case.
+/// Settings of the case that tests vary.
 struct SmallCase {
     std::string kind = "tension";
-    std::string mesh = {};  ///< "delaunay", "voronoi" or nothing
+    std::string mesh = {};  ///< "delaunay", "voronoi" or empty
     double rate = 0.02;     // 1/s
     double max_strain = 0.005;
-    /// Further keys; platens are bonded unless they name others.
+    /// Further keys; platens are bonded unless `loading` sets other ones.
     std::string loading = {}, numerics = {}, output = "curve_rows = 2000\nframes = 5";
-    std::string material = {}, bond = {}, minerals = {};  ///< further keys; the last are tables of their own
+    std::string material = {}, bond = {}, minerals = {};  ///< further keys; `minerals` contains tables
 };
 
 /// Writes rock.dat and case.toml into the folder. @return the case's path
 inline std::filesystem::path write_small_case(const std::filesystem::path& folder, const SmallCase& wanted) {
     write_small_rock(folder / "rock.dat");
     std::ofstream out(folder / "case.toml");
-    const auto add = [&out](const std::string& lines) {  // no line at all where there are none
+    const auto add = [&out](const std::string& lines) {  // adds nothing if there are no lines
         if (!lines.empty()) out << lines << '\n';
     };
     add("[particles]\nfile = \"rock.dat\"\n[material]\ndamping_ratio = 0.2");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The program on a pseudo-terminal: what a user would see, control sequences included.
+// Runs the program on a pseudo-terminal and returns what a user would see, including control sequences.
 #pragma once
 
 #include <pty.h>
@@ -18,11 +18,11 @@ namespace crackle::testing {
 struct TerminalAnswer {
     int code = -1;
     std::string shown;     ///< stdout and stderr together
-    double seconds = 0.0;  ///< the call took
+    double seconds = 0.0;  ///< s, duration of the call
 };
 
-/// @param words of a shell, behind the program's path. @param environment set on top of the caller's @param program its
-/// path
+/// @param words shell words after the program's path @param environment variables set in addition to the caller's
+/// @param program path of the program
 inline TerminalAnswer call_on_terminal(const std::filesystem::path& folder, const std::string& words,
                                        const std::vector<std::pair<std::string, std::string>>& environment = {},
                                        unsigned short columns = 120, const std::string& program = CRACKLE_PROGRAM) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A .vtp file that a test makes up: cells and arrays in memory, written by the parts that write a test's frames.
+// A .vtp file defined by a test: cells and arrays in memory, written by the code that writes a test's frames.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,19 @@
 
 namespace crackle::testing {
 
-/// A named array over the cells; `components` values a cell.
+/// A named array with `components` values per cell.
 struct CellArray {
     std::string name;
     std::size_t components = 1;
-    std::vector<double> real;  ///< one of the two is filled
+    std::vector<double> real;  ///< only one of these two arrays is used
     std::vector<std::int32_t> integer;
 };
 
 struct VtpData {
-    std::vector<std::vector<Vec2>> lines, polygons;            ///< their corners
-    std::vector<CellArray> cell_arrays;                        ///< lines first, then polygons
-    std::vector<std::pair<std::string, double>> field_values;  ///< one number each, for the whole file
+    std::vector<std::vector<Vec2>> lines, polygons;            ///< corners of each cell
+    std::vector<CellArray> cell_arrays;                        ///< arrays with the values of lines first, then of
+                                                               ///< polygons
+    std::vector<std::pair<std::string, double>> field_values;  ///< one number per name, for the whole file
 };
 
 /// The text of a .vtp file.

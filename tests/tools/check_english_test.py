@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""tools/check_english on made-up trees: each kind of text is read, each rule finds its sentence, and the list only shrinks."""
+"""Tests tools/check_english on generated trees: each kind of text is read, each rule finds its sentence, and the list can only shrink."""
 
 import importlib.machinery
 import importlib.util
@@ -149,7 +149,7 @@ class CheckEnglish(unittest.TestCase):
         self.assertIn("found '--grow', expected", done.stderr)
 
     def allow(self, number):
-        """Writes the list for the one finding there is, in solver/a.cpp."""
+        """Writes the list for the only finding, in solver/a.cpp."""
         [finding] = check_english.findings_of("solver/a.cpp", (self.tree / "solver/a.cpp").read_text(encoding="utf-8"))
         self.write({LIST: f"{number} {check_english.key_of(finding)} {finding.sentence}\n"})
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""tools/check_rooms on made-up trees: each fault is reported, with file and line, and a tree without faults passes."""
+"""Tests tools/check_rooms on generated trees: each fault is reported with file and line, and a tree without faults passes."""
 
 import subprocess
 import tempfile
@@ -21,7 +21,7 @@ GOOD = {
 
 class CheckRooms(unittest.TestCase):
     def checked(self, files=None):
-        """Exit code and output for GOOD with these files in place of its own."""
+        """Exit code and output for GOOD with these files replaced."""
         with tempfile.TemporaryDirectory() as folder:
             for path, text in (GOOD | (files or {})).items():
                 file = Path(folder) / path

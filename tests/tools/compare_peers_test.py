@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""tests/benchmarks/peers/compare_peers with made-up programs in place of crackle and the peers: ratios, medians, exit codes, messages."""
+"""Tests tests/benchmarks/peers/compare_peers with fake programs instead of crackle and the peers: ratios, medians, exit codes, messages."""
 import csv
 import importlib.machinery
 import importlib.util
@@ -20,7 +20,7 @@ DISCS = [(0.01, 0.01, 0.01), (0.03, 0.01, 0.0101), (0.01, 0.03, 0.0102), (0.03, 
 PACKING = "1 0 0\n1d-4 0 0\n1\n2500 1e7 2.5d6 0 0 45\n0 0.04 0 0.04 0\n4 0 0\n" + "".join(
     f"{number} 1 1\n0 0 0\n1 {radius}\n{x} {y} 0\n" for number, (x, y, radius) in enumerate(DISCS, 1))
 
-# A made-up program takes its particle-steps a second from the next line of NAME.rates, the last line again and again.
+# A fake program takes its particle-steps per second from the next line of NAME.rates; the last line is repeated.
 NEXT_RATE = """
 import json, pathlib, sys
 FAKES = pathlib.Path(__file__).parent
@@ -39,7 +39,8 @@ else:
     (FAKES / "case.toml").write_text(pathlib.Path(sys.argv[2]).read_text())
     out = pathlib.Path(words["-o"])
     out.mkdir(exist_ok=True)
-    # Timed runs are known by their 20 steps, the fewest there are: before them come some, as many as it takes, to find the start-up and the steps.
+    # Timed runs are recognised by their 20 steps, the smallest number; the runs before them, which find start-up time
+    # and steps, have more.
     case = dict(line.split(" = ") for line in pathlib.Path(sys.argv[2]).read_text().splitlines() if " = " in line)
     asked = round(float(case["max_axial_strain"]) / float(case["axial_strain_rate"]) / 2e-4)
     steps, particles = 1000, 4
@@ -52,7 +53,8 @@ script, job = pathlib.Path(sys.argv[-2]), json.load(open(sys.argv[-1]))
 (FAKES / (script.stem + ".job")).write_text(json.dumps(job))
 seconds = 4 * job["steps"] / next_rate(script.stem)
 print("some words")
-print("RESULT " + json.dumps({"version": "1.2", "steps": job["steps"], "seconds": seconds, "processor_seconds": seconds / 2, "contacts": 8, "bonds": 6,
+print("RESULT " + json.dumps({"version": "1.2", "steps": job["steps"], "seconds": seconds, "processor_seconds": seconds / 2, "contacts": 8,
+"bonds": 6,
                               "broken": 2, "peak_stress": 1.0}))
 """
 LAMMPS = NEXT_RATE + """
@@ -86,7 +88,7 @@ class ComparePeers(unittest.TestCase):
     def compare(self, *more, packing=True):
         words = [sys.executable, SCRIPT, "--crackle", self.fakes / "crackle", "--out", self.folder / "out", "--seconds", "1", "-q"]
         words += ["--packing", self.packing] if packing else []
-        # Nothing else on the PATH: a peer that this machine has is not found.
+        # Only the fakes are on the PATH, so installed peers are not found.
         return subprocess.run(words + list(map(str, more)), capture_output=True, text=True, env={**os.environ, "PATH": str(self.fakes)})
 
     def rows(self, study="rate"):
@@ -110,7 +112,7 @@ class ComparePeers(unittest.TestCase):
         self.assertNotIn("LAMMPS", asked.stdout)
 
     def test_ratios_are_those_of_medians(self):
-        # After one pilot of each peer; medians that are neither means nor first nor last.
+        # The first rate is that of the pilot run. Medians differ from means, and from the first and the last value.
         self.install("crackle", CRACKLE, crackle=[900, 100, 600])
         self.install("yade", PYTHON_PEER, yade_bonded=[1, 10, 30, 2000], yade_frictional=[1, 60, 9000, 40])
         self.install("lmp", LAMMPS, lammps=[1, 300, 1, 200])
@@ -146,7 +148,7 @@ class ComparePeers(unittest.TestCase):
         self.assertEqual(job["discs"], [list(disc) for disc in DISCS])
         self.assertEqual((job["box"], job["density"], job["normal_stiffness"], job["shear_stiffness"]), ([0, 0.04, 0, 0.04], 2500, 1e7, 2.5e6))
         self.assertAlmostEqual(job["friction"], 1)
-        self.assertEqual(job["time_step"], 2e-4)  # the one crackle derived
+        self.assertEqual(job["time_step"], 2e-4)  # the time step that crackle derived
         atoms = [line.split() for line in (self.fakes / "discs.data").read_text().partition("# sphere\n")[2].split("\n") if line]
         self.assertEqual([(float(x), float(y), float(d) / 2) for _, _, d, _, x, y, _ in atoms], DISCS)
         self.assertIn("threads = 1\n", (self.fakes / "case.toml").read_text())
@@ -200,7 +202,7 @@ class ComparePeers(unittest.TestCase):
         self.assertEqual((job["strain_a_step"], job["stop_below"], job["warm_up"]), (1e-7, 0.5, 0))
         case = (self.fakes / "case.toml").read_text()
         self.assertIn("max_axial_strain = 0.003\n", case)
-        self.assertIn("axial_strain_rate = 0.0005\n", case)  # 1e-7 in a step of 2e-4 s
+        self.assertIn("axial_strain_rate = 0.0005\n", case)  # 1e-7 per step of 2e-4 s
         self.assertIn("## Compression: 1e-07 axial strain a step", self.page())
 
     def test_bad_arguments_are_named(self):

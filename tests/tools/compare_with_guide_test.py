@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""tools/compare_with_guide.py on made-up summaries: its ratios, its exit codes, its words about what is wrong."""
+"""Tests tools/compare_with_guide.py on generated summaries: ratios, exit codes, error messages."""
 import json
 import sqlite3
 import subprocess
@@ -11,7 +11,7 @@ from pathlib import Path
 
 PROGRAM = Path(__file__).resolve().parents[2] / "tools" / "compare_with_guide.py"
 
-# Made up so that each ratio is another number.
+# Values for which all ratios differ.
 STRENGTH = {"circles": (4.85e3, 9.7e3), "delaunay": (20e3, 220e3), "voronoi": (30e3, 480e3)}
 STIFFNESS = {"circles": 5.0e6, "delaunay": 16.0e6, "voronoi": 20.0e6}
 CONTACTS = {"circles": 700, "delaunay": 3500, "voronoi": 4900}
@@ -67,7 +67,8 @@ class Comparison(unittest.TestCase):
                     for loading in ("tension", "compression"):
                         figures = summary(specimen, loading)
                         figures["largest_stress"] *= factor if loading == "compression" else 1.0
-                        # One test of the fourth packing has not ended: it is in no mean. Companions are no tests of their own.
+                        # One test of the fourth packing is unfinished, so means exclude it. Companions are not counted
+                        # as tests.
                         state = "crashed" if (seed, specimen, loading) == (4, "voronoi", "tension") else "done"
                         for variant, scale in (("as_asked", 1.0), ("half_step", 7.0)):
                             figures["largest_stress"] *= scale

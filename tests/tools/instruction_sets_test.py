@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""tests/benchmarks/instruction_sets with made-up programs: medians, ratios, which counts each kind gets, messages."""
+"""Tests tests/benchmarks/instruction_sets with fake programs: medians, ratios, counts for each kind, messages."""
 import subprocess
 import tempfile
 import unittest
@@ -8,7 +8,8 @@ from pathlib import Path
 
 SCRIPT = Path(__file__).resolve().parents[1] / "benchmarks" / "instruction_sets"
 
-# Gives a rate of BASE for circles, a tenth for polygons, times 1, 2, 9 in its first, second and third run.
+# Reports a rate of BASE for circles and a tenth of it for polygons, multiplied by 1, 2 and 9 in the first, second and
+# third run.
 PROGRAM = """#!/usr/bin/python3
 import os, pathlib, sys
 words = sys.argv[1:]
@@ -24,7 +25,8 @@ times = [1, 2, 9][len(runs.read_text()) - 1]
 base = float(os.environ.get("BASE", "1e6"))
 rows = [(kind, count) for kind in kinds for count in after("--counts")]
 head = "scene,particles,threads,contacts_per_particle,particle_steps_per_second,bare_kernel_per_second,bytes_per_particle,steps_per_list"
-lines = [f"{kind},{count},1,2,{base * times * (1 if kind == 'circles' else 0.1)},{2e7 if kind == 'circles' else 0},{600 + times},0" for kind, count in rows]
+lines = [f"{kind},{count},1,2,{base * times * (1 if kind == 'circles' else 0.1)},{2e7 if kind == 'circles' else 0},{600 + times},0" for
+kind, count in rows]
 (pathlib.Path(after("-o")[0]) / "throughput.csv").write_text("# Made by `x` on a made-up machine. triad.\\n" + "\\n".join([head] + lines) + "\\n")
 """
 
@@ -50,7 +52,7 @@ class InstructionSets(unittest.TestCase):
         rows = self.rows(done.stdout)
         self.assertEqual([row[:3] for row in rows], [[kind, count, label] for kind, count in (("circles", "300"), ("circles", "5000"), ("delaunay", "300"),
                                                                                              ("voronoi", "300")) for label in "ab"])
-        self.assertEqual(rows[0][3:], ["2.0", "1.00", "20.0", "0.10", "601"])  # the second of three runs, the memory of the first
+        self.assertEqual(rows[0][3:], ["2.0", "1.00", "20.0", "0.10", "601"])  # the rate is that of the second of three runs, the memory that of the first
         self.assertEqual(rows[1][3:], ["8.0", "4.00", "20.0", "0.40", "601"])
         self.assertEqual(rows[4][3:], ["0.2", "1.00", "–", "–", "601"])
         self.assertNotIn("the machine's", done.stdout)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""tests/benchmarks/published_numbers: small studies end with their pages, and another program's results are not taken over."""
+"""Tests tests/benchmarks/published_numbers: small studies write their pages, and results of another program are refused."""
 import csv
 import json
 import os
@@ -55,7 +55,7 @@ class PublishedNumbers(unittest.TestCase):
         first, second = self.rows("strength")
         for row in (first, second):
             summary = json.loads((self.out / f"voronoi_tension/{row['seed']}_as_shipped/summary.json").read_text())
-            self.assertEqual(float(row["as_shipped_0.1"]), summary["peak_stress"], "the program's own")
+            self.assertEqual(float(row["as_shipped_0.1"]), summary["peak_stress"], "the value of the program")
             self.assertEqual(float(row["as_shipped_largest"]), summary["largest_stress"])
             half = json.loads((self.out / f"voronoi_tension/{row['seed']}_half_step/summary.json").read_text())
             self.assertAlmostEqual(half["time_step_mean"] / summary["time_step_mean"], 0.5, delta=0.01)

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the pages show is true: their commands run, their tables name what the program writes, their links lead somewhere.
+"""Tests the Markdown pages: their commands run, their tables name what the program writes, and their links lead to existing targets.
 
   CRACKLE_PROGRAM, CRACKLE_BENCH_PROGRAM    the programs
-Pages are all Markdown files of the tree. Blocks marked `sh` run in their order in one shell a page, the README's first. All run in one folder, which holds
-the project's specimens/, tools/recount and the built programs where the README expects them. Then a page's blocks marked `python` run as one script.
-Commands of blocks marked `sh ci` must stand in .ci/run. Commands that take too long or need what is not here are marked `sh long`, or stand in a page as
-«Made by `...`» and «Run: `...`». These must name a program that is there, with options it has, and folders that are there.
+Pages are all Markdown files of the tree. A page's blocks marked `sh` run in order in one shell, those of the README first. All run in one
+folder, which contains specimens/, tools/recount and the built programs at the places that the README states. Then a page's blocks marked
+`python` run as one script. Commands of blocks marked `sh ci` must be part of .ci/run. Commands that take long or need more packages are
+marked `sh long`, or written as «Made by `...`» and «Run: `...`». They must name existing programs, options and folders.
 """
 import functools
 import json
@@ -22,9 +22,9 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ["CRACKLE_PROGRAM"]).resolve()
-BENCH_PROGRAM = Path(os.environ["CRACKLE_BENCH_PROGRAM"]).resolve()  # beside it
+BENCH_PROGRAM = Path(os.environ["CRACKLE_BENCH_PROGRAM"]).resolve()  # in the same folder
 ROOMS = ("solver", "mesher", "specimens", "tools", "tests")
-AT_MOST = {"README.md": 9000, "CONTRIBUTING.md": 9000}  # bytes: doors, not the house
+AT_MOST = {"README.md": 9000, "CONTRIBUTING.md": 9000}  # bytes
 PAGES = {name: (TOP / name).read_text(encoding="utf-8") for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")} | {
     str(path.relative_to(TOP)): path.read_text(encoding="utf-8")
     for room in ROOMS for path in sorted((TOP / room).rglob("*.md")) if "node_modules" not in path.parts}
@@ -43,14 +43,14 @@ def lines(mark, page):
 
 
 def table(text, heading):
-    """Names in the first cells of the first table behind the line beginning with `heading`, each without its backquotes."""
+    """Names in backquotes in the first column of the first table after the line that begins with `heading`."""
     start = text.index("\n" + heading)
     rows = re.search(r"\n\n((?:\|.*\n)+)", text[start:]).group(1).splitlines()[2:]
     return [name for row in rows for name in re.findall(r"`([^`]+)`", row.split("|")[1])]
 
 
 def anchors(text):
-    """The names by which links reach the headings of a page."""
+    """Anchors of a page's headings."""
     headings = (re.sub(r"\]\([^)]*\)", "]", line) for line in re.findall(r"^#+ (.+)$", text, re.MULTILINE))
     return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
@@ -62,7 +62,7 @@ def printed(*words):
 
 
 def help_of(words):
-    """What distinguishes the options of a command line's program, and the words that are left of it."""
+    """A text that contains the options of a command's program, and the remaining words of the command."""
     name = words[0]
     if name in ("crackle", "crackle-bench"):
         return printed(PROGRAM if name == "crackle" else BENCH_PROGRAM, words[1], "--help"), words[2:]
@@ -80,7 +80,7 @@ def help_of(words):
 
 @functools.cache
 def build_names():
-    """Presets, and programs that CMake builds."""
+    """Names of presets, and of programs that CMake builds."""
     presets = json.loads((TOP / "CMakePresets.json").read_text(encoding="utf-8"))
     names = {preset["name"] for preset in presets["configurePresets"]}
     for room in ROOMS:
@@ -90,7 +90,7 @@ def build_names():
 
 
 def check_words(line):
-    """Whether a command that is not run could be."""
+    """Checks program, options and folders of a command that is not run."""
     words = shlex.split(line)
     if words[0] in ("cmake", "ctest"):
         for option, name in zip(words, words[1:]):
@@ -106,7 +106,7 @@ def check_words(line):
 
 
 def flat(value, path=""):
-    """Names of a summary's keys as FILES.md writes them."""
+    """Names of a summary's keys, as in FILES.md."""
     if path in ("columns", "units") or not isinstance(value, (dict, list)):
         return {path}
     inner = value.items() if isinstance(value, dict) else [("[]", entry) for entry in value if isinstance(entry, (dict, list))]
@@ -117,7 +117,7 @@ def flat(value, path=""):
 
 
 def declared(name):
-    """A key of a summary by the wildcards of FILES.md."""
+    """The name of a summary's key with the wildcards of FILES.md."""
     name = re.sub(r"^numerical_errors\.companions\.\w+", "numerical_errors.companions.*", name)
     name = re.sub(r"^crack_rose\.\w+", "crack_rose.*", name)
     name = re.sub(r"^traces\[\].*|^(joints\[\]\.at_end|energy_at_end)\..*", lambda found: found[1] or "traces", name)
@@ -125,7 +125,8 @@ def declared(name):
     return re.sub(r"^numerical_errors\.(youngs_modulus|peak_stress|peak_strain|crack_\w+_stress)", "numerical_errors.*", name)
 
 
-# Tests whose files have all that FILES.md names between them: one of two minerals under the guide's law that ends before it fails, verified and profiled.
+# Together, the following tests write everything that FILES.md names. This one has two minerals and the guide's law, and
+# ends before it fails, verified and profiled.
 UNFAILED = """include = "{top}/specimens/guide_rock/voronoi_tension.toml"
 [packing]
 count = 30
@@ -143,7 +144,7 @@ normal_stiffness = 2e7
 [[mineral]]
 name = "feldspar"
 """
-# Files of a confined test, one that fails and one that does not.
+# A confined test; one strain leads to failure, the other does not.
 CONFINED = """include = "{top}/specimens/guide_rock/circles_compression.toml"
 [packing]
 count = 60
@@ -155,7 +156,7 @@ pressure = 1e3
 [output]
 frames = 2
 """
-# Kinds of test that are not between platens, before and after they have failed, and a test that is listened to.
+# Other kinds of test, with and without failure, and a test with acoustic emission.
 GRAIN = """include = "{top}/specimens/rocks/granite.toml"
 [packing]
 width = 0.03
@@ -174,7 +175,7 @@ OTHERS = {
 CONTAINERS = {"files.*", "crack_rose.*", "numerical_errors.*", "numerical_errors.companions", "numerical_errors.companions.*", "profile.phases", "profile.phases[]", "minerals[]", "validity[]", "cycles[]", "joints[]"}
 
 
-JOINTED = "plane"  # made by a page's commands
+JOINTED = "plane"  # a folder that commands of a page make
 
 
 class Pages(unittest.TestCase):

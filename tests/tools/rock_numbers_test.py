@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""tests/benchmarks/rock_numbers: a small study of size ends with its page, its figure and rows that hold together; bad input is refused."""
+"""Tests tests/benchmarks/rock_numbers: a small study of size writes its page, its figure and consistent rows; bad input is refused."""
 import csv
 import os
 import pathlib
@@ -30,7 +30,8 @@ class RockNumbers(unittest.TestCase):
             rows = list(csv.DictReader(file))
         self.assertEqual([(row["units"], row["cells"]) for row in rows], [(u, c) for c in ("40", "100") for u in ("area", "point") for _ in range(2)])
         for row in rows:
-            # Between the contact modulus and half of it, and a few of the bonds' 15 MPa.
+            # The modulus is between half the contact modulus and the contact modulus; the strength is more than 1 MPa
+            # with bonds of 15 MPa.
             self.assertGreater(float(row["youngs_modulus"]), 77e9 / 2)
             self.assertLess(float(row["youngs_modulus"]), 77e9)
             self.assertGreater(float(row["tensile_strength"]), 1e6)

@@ -1,14 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""VTK reads every file of a test's frames, and finds in it what we put there.
+"""Tests that VTK reads every file of a test's frames with the expected contents.
 
   CRACKLE_PROGRAM    the program
   FRAME_ARRAYS       tests/support/frame_arrays_main.cpp
-Three small specimens are broken: circles, triangles, Voronoi cells. Then
-- every array of every file, as VTK's reader reads it, agrees with what our own reader reads (minimum, maximum, sum);
-- at the end of the test it agrees with the solver's state in the checkpoint, which neither painter nor reader has touched, and
-  the cracks with events.csv;
-- a picture that VTK renders covers what the true discs and outlines of that state cover, and what `crackle plot` draws.
+Three small specimens are loaded until they fail: circles, triangles, Voronoi cells.
+- Every array of every file is the same by VTK's reader and by our own (minimum, maximum, sum).
+- At the end of the test, arrays agree with the solver's state in the checkpoint, and cracks with events.csv.
+- A picture rendered by VTK covers the same area as the discs and outlines of that state, and as the figure of `crackle plot`.
 Needs Debian's python3-vtk9 and python3-numpy, and xvfb for VTK's window.
 """
 import csv
@@ -56,9 +55,10 @@ ARRAYS = {"particles": {"id", "radius", "material", "angle", "displacement", "ve
                         "stress_xy", "fragment"},
           "contacts": {"body_i", "body_j", "normal_force", "shear_force", "state", "age"},
           "cracks": {"body_i", "body_j", "time", "mode", "energy", "orientation", "strength", "opening"}}
-PIXELS = 900  # of a picture's side
-TOLERANCE = 1e-12  # of what the values of an array are like
-# Forces come from places: k_n times a rounding of the specimen's size, and of the turns that polygons have added up step by step.
+PIXELS = 900  # per side of a picture
+TOLERANCE = 1e-12  # relative to the values of an array
+# Forces are computed from positions and rotations, so their error is k_n times the rounding of coordinates and of
+# accumulated rotations.
 STATE_TOLERANCE = 1e-9
 
 
@@ -91,7 +91,7 @@ def view_of(shapes):
 
 
 def covered_by(shapes, view):
-    """Our silhouette: a pixel is covered where its centre lies in a disc (x, y, r) or a convex polygon (corners)."""
+    """Silhouette by our own code: a pixel is covered if its centre lies in a disc (x, y, r) or a convex polygon (corners)."""
     x0, y0, half = view
     step = 2.0 * half / PIXELS
     picture = numpy.zeros((PIXELS, PIXELS), dtype=bool)
@@ -112,8 +112,8 @@ def covered_by(shapes, view):
 
 
 def drawn_by_plot(folder, picture):
-    """Our figure's particles with their edges, without, and its cracks, upside up as arrays of VTK are: warm greys are particles, the light
-    one their inside, cold ones platens and letters."""
+    """Pixels of our figure: particles with edges, particles without edges, cracks. Rows are in VTK's order. Particles are warm grey (light
+    inside, dark edges), platens and letters cold grey."""
     subprocess.run([os.environ["CRACKLE_PROGRAM"], "plot", folder, "--what", "specimen", "--at", "end", "--width", "85", "--dpi", "900",
                     "-o", picture, "--quiet"], check=True)
     reader = vtkPNGReader()
@@ -131,13 +131,13 @@ def drawn_by_plot(folder, picture):
 
 
 def extent_of(picture):
-    """First row and column, and how many rows, of what is covered."""
+    """First row, first column and height of the covered area."""
     rows, columns = numpy.nonzero(picture)
     return rows.min(), columns.min(), rows.max() + 1 - rows.min()
 
 
 def laid_over(silhouette, picture, other):
-    """The picture moved and scaled, not turned, as the silhouette must be to begin where the other does and to be as high."""
+    """The picture, moved and scaled such that the silhouette's first row, first column and height agree with those of the other."""
     (first_row, first_column, height), (onto_row, onto_column, as_high) = extent_of(silhouette), extent_of(other)
     row, column = numpy.indices(other.shape)
     from_row = numpy.floor(first_row + (row + 0.5 - onto_row) * height / as_high).astype(int)
@@ -149,7 +149,7 @@ def laid_over(silhouette, picture, other):
 
 
 def render(file, view, picture):
-    """Renders the polygons of a particles file, white on black, and saves what is white. Needs an X server."""
+    """Renders the polygons of a particles file white on black, and saves the white pixels. Needs an X server."""
     import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  the window's implementation
     from vtkmodules.vtkCommonDataModel import vtkPolyData
     from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
@@ -188,7 +188,7 @@ def render(file, view, picture):
 
 
 def rendered(file, view, folder):
-    """The picture in a process of its own, under Xvfb."""
+    """The picture, rendered in a separate process under Xvfb."""
     picture = folder / "rendered.npy"
     subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", sys.executable, __file__, "--render", file,
                     json.dumps([float(v) for v in view]), picture], check=True)
@@ -211,7 +211,7 @@ class VtkFrames(unittest.TestCase):
         return json.loads(arrays.stdout)
 
     def files(self, name):
-        """Entries of the collection, in its order: (time, part, path)."""
+        """Entries of the collection in order: (time, part, path)."""
         frames = self.folder / name / "frames"
         return [(float(entry.get("timestep")), int(entry.get("part")), frames / entry.get("file"))
                 for entry in ElementTree.parse(frames / "frames.pvd").iter("DataSet")]
@@ -309,7 +309,8 @@ class VtkFrames(unittest.TestCase):
                   f"beyond, {missing:.4f} missing")
             self.assertGreater(by_vtk.mean(), 0.2)
             self.assertGreaterEqual(overlap, 0.98)
-            # What VTK fills ends within the lines that our figure draws as edges; a pixel is a five-hundredth of the height.
+            # The areas that VTK fills end in the middle of the edges that our figure draws; a pixel is a five-hundredth
+            # of the height.
             self.assertLess(beyond, 0.01)
             self.assertLess(missing, 0.01)
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bonded specimens that fly apart, so that bonds break and neighbour lists age quickly, and traces of their state
-// bytes.
+// Bonded specimens that fly apart, so that bonds break and neighbour lists are rebuilt often, and hashes of their
+// states during a run.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@
 
 namespace crackle::testing {
 
-/// Bodies fly apart from the centre at a few strains a second and at random on top, so that bonds break and lists age.
+/// Gives bodies velocities away from the centre, at strain rates of a few per second, plus random velocities.
 inline void burst(World& world, double rate, double noise, std::uint64_t seed) {
     verification::shake(world, noise * verification::breaking_energy(world), seed);
     Vec2 middle;
@@ -62,8 +62,8 @@ inline World bursting_cells(int columns, int rows, double rate, double noise, Se
 }
 
 struct Trace {
-    std::vector<std::uint64_t> hashes;  // every 100 steps
-    std::string last;                   // all bytes at the end
+    std::vector<std::uint64_t> hashes;  // hashes of the state every 100 steps
+    std::string last;                   // all bytes of the final state
     std::int64_t broken = 0, rebuilds = 0;
     std::vector<std::int64_t> thread_blocks;
 };
@@ -105,14 +105,14 @@ inline void check_threads(const World& start, int steps, std::int64_t least_rebu
     }
 }
 
-/// Stops at five random steps, saves, loads, continues with other threads.
+/// Stops at five random steps, saves, loads, and continues with other numbers of threads.
 inline void check_restarts(const World& start, int steps, std::uint64_t seed) {
     const Trace straight = trace_of(start, 1, steps);
     EXPECT_GT(straight.broken, 0);
     std::mt19937_64 generator(seed);
     for (int k = 0; k < 5; ++k) {
         const int stop = 1 + static_cast<int>(uniform_below(generator, static_cast<std::uint64_t>(steps - 1)));
-        const bool forces_known = k % 2 == 1;  // stopped after the force pass, or after the step
+        const bool forces_known = k % 2 == 1;  // stopped either after the force pass or after the step
         World world = start;
         for (int n = 0; n < stop; ++n) step(world);
         if (forces_known) compute_forces(world);
@@ -126,7 +126,7 @@ inline void check_restarts(const World& start, int steps, std::uint64_t seed) {
         fmt::print("  stopped at step {} {}: {}\n", stop, forces_known ? "with forces" : "after the step",
                    bytes == straight.last ? "same bytes" : "OTHER BYTES");
         EXPECT_TRUE(bytes == straight.last);
-        // The events of both parts together are those of the run in one: none lost, none twice.
+        // The events of both parts together must be those of the uninterrupted run.
         EXPECT_EQ(static_cast<std::int64_t>(again.bonds.events.size()), straight.broken);
     }
 }

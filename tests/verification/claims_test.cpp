@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every claim of tests/bench/verify as a test of its name; `crackle-bench verify` shows the same rows on a page.
+// Runs every claim of tests/bench/verify as a test with the claim's name; `crackle-bench verify` shows the same rows on
+// a page.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@
 
 namespace crackle::verification {
 
-/// What GoogleTest calls a claim in its messages.
+/// Name of a claim in GoogleTest's messages.
 void PrintTo(const Claim& claim, std::ostream* out) { *out << claim.name; }
 
 namespace {
@@ -42,7 +43,8 @@ TEST_P(ClaimTest, Holds) {
     if (!claim.offered) GTEST_SKIP() << "not offered: " << claim.note;
 }
 
-/// Minutes under the sanitizers, where test_kind_test goes the same ways in seconds.
+/// Whether a claim is skipped: with sanitizers it would take minutes, and test_kind_test covers the same code in
+/// seconds.
 bool left_out(const Claim& claim) {
 #ifdef __SANITIZE_ADDRESS__
     return claim.group == "Laboratory";
@@ -85,7 +87,7 @@ TEST(Claims, ThatEndInAnExceptionFailAndNameIt) {
     EXPECT_STREQ(verdict_of(claim, rows[0]), "FAILS");
 }
 
-// What judges the rows: a tolerance that is met, one that is not, not a number, and an order that falls short.
+// Tests how rows are judged: a tolerance that is met, one that is not, NaN, and an order that is too low.
 TEST(Rows, AreJudgedAsTheyAreAdded) {
     Rows rows;
     rows.relative("inside", 101.0, 100.0, 0.011, "test").relative("outside", 101.0, 100.0, 0.009, "test");
@@ -112,7 +114,7 @@ TEST(Claims, StandOnTheShippedPage) {
         for (std::size_t at = page.find("\n### "); at != std::string::npos; at = page.find("\n### ", at + 1)) ++count;
         return count;
     }();
-    EXPECT_EQ(sections, claims().size()) << "the page has claims that are none";
+    EXPECT_EQ(sections, claims().size()) << "the page has claims that do not exist";
     EXPECT_EQ(page.find("FAILS"), std::string::npos);
 }
 

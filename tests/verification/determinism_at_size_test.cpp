@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bytes of a run of 20,000 discs with many rebuilds and breaks depend neither on the number of threads nor on where
-// it was stopped and taken up again.
+// Tests that the bytes of a run of 20,000 discs with many rebuilds and breaks depend neither on the number of threads
+// nor on where it was stopped and resumed.
 
 #include "tests/verification/bursting_specimens.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bytes of a run do not depend on the number of threads, nor on where it was stopped and taken up again. Threads
-// are forced even where the machine has fewer cores; each must have done blocks of points.
+// Tests that the bytes of a run depend neither on the number of threads nor on where it was stopped and resumed.
+// Several threads are used even if the machine has fewer cores; each must have processed blocks of points.
 
 #include <map>
 
@@ -46,7 +46,7 @@ TEST(Determinism, HoldsUnderTheConsistentIntegratorToo) {
     check_threads(bursting_discs(30, 30, 0.3, 0.1, Integrator::consistent), 500, 5, 50);
     check_restarts(discs, 500, 21);
     check_restarts(cells, 500, 22);
-    // It is another path than leapfrog's, whose worlds keep no memory of openings.
+    // The result must differ from that of leapfrog, whose worlds store no opening data.
     const World plain = bursting_discs(14, 14, 1.0, 0.2);
     EXPECT_TRUE(plain.points.opening.empty());
     World one = discs, other = plain;
@@ -54,8 +54,8 @@ TEST(Determinism, HoldsUnderTheConsistentIntegratorToo) {
     EXPECT_NE(one.bodies.state[0].x, other.bodies.state[0].x);
 }
 
-/// Joints of every kind: bonded and weak, open with an aperture, dilating, with stiffnesses of their own. The rows
-/// slide over each other and meet others, the whole flies apart.
+/// Joints of every kind: bonded and weak, open with an aperture, dilating, with their own stiffnesses. The rows slide
+/// over each other, and everything flies apart.
 World sliding_jointed_cells(int columns, int rows, Integrator integrator) {
     JointedCells cells;
     cells.columns = columns, cells.rows = rows;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The guide's examples, run as shipped (specimens/demseg/), against the results that the guide states. Numbers without
-// a source named beside them are the guide's (solver/MODEL.md 12).
+// Tests the guide's examples as shipped (specimens/demseg/) against the results stated in the guide. Numbers without a
+// stated source are from the guide (solver/MODEL.md 12).
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ DeckOptions options_for(const std::string& name, const ScratchFolder& scratch) {
     return options;
 }
 
-/// Runs a shipped deck as it is.
+/// Runs a shipped deck unchanged.
 std::filesystem::path run_shipped(const std::string& name, const ScratchFolder& scratch) {
     const DeckOptions options = options_for(name, scratch);
     DeckRun(options).run();
@@ -39,7 +39,7 @@ std::vector<std::pair<double, double>> peaks(const Rows& rows, std::size_t colum
     for (std::size_t k = 1; k + 1 < rows.size(); ++k) {
         const double before = rows[k - 1][column], here = rows[k][column], after = rows[k + 1][column];
         if (!(here > before && here >= after && here > above)) continue;
-        // Top of the parabola through the three points.
+        // Maximum of the parabola through the three points.
         const double curve = before - 2.0 * here + after, slope = 0.5 * (after - before);
         const double shift = curve < 0.0 ? -slope / curve : 0.0;
         found.emplace_back(rows[k][0] + shift * (rows[k + 1][0] - rows[k][0]),
@@ -48,7 +48,7 @@ std::vector<std::pair<double, double>> peaks(const Rows& rows, std::size_t colum
     return found;
 }
 
-/// Largest |err| of energy.dat over the largest kinetic energy.
+/// Largest |err| in energy.dat, relative to the largest kinetic energy.
 double closing_error(const std::filesystem::path& out) {
     double error = 0.0, kinetic = 0.0;
     for (const auto& row : read_rows(out / "energy.dat")) {
@@ -60,8 +60,8 @@ double closing_error(const std::filesystem::path& out) {
 
 class ConservesEnergy : public ::testing::TestWithParam<std::pair<const char*, double>> {};
 
-// The closing error of the shipped steps is second order in the step, with jumps where contacts open and close between
-// two steps. It stays bounded over the whole run, as a small share of the largest kinetic energy.
+// The closing error with the shipped steps is of second order in the step, with jumps where contacts open and close
+// within a step. It must stay bounded over the whole run, at a small fraction of the largest kinetic energy.
 TEST_P(ConservesEnergy, WithoutDampingAndFriction) {
     const ScratchFolder scratch;
     const auto [name, tolerance] = GetParam();
@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(GuideExamples, ConservesEnergy,
                                            std::pair{"controlled_segment_displacement", 0.01}),
                          [](const auto& deck) { return std::string(deck.param.first); });
 
-// The circle falls from 5 onto a floor that it touches at height 2 and comes back to 5 forever (e = 1).
+// The circle falls from a height of 5 onto a floor that it touches at 2, and returns to 5 forever (e = 1).
 TEST(GuideCircle, BouncesBackToItsHeightForEver) {
     const ScratchFolder scratch;
     DeckOptions options = options_for("circle", scratch);
@@ -89,7 +89,7 @@ TEST(GuideCircle, BouncesBackToItsHeightForEver) {
 }
 
 // Guide: the limit is 2 sqrt(m/k) = 1.123e-3 s; DEMseg diverged at half of it and had a small error only at a tenth.
-// Ours holds at half of it and is refused above.
+// Crackle is stable at half of it, and refuses steps above the limit.
 TEST(GuideCircle, StableStepIsTheTheoreticalOneAndHalfOfItHolds) {
     const ScratchFolder scratch;
     const double limit = 2.0 * std::sqrt(2.5 * std::numbers::pi * 4.0 / 1e8);
@@ -121,7 +121,7 @@ TEST(GuideCircle, StableStepIsTheTheoreticalOneAndHalfOfItHolds) {
 TEST(GuideControlledSegment, PushedByAForceStandsWhereTheGuidePrintsIt) {
     const ScratchFolder scratch;
     const Rows rows = read_rows(run_shipped("controlled_segment_force", scratch) / "f-d_curve.dat");
-    // The guide prints six digits: 1 2 0 -3 0 3.5 0 1.5708; its 1.57082 of step 20 belongs to a body held in rotation.
+    // The guide prints six digits: 1 2 0 -3 0 3.5 0 1.5708; its 1.57082 at step 20 is for a body held in rotation.
     const std::vector<std::pair<double, double>> printed{{1, -3.0}, {10, -2.99982}, {20, -2.99933}};
     for (std::size_t k = 0; k < printed.size(); ++k) {
         const double n = printed[k].first;
@@ -152,10 +152,10 @@ TEST(GuideControlledSegment, MovesByItsDisplacementLinearlyInTheStep) {
     EXPECT_GT(last.rows[0][2], 0.0) << "the circle is pushed ahead";
 }
 
-// An impulse on disc 11 spreads as v_n(t) = v_0 J_2n(2 sqrt(k/m) t) with n the number of discs away (chain equation,
-// infinite chain). Displacements peak at the first zeros of J_4, J_8, J_12. Their differences are 715e-6 and 689e-6 s,
-// in the mean 70.2e-5 s per 4.0, the guide's 70e-5 and 5700. That is dispersion, slower than sqrt(k/m) dx = 6487, the
-// speed of long waves.
+// An impulse on disc 11 propagates as v_n(t) = v_0 J_2n(2 sqrt(k/m) t), where n is the distance in discs (chain
+// equation, infinite chain). Displacements have peaks at the first zeros of J_4, J_8, J_12. The differences of these
+// times are 715e-6 and 689e-6 s, with a mean of 70.2e-5 s per 4.0, as in the guide: 70e-5 and 5700. The speed is lower
+// than that of long waves, sqrt(k/m) dx = 6487, because of dispersion.
 TEST(GuideWave, TravelsAtTheMeasuredSpeedOfTheGuideWhichIsDispersion) {
     const ScratchFolder scratch;
     const Rows rows = read_rows(run_shipped("wave_chain", scratch) / "f-d_curve.dat");
@@ -177,8 +177,8 @@ TEST(GuideWave, TravelsAtTheMeasuredSpeedOfTheGuideWhichIsDispersion) {
     EXPECT_TRUE(agrees("measured speed", 4.0 / interval, 5700.0, 0.01));
 }
 
-// h = 0.215 gives e = 0.50077, so that bounces reach a quarter of the height before; critical damping gives none. The
-// bottom of the circle is 10 above the floor at first.
+// h = 0.215 gives e = 0.50077, so each bounce reaches a quarter of the previous height; with critical damping there is
+// no bounce. The bottom of the circle is initially 10 above the floor.
 TEST(GuideRebound, RestitutionHalfNoneAndWhole) {
     const ScratchFolder scratch;
     const Rows rows = read_rows(run_shipped("rebound", scratch) / "f-d_curve.dat");
@@ -199,7 +199,8 @@ TEST(GuideRebound, RestitutionHalfNoneAndWhole) {
     EXPECT_TRUE(agrees("top of e = 1", whole[0].second - 1.0, 10.0, 1e-3));
 }
 
-// m = k = c = 1: the theoretical limit is 1.236068; 1.23 is stable and 1.24 diverges. A heavy load keeps it in contact.
+// For m = k = c = 1 the theoretical limit is 1.236068; 1.23 is stable and 1.24 diverges. A heavy load keeps the contact
+// closed.
 TEST(GuideStability, SpringAndDashpotHoldsAt123AndDivergesAt124) {
     const ScratchFolder scratch;
     const double radius = 1.0 / std::sqrt(std::numbers::pi);
@@ -213,8 +214,7 @@ TEST(GuideStability, SpringAndDashpotHoldsAt123AndDivergesAt124) {
         scene.gravity = {0.0, -1e-3};
         scene.time_step = step;
         scene.bare_segment_width = deck_bare_segment_width;
-        scene.add_circle_body(
-            1, 0, {{0.0, radius - 1e-3 + 1e-4}, radius, 0.0});  // a tenth from the rest at overlap mg/k = 1e-3
+        scene.add_circle_body(1, 0, {{0.0, radius - 1e-3 + 1e-4}, radius, 0.0});  // 0.1 mg/k from rest
         const auto folder = scratch / "deck";
         std::filesystem::create_directories(folder);
         std::ofstream geometry(folder / "in_gm.dat");
@@ -244,7 +244,8 @@ TEST(GuideStability, SpringAndDashpotHoldsAt123AndDivergesAt124) {
     EXPECT_GT(above, 1.0);
 }
 
-// Guide: hardly changes. Ours measures the distance of the two paths over the way gone.
+// In the guide, the path hardly changes. This test measures the distance between the two paths relative to their
+// length.
 TEST(GuideSlope, PathHardlyChangesWithHundredTimesTheStiffness) {
     const ScratchFolder scratch;
     const auto path = [&](const std::string& name, double per_unit) {
@@ -269,7 +270,8 @@ TEST(GuideSlope, PathHardlyChangesWithHundredTimesTheStiffness) {
     EXPECT_TRUE(within("largest distance of the paths over the way", apart / way, 0.0, 2e-3));
 }
 
-// Time means: the chain still rings a little, so the balance of a mean over T is off by m Δv/T only.
+// Means over time are used because the chain still oscillates slightly; over a time T the balance is wrong by only m
+// Δv/T.
 TEST(GuideHangingChain, IsACatenaryOfEqualHorizontalTension) {
     const ScratchFolder scratch;
     const auto out = run_shipped("chain_hanging", scratch);
@@ -282,7 +284,7 @@ TEST(GuideHangingChain, IsACatenaryOfEqualHorizontalTension) {
     for (std::size_t f = from; f < forces.size(); ++f) {
         for (const auto& row : forces[f].rows) {
             const auto bond = static_cast<std::size_t>(std::min(row[0], row[1]));
-            const double sign = row[0] < row[1] ? 1.0 : -1.0;  // force of the right disc on the left one
+            const double sign = row[0] < row[1] ? 1.0 : -1.0;  // for the force of the right disc on the left one
             horizontal[bond] += share * sign * row[4];
             vertical[bond] += share * sign * row[5];
         }
@@ -306,7 +308,7 @@ TEST(GuideHangingChain, IsACatenaryOfEqualHorizontalTension) {
     EXPECT_LT(y[10], -1.0) << "it sags";
 }
 
-/// Largest force on the pulled disc and the bonds broken by the end.
+/// Largest force on the pulled disc, and number of bonds broken at the end.
 std::pair<double, std::int64_t> pull_chain(const ScratchFolder& scratch, double gravity) {
     const auto folder = scratch / "deck";
     std::filesystem::create_directories(folder);
@@ -332,7 +334,8 @@ std::pair<double, std::int64_t> pull_chain(const ScratchFolder& scratch, double 
     return {largest, run.world().bonds.broken};
 }
 
-// Guide: it breaks at the back-tension, without gravity nearly everywhere at once, with gravity in few places.
+// In the guide, the chain breaks at the back-tension: without gravity almost everywhere at once, with gravity in few
+// places.
 TEST(GuidePulledChain, BreaksAtItsBackTension) {
     const ScratchFolder scratch;
     const auto [strength, broken] = pull_chain(scratch, 0.0);
@@ -360,8 +363,8 @@ TEST(GuideRandomCircles, AreTheGuides582) {
     DeckRun run(options);
     EXPECT_EQ(run.world().bodies.size(), 582u);
     run.run();
-    // After 2000 steps the random motion is gone and falling prevails: kinetic energy below what was lost to dashpots
-    // and sliding.
+    // After 2000 steps the initial random motion has decayed and bodies mainly fall: the kinetic energy is lower than
+    // the energy lost to dashpots and sliding.
     const auto last = read_rows(options.output / "energy.dat").back();
     EXPECT_LT(last[2], 0.01 * (last[4] + last[5]));
 }

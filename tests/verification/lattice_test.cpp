@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bound on the stable step of a triangular lattice as its derivation has it. Closed forms of lattices and chains:
-// tests/bench/verify.
+// Tests the bound on the stable step of a triangular lattice against its derivation. Closed forms of lattices and
+// chains are in tests/bench/verify.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ TEST(TriangularLattice, BoundOfTheStepComesFromDoubledBlocks) {
     for (const double share : {0.0, 0.25, 0.5, 1.0}) {
         World world = build_world(triangular_lattice(14, 15, radius, overlap, verification::rock(45.0, share)));
         bond_all(world, 0.0);
-        // Doubled blocks of a disc with six neighbours: 6(k_n + k_s) for its shift, 24 k_s for its turn.
+        // Blocks of a disc with six neighbours, multiplied by two: 6(k_n + k_s) for displacement, 24 k_s for rotation.
         const double ks = share * kn, lever = 1.0 - overlap / (2.0 * radius);
         const double doubled =
             2.0 * std::sqrt(world.bodies.inertia[0].mass / std::max(6.0 * (kn + ks), 24.0 * ks * lever * lever));

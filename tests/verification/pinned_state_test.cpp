@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Six small scenes whose states are pinned. After some steps the hash of each field is a recorded one, in every build
-// (release, sanitizers, any number of lanes and threads). No sparse solve enters. A mismatch names scene, step, field
-// and, of the bodies' state, the first body that differs.
+// Compares six small scenes with recorded states. After some steps the hash of each field must equal the recorded one,
+// in every build (release, sanitizers, any number of lanes and threads). No sparse solve is involved. A mismatch is
+// reported with scene, step, field and, for the bodies' state, the first body that differs.
 //
-// A change that is meant to move numbers records them again, and its commit states it:
+// If a change is meant to alter results, the states are recorded again, and the commit says so:
 //     CRACKLE_RECORD_STATES=tests/verification/pinned_states.csv build/release/tests/verification/verification_tests
 //         --gtest_filter='PinnedState*'
 
@@ -35,7 +35,7 @@ Material damped_rock() {
     return material;
 }
 
-/// Every body gets a velocity and a spin of its own.
+/// Gives every body a random velocity and spin.
 Scene stirred(Scene scene, double speed) {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const auto k = static_cast<double>(b % 7), l = static_cast<double>(b % 5);
@@ -135,7 +135,7 @@ TEST_P(PinnedState, IsTheRecordedOneOnAnyNumberOfThreads) {
     if (const char* path = std::getenv("CRACKLE_RECORD_STATES")) write_record(path, hashes_of(name, scene(), 1));
     for (const int threads : {1, 2, 3}) {
         const Hashes got = hashes_of(name, scene(), threads);
-        for (const std::int64_t look : looks) {  // the first step that differs shows where runs part
+        for (const std::int64_t look : looks) {  // the first step that differs shows where the runs diverge
             const std::string at = std::string(name) + ',' + std::to_string(look) + ',';
             std::string differing;
             for (auto entry = got.lower_bound(at); entry != got.end() && entry->first.starts_with(at); ++entry) {

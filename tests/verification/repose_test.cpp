@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The guide's repose example through the script that a user runs: 582 circles made, settled and let go form a stable
-// slope.
+// Tests the guide's repose example with the script for users: 582 circles are generated, settle and, once released,
+// form a stable slope.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 using namespace testing;
 
-/// Heights of the pile's surface in strips of width 8 between the left wall and the toe.
+/// Heights of the surface of the heap, in strips of width 8 between the left wall and the toe.
 std::map<int, double> surface(const DeckFrame& frame) {
     std::map<int, double> heights;
     for (const auto& row : frame.rows) {
@@ -34,8 +34,8 @@ TEST(GuideRepose, AStableSlopeForms) {
     const std::string script = (shipped_deck("repose") / "run_stages").string();
     const std::string out = (scratch / "out").string();
     ASSERT_EQ(std::system(fmt::format("'{}' '{}' '{}'", script, CRACKLE_PROGRAM, out).c_str()), 0);
-    // Single circles still roll down now and then after the guide's five seconds, in two packings of three; where one
-    // rolls is a matter of last bits. Five seconds more and the slope is at rest.
+    // After the guide's five seconds, single circles still roll down in two of three packings; in which ones depends on
+    // the last bits. After five more seconds the slope is at rest.
     const std::string at_rest = (scratch / "at_rest").string();
     ASSERT_EQ(std::system(
                   fmt::format("'{}' run -q '{}/slope' --continue --steps 100000 -o '{}'", CRACKLE_PROGRAM, out, at_rest)
@@ -52,8 +52,7 @@ TEST(GuideRepose, AStableSlopeForms) {
     fmt::print("  slope after 10 s: {:.1f} degrees, from {:.1f} at the wall to {:.1f} at the toe\n", angle, end.at(0),
                end.at(9));
     EXPECT_LT(std::abs(start.at(0) - start.at(8)), 10.0) << "flat at first";
-    // Circles roll, so the slope is flatter than the friction angle of 27 degrees; the toe holds it up by more than
-    // nothing.
+    // Circles roll, so the slope is flatter than the friction angle of 27 degrees, but it is clearly not flat.
     EXPECT_GT(angle, 10.0);
     EXPECT_LT(angle, 27.0);
     double change = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The guide's rock (part II) through the script that a user runs: stages by renaming files, three kinds of particle,
-// two kinds of loading. Small: fewer circles and steps. Whole: as shipped, against the guide's numbers and those of
-// specimens/demseg/rock_packing/README.md.
+// Tests the guide's rock (part II) with the script for users: stages by renaming files, three kinds of particle, two
+// kinds of loading. The small variant has fewer circles and steps. The complete variant is as shipped, compared with
+// the guide's numbers and those in specimens/demseg/rock_packing/README.md.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -31,7 +31,7 @@ std::string name_of(const ::testing::TestParamInfo<Stages>& info) {
     return std::string(info.param.kind) + "_" + info.param.law;
 }
 
-/// What `figures` prints of a folder, by the first words of its lines.
+/// Output of `figures` for a folder, by the first words of its lines.
 std::map<std::string, std::vector<double>> figures_of(const fs::path& deck, const fs::path& out) {
     const fs::path file = out / "figures.txt";
     EXPECT_EQ(
@@ -59,7 +59,7 @@ void run_stages(const fs::path& deck, const fs::path& out, const Stages& stages,
     ASSERT_EQ(std::system(call.c_str()), 0) << call;
 }
 
-/// Forces in x on the two plates, a row per output: step, left, right.
+/// Forces in x on the two plates, one row per output: step, left, right.
 Rows forces_on_plates(const fs::path& part) {
     const Rows rows = read_rows(part / "f-d_curve.dat");
     Rows pairs;
@@ -76,29 +76,29 @@ double largest_force(const fs::path& part) {
     return largest;
 }
 
-/// What holds of a round trip whatever its size.
+/// Checks that apply to a round trip of any size.
 void expect_round_trip(const fs::path& out, const Stages& stages) {
     const fs::path specimen = out / "specimen", pulled = out / "pulled", squeezed = out / "squeezed";
-    // Bonded, the specimen is free of stress: what the plates feel is rounding beside what they bear later.
+    // After bonding the specimen is free of stress: forces on the plates are only round-off compared with later forces.
     const double strength = largest_force(pulled);
     EXPECT_TRUE(within("largest force on a plate before loading, over the largest when pulled",
                        largest_force(specimen) / strength, 0.0, 1e-3));
-    EXPECT_GT(largest_force(squeezed), strength) << "rock is stronger when squeezed";
-    // The left plate is held, the right one goes its whole way.
+    EXPECT_GT(largest_force(squeezed), strength) << "rock is stronger in compression";
+    // The left plate is held, and the right one moves the full distance.
     for (const auto& [part, sign] : {std::pair{pulled, 1.0}, {squeezed, -1.0}}) {
         const Rows rows = read_rows(part / "f-d_curve.dat");
         ASSERT_GE(rows.size(), 200U);
         EXPECT_EQ(rows.front()[3], rows[rows.size() - 2][3]);
         EXPECT_GT(sign * (rows.back()[3] - rows[1][3]), 0.0);
-        // A break may throw the specimen against a plate, so that only forces in the sense of the loading count.
+        // A break may throw the specimen against a plate, so only forces in the direction of loading count.
         double left = 0.0, right = 0.0;
         for (const auto& row : forces_on_plates(part)) {
             left = std::max(left, sign * row[1]);
             right = std::max(right, -sign * row[2]);
         }
-        EXPECT_GT(left, 0.5 * right) << "what the right plate does goes through the specimen";
+        EXPECT_GT(left, 0.5 * right) << "the work of the right plate passes through the specimen";
     }
-    // Circles are named by two columns, whatever touches a segment by four.
+    // Contacts of circles are identified by two columns, those that involve a segment by four.
     const Scene scene = read_geometry(specimen / "in_gm.dat");
     std::map<int, bool> circle;
     for (const Body& body : scene.bodies) circle[body.id] = body.circle_count == 1;
@@ -118,8 +118,8 @@ void expect_round_trip(const fs::path& out, const Stages& stages) {
         ++lists[row.size()];
     }
     EXPECT_EQ(lists[2] > 0, std::string(stages.kind) == "circles");
-    EXPECT_GT(lists[4], 0) << "plates are bonded, too";
-    // It parts when it is pulled.
+    EXPECT_GT(lists[4], 0) << "plates are bonded";
+    // The specimen separates in tension.
     const Rows forces = forces_on_plates(pulled);
     EXPECT_LT(std::abs(forces.back()[1]), 0.5 * strength);
 }
@@ -131,7 +131,7 @@ void replace(const fs::path& file, const std::string& old_text, const std::strin
     std::ofstream(file) << text.replace(at, old_text.size(), new_text);
 }
 
-/// A smaller box with the same void ratio. So few circles are pressed more: which of them jam is a matter of chance.
+/// A smaller box with the same void ratio. With so few circles the pressure is higher, and which of them jam is random.
 void copy_small_deck(const fs::path& deck) {
     fs::copy(shipped_deck("rock_packing"), deck);
     replace(deck / "in_gm.dat", "\n0.0d0 96.89d0 0.0d0 48.44d0 0.1d0\n", "\n0.0d0 40.0d0 0.0d0 20.0d0 0.1d0\n");
@@ -148,8 +148,8 @@ TEST_P(SmallRock, GoesRoundByRenaming) {
     expect_round_trip(out, GetParam());
 }
 
-// The test with plates of one segment, the inner face of the box: a corner gets through, and the error states what
-// holds.
+// The test with plates that consist of one segment, the inner side of the box: a corner passes through, and the error
+// message is correct.
 TEST(GuideRock, APlateOfOneSegmentLetsACornerThrough) {
     const ScratchFolder scratch;
     const fs::path deck = scratch / "deck", out = scratch / "out", err = scratch / "err.txt";
@@ -199,7 +199,8 @@ TEST_P(WholeRock, ComesToTheFiguresOfItsPage) {
     expect_round_trip(out, GetParam());
     const std::string printed = read_file(out / "figures.txt");
     EXPECT_NE(read_file(deck / "README.md").find(printed), std::string::npos) << printed;
-    // Guide: mean back-tensions of 0.774 kN (circles) and 0.753 kN (triangles). Packings of this size scatter by more.
+    // The guide's mean back-tensions are 0.774 kN (circles) and 0.753 kN (triangles). Packings of this size have a
+    // larger scatter.
     EXPECT_TRUE(agrees("mean back-tension, kN", figures.at("mean").at(0), 0.77, 0.06));
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The account of energy, driven bodies and derived steps of one or two bodies. Closed forms: tests/bench/verify.
+// Tests the energy account, driven bodies and automatic steps for one or two bodies. Closed forms are in
+// tests/bench/verify.
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +59,7 @@ TEST(Ledger, ClosesToSecondOrderForABounceWithDashpotAndFriction) {
     fmt::print("  closing error over the energy of the fall: {:.3g} at t_c/100, {:.3g} at t_c/800, order {:.2f}\n",
                coarse, fine, order);
     EXPECT_LT(fine, 1e-3);
-    EXPECT_GT(order, 0.8);  // contact begins and ends between steps: first order at worst
+    EXPECT_GT(order, 0.8);  // contact begins and ends within a step, so the order is at least one
 }
 
 TEST(Controls, TheGuidesForceControlledSegmentMovesAsPrinted) {
@@ -116,9 +117,9 @@ TEST(Controls, AForceWithASpringSwingsAboutWhereTheyBalanceAndClosesTheEnergy) {
         farthest = std::max(farthest, world.bodies.state[0].x - start);
         advance(world);
     }
-    const double wave = period / world.stepping.time_step;  // steps
+    const double wave = period / world.stepping.time_step;  // steps per period
     EXPECT_TRUE(agrees("farthest way, m", farthest, 2.0 * force / stiffness, 20.0 / (wave * wave)));
-    // After whole periods it is back; leapfrog's are shorter by (ω Δt)²/24 of them.
+    // After whole periods it is back at the start; leapfrog's period is shorter by a factor of (ω Δt)²/24.
     compute_forces(world);
     EXPECT_TRUE(within("way after three periods, m", world.bodies.state[0].x - start, 0.0, 1e-3 * farthest));
     EXPECT_TRUE(
@@ -146,12 +147,12 @@ TEST(Controls, DrivenBodiesPassThroughEachOtherWhereTheyAreToldTo) {
         while (world.stepping.time < 1.0) step(world);
         compute_forces(world);
         const double speed = world.bodies.state[0].vx;
-        EXPECT_EQ(speed == 0.0, !touch) << "the block that nothing drives goes with " << speed << " m/s";
+        EXPECT_EQ(speed == 0.0, !touch) << "the undriven block moves with " << speed << " m/s";
     }
 }
 
-/// Largest closing error over the energy of the fall: the guide's circle falls by its radius and a half onto a floor
-/// without losses and comes back, 20 times. @param share of the stable bound that the step takes; 0: derived
+/// Largest closing error relative to the energy of the fall: the guide's circle falls from 1.5 radii onto a floor
+/// without losses and bounces 20 times. @param share step relative to the stable bound; 0 for an automatic step
 double bouncing_error(double share) {
     Scene scene;
     Material material;
@@ -174,7 +175,7 @@ double bouncing_error(double share) {
     return worst / fall;
 }
 
-// What twenty bounces may cost; loose_step_share is chosen to keep it.
+// Largest allowed error after twenty bounces, for which loose_step_share is chosen.
 constexpr double loose_step_error = 0.02;
 
 TEST(TimeStep, DerivedWithoutBondsKeepsTheEnergyOfABouncingCircle) {

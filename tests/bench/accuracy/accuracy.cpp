@@ -9,7 +9,7 @@
 namespace crackle::accuracy {
 namespace {
 
-// A run of more scatters by a few per cent only, s.
+// s; the times of longer runs scatter by only a few per cent
 constexpr double long_enough = 0.5;
 
 }  // namespace
@@ -27,7 +27,7 @@ const std::vector<AccuracyStudy>& accuracy_studies() {
 double median_cpu_seconds(const std::function<void()>& work) {
     std::array<double, 3> seconds{};
     for (double& s : seconds) {
-        // The process's own time: other programs on the machine do not count.
+        // Processor time of this process, so that other programs on the machine do not count.
         timespec begin{}, end{};
         clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &begin);
         work();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Work-precision studies: what an error costs in processor time, for each contact law and integrator.
+// Work-precision studies: processor time needed for a given error, for each contact law and integrator.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 #pragma once
 
@@ -11,31 +11,33 @@
 
 namespace crackle::accuracy {
 
-/// One run, or a set of equal runs that differ in their start.
+/// One run, or the mean of several runs that differ only in their initial state.
 struct AccuracyRow {
-    std::string study;       ///< snake_case, a panel of the picture
-    std::string law;         ///< of polygons; circles are the same in all and are listed as rounded
+    std::string study;       ///< snake_case; each study is one panel of the picture
+    std::string law;         ///< contact law of polygons; circles, for which all laws are the same, are listed as
+                             ///< rounded
     std::string integrator;  ///< leapfrog or consistent
-    std::string parameter;  ///< what varies: time_step (over the stable one), axial_strain_rate (1/s) or rate_tolerance
+    std::string parameter;   ///< varied parameter: time_step (relative to the stable step), axial_strain_rate (1/s) or
+                             ///< rate_tolerance
     double value = 0.0;
     double cpu_seconds = 0.0;  ///< processor time, median_cpu_seconds()
-    double error = 0.0;        ///< -, see the study
+    double error = 0.0;        ///< dimensionless, as defined by the study
 };
 
 struct AccuracyStudy {
     std::string name;   ///< as in AccuracyRow
-    std::string title;  ///< of the panel
-    std::string error;  ///< what is compared with what, of the axis
+    std::string title;  ///< title of the panel
+    std::string error;  ///< title of the error axis: what is compared with what
     std::function<std::vector<AccuracyRow>(bool quick)> run;
 };
 
-/// In the order of the panels.
+/// All studies, in the order of the panels.
 const std::vector<AccuracyStudy>& accuracy_studies();
 
-/// Processor time of three calls, their median, s; of one where it takes over half a second.
+/// Median processor time of three calls, s. Work that takes over half a second is called only once.
 double median_cpu_seconds(const std::function<void()>& work);
 
-// The studies of each file.
+// The studies that each source file defines.
 std::vector<AccuracyStudy> collision_studies();
 std::vector<AccuracyStudy> specimen_studies();
 

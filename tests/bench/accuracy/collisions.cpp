@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Work-precision on closed forms: a bouncing disc, an oblique rebound, a wave in a chain; and two colliding squares
-// against their own run at a far smaller step.
+// Work-precision studies against closed forms: a bouncing disc, an oblique rebound, a wave in a chain. Two colliding
+// squares are compared with the same collision at a much smaller step.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <algorithm>
@@ -25,14 +25,14 @@ constexpr double radius = 0.02, density = 2500.0, gravity = 9.81;
 constexpr double disc_mass = density * std::numbers::pi * radius * radius;
 constexpr Integrator both[] = {Integrator::leapfrog, Integrator::consistent};
 
-/// Steps over the stable one, halved from the largest on.
+/// Time steps relative to the stable step; each is half the one before.
 std::vector<double> shares(double largest, int count, bool quick) {
     std::vector<double> list(quick ? 3U : static_cast<std::size_t>(count), largest);
     for (std::size_t k = 1; k < list.size(); ++k) list[k] = 0.5 * list[k - 1];
     return list;
 }
 
-/// Rows of one study: `run(law, integrator, share)` gives the error.
+/// Rows of one study. @param run returns the error for (law, integrator, share)
 template <typename Run>
 void add_rows(std::vector<AccuracyRow>& rows, const char* study, SegmentLaw law, Integrator integrator,
               const std::vector<double>& steps, Run&& run) {
@@ -61,12 +61,12 @@ Scene above_floor(Integrator integrator, double share, double height, double fri
     scene.domain = {-1e3, 1e3, 0.0, 1e3, {false, false, true, false}};
     scene.add_circle_body(1, 0, {{0.0, radius + height}, radius, 0.0});
     scene.integrator = integrator;
-    scene.allow_unstable = true;  // leapfrog's energy may run away, and is to be seen
+    scene.allow_unstable = true;  // the energy under leapfrog may grow without bound, which the study shows
     scene.time_step = share * 2.0 * std::sqrt(disc_mass / floor_stiffness);
     return scene;
 }
 
-/// Height over the floor: parabolas, and in contact an oscillator about the sag.
+/// Height over the floor: parabolas in flight, and a harmonic oscillation about the sag while in contact.
 struct BouncePath {
     double drop;
     double speed() const { return std::sqrt(2.0 * gravity * drop); }
@@ -98,7 +98,7 @@ BounceErrors bounce_errors(Integrator integrator, double share) {
         scene.gravity = {0.0, -gravity};
         World world = build_world(std::move(scene));
         double off = 0.0;
-        // Ends in the middle of a flight.
+        // The run ends in the middle of a flight.
         const double end = bounces * path.period();
         while (world.stepping.time < end) {
             step(world);
@@ -106,7 +106,7 @@ BounceErrors bounce_errors(Integrator integrator, double share) {
                            std::abs(world.bodies.state[0].y - radius - path.height(world.stepping.time)) / path.drop);
             if (!(off < 1e3)) break;
         }
-        // A disc whose path has gone astray may be in contact at the end; it is let out.
+        // A disc with a wrong path may be in contact at the end; it continues until it is in flight.
         compute_forces(world);
         for (int n = 0; n < 100000 && world.bodies.state[0].y <= radius; ++n) advance(world), compute_forces(world);
         const double energy = measure_ledger(world).closing_error / (disc_mass * gravity * path.drop);
@@ -151,7 +151,7 @@ Squares collide(SegmentLaw law, Integrator integrator, double share, int start) 
     scene.integrator = integrator;
     scene.allow_unstable = true;
     scene.add_chain_body(1, 0, {{-half, -half}, {half, -half}, {half, half}, {-half, half}}, true);
-    // A corner against an edge, off the middle; the second hit is edge against corner the other way round.
+    // A corner hits an edge off its middle; in the second impact the roles are reversed.
     const double turn = 0.35 + 0.08 * start, c = half * std::cos(turn), s = half * std::sin(turn);
     const Vec2 middle{0.05 + 1e-4 * start, 0.004 + 1e-3 * start};
     scene.add_chain_body(2, 0,
@@ -169,7 +169,8 @@ Squares collide(SegmentLaw law, Integrator integrator, double share, int start) 
     return {world.bodies.state[body_of_id(world, 1)], world.bodies.state[body_of_id(world, 2)]};
 }
 
-/// Distance of the velocities after the collision, a corner's share of the spin counted, over the speed before.
+/// Difference of the velocities after the collision, relative to the initial speed. Spin counts as the speed of a
+/// corner.
 double distance(const Squares& one, const Squares& other) {
     const auto of = [](const BodyState& a, const BodyState& b) {
         return std::hypot(a.vx - b.vx, a.vy - b.vy, 0.0283 * (a.omega - b.omega));
@@ -185,7 +186,7 @@ std::vector<AccuracyRow> polygon_collision(bool quick) {
         exact.reserve(starts);
         for (int k = 0; k < starts; ++k) exact.push_back(collide(law, Integrator::leapfrog, steps.back() / 16.0, k));
         for (const Integrator integrator : both) {
-            if (law != SegmentLaw::rounded && integrator == Integrator::consistent) continue;  // leapfrog there
+            if (law != SegmentLaw::rounded && integrator == Integrator::consistent) continue;  // same as leapfrog
             add_rows(rows, "polygon_collision", law, integrator, steps, [&](SegmentLaw l, Integrator i, double share) {
                 double squares = 0.0;
                 for (int k = 0; k < starts; ++k) {

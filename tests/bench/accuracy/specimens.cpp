@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Work-precision of a strength: packed specimens in tension, over time step, loading rate and rate tolerance. Means
-// over packings are compared, since single peaks scatter with the order in which bonds happen to break.
+// Work-precision studies of strength: packed specimens in tension, for several time steps, loading rates and rate
+// tolerances. Means over packings are compared, since single peaks depend on the order in which bonds happen to break.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <cmath>
@@ -48,8 +48,8 @@ struct Peaks {
     double cpu_seconds = 0.0;
 };
 
-/// What is varied, from coarse to fine. Steps are compared with half the finest of them, at the slowest of the rates.
-/// Rates and tolerances are compared with a quarter of the slowest rate, at the coarsest of the steps.
+/// Varied values, from coarse to fine. Each time step is compared with half the finest step, at the slowest rate. Each
+/// rate or tolerance is compared with a quarter of the slowest rate, at the coarsest step.
 struct Sweep {
     std::vector<double> steps, rates, tolerances;
     int packings;
@@ -57,10 +57,10 @@ struct Sweep {
 
 Sweep sweep_for(SegmentLaw law, bool circles, bool quick) {
     if (quick) return {{0.8, 0.4}, {0.4, 0.2}, {0.05}, 1};
-    // A step under the guide's law costs many times as much.
+    // A time step under the guide's law takes many times as long.
     if (law != SegmentLaw::rounded) return {{0.8, 0.4}, {0.4, 0.2, 0.1}, {}, 2};
     std::vector<double> rates{0.4, 0.2, 0.1, 0.05, 0.025};
-    // Waves are slower in circles.
+    // Waves travel more slowly in circle packings, so slower rates are needed.
     if (circles) rates = {0.08, 0.04, 0.02, 0.01, 0.005, 0.0025};
     return {{0.8, 0.4, 0.2}, rates, {0.1, 0.03, 0.01, 0.003}, 4};
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle-bench accuracy`: work-precision curves, as a table and a picture.
+// `crackle-bench accuracy`: writes work-precision curves as a table and a picture.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@ using accuracy::AccuracyStudy;
 
 std::string table_of(const std::vector<AccuracyRow>& rows, const std::string& command) {
     std::string text = fmt::format(
-        "# Made by `{}`. cpu_seconds: processor time, median of 3 (over 0.5 s: of 1).\n"
+        "# Made by `{}`. cpu_seconds: processor time, median of 3 runs (1 run if above 0.5 s).\n"
         "# parameter time_step: value over the stable step [-]; axial_strain_rate: value in 1/s; rate_tolerance [-].\n"
         "study,law,integrator,parameter,value,cpu_seconds [s],error [-]\n",
         command);
@@ -39,7 +39,7 @@ std::string table_of(const std::vector<AccuracyRow>& rows, const std::string& co
     return text;
 }
 
-/// A curve of the picture, the same look in all panels.
+/// Appearance of a curve, the same in all panels.
 struct Curve {
     const char *law, *integrator, *parameter, *label, *style;
 };
@@ -53,10 +53,10 @@ constexpr Curve curves[] = {
     {"rounded", "leapfrog", "rate_tolerance", "rounded, leapfrog: rate tolerance", "lc rgb '#000000' pt 11 dt 3"},
 };
 
-// An error of 0 has no place on a logarithmic axis; it is drawn at the rounding of a double.
+// An error of 0 cannot be shown on a logarithmic axis; it is drawn at the round-off of a double.
 constexpr double smallest_drawn = 1e-16;
 
-/// Panels in rows of three, the legend in a cell of its own.
+/// Panels are in rows of three; the legend has its own cell.
 std::string script_of(const std::vector<const AccuracyStudy*>& studies, const std::vector<AccuracyRow>& rows) {
     const std::size_t columns = std::min<std::size_t>(3, studies.size() + 1);
     const std::size_t lines = (studies.size() + columns) / columns;
@@ -77,7 +77,7 @@ std::string script_of(const std::vector<const AccuracyStudy*>& studies, const st
             plots += fmt::format("{}${}_{} with linespoints linestyle {} notitle", plots.empty() ? "" : ", ",
                                  study->name, c, c + 1);
         }
-        if (plots.empty()) plots = "NaN notitle";  // every run has gone astray
+        if (plots.empty()) plots = "NaN notitle";  // no run gave a finite error
         panels += fmt::format("set title \"{}\"\nset ylabel \"{}\"\nplot {}\n", study->title, study->error, plots);
     }
     std::string styles, keys;
@@ -127,22 +127,21 @@ std::vector<const AccuracyStudy*> chosen(const std::vector<std::string>& only) {
 CommandLine describe_bench_accuracy() {
     po::options_description options;
     options.add_options()("output,o", po::value<std::string>()->value_name("DIR")->default_value("."),
-                          "folder for accuracy.csv and its picture")  //
-        ("quick", "fewer and shorter runs")                           //
+                          "folder for accuracy.csv and its figure")  //
+        ("quick", "fewer and shorter runs")                          //
         ("only", po::value<Arguments>()->value_name("STUDY"), "this study; may be given more than once");
     Choices names{"only", {}};
     for (const AccuracyStudy& study : accuracy::accuracy_studies()) names.words.push_back(study.name);
-    return {
-        .synopses = {"crackle-bench accuracy [OPTIONS]"},
-        .description =
-            "What an error costs in processor time, over time step and loading rate, for each contact "
-            "law and integrator.",
-        .options = {{"options", options}},
-        .choices = {names},
-        .verbose = "seconds of each study",
-        .examples = {{"crackle-bench accuracy -o accuracy", "minutes; leaves accuracy.csv, .gp, .svg and .png there"},
-                     {"crackle-bench accuracy -o accuracy --quick", "seconds, with fewer and shorter runs"},
-                     {"crackle-bench accuracy --only bounce_energy"}}};
+    return {.synopses = {"crackle-bench accuracy [OPTIONS]"},
+            .description =
+                "Measures error against processor time, for several time steps and loading rates, and for each contact "
+                "law and integrator.",
+            .options = {{"options", options}},
+            .choices = {names},
+            .verbose = "seconds of each study",
+            .examples = {{"crackle-bench accuracy -o accuracy", "minutes; writes accuracy.csv, .gp, .svg and .png"},
+                         {"crackle-bench accuracy -o accuracy --quick", "seconds, with fewer and shorter runs"},
+                         {"crackle-bench accuracy --only bounce_energy"}}};
 }
 
 int bench_accuracy(const Invocation& invocation) {
@@ -158,7 +157,7 @@ int bench_accuracy(const Invocation& invocation) {
     std::string command = "crackle-bench accuracy";
     if (quick) command += " --quick";
     for (const std::string& name : only) command += " --only " + name;
-    replace_file(folder / "accuracy.csv", table_of({}, command));  // before minutes are spent on what cannot be written
+    replace_file(folder / "accuracy.csv", table_of({}, command));  // fails early if the file cannot be written
     std::vector<AccuracyRow> rows;
     messages.progress().begin(studies.front()->name, static_cast<double>(studies.size()), "studies");
     double done = 0.0;
@@ -172,7 +171,7 @@ int bench_accuracy(const Invocation& invocation) {
     replace_file(folder / "accuracy.gp", script_of(studies, rows));
     const std::string problem = draw_with_gnuplot(folder / "accuracy.gp");
     if (!problem.empty())
-        messages.notice(problem + ". accuracy.csv is complete; draw it later with gnuplot accuracy.gp");
+        messages.notice(problem + ". accuracy.csv is complete; draw the figure later with gnuplot accuracy.gp");
     return exit_done;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The studies of `crackle-bench`, one file each; a study is a line in the table of bench.cpp.
+// The studies of `crackle-bench`, one per file. The table in bench.cpp has a line for each study.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 #pragma once
 

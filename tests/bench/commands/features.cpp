@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle-bench features`: what each feature costs a contact and step, and what is left of those that a scene lacks.
+// `crackle-bench features`: measures the cost of each feature per contact and step, and the remaining cost of absent
+// features.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <fmt/format.h>
@@ -36,16 +37,16 @@ bool holds_one(const MedianInterval& ratio) { return ratio.low <= 1.0 && 1.0 <= 
 
 std::string page_of(const std::string& command, const FeatureStudy& study, const std::vector<FeatureRow>& rows) {
     std::string text = fmt::format(
-        "# What features cost\n\nMade by `{}` on {}, kernels for {}, {} lanes of doubles, one thread. ns of the "
-        "processor a contact "
-        "and step; contacts carry load. Medians of {} pairs of runs of about {:g} s, each from the same start, who "
-        "begins alternating; in brackets the interval that holds the median at 95 % whatever the distribution (order "
-        "statistics). Specimens are stirred by about a hundredth of an overlap.\n\n"
-        "## Features one at a time\n\nEach row has one feature more than the row it stands beside. The first is that "
-        "row itself again: what the measuring adds. `bonds` moves the walls away, `driven platens` replaces them, "
-        "`two materials` gives every second body another friction angle and stiffness.\n\n"
-        "| bodies | feature | beside | particles | contacts a particle | ns a contact | ns a particle | ns a contact "
-        "more | times |\n| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+        "# The cost of features\n\nMade by `{}` on {}, kernels for {}, {} lanes of doubles, one thread. Processor time "
+        "in ns per contact and step; contacts carry load. Medians of {} pairs of runs of about {:g} s with the same "
+        "initial state and alternating order; in brackets the distribution-free interval that contains the median with "
+        "a probability of 95 % (order statistics). Bodies are displaced by about a hundredth of an overlap.\n\n"
+        "## Features one at a time\n\nEach row has one feature more than the row with which it is compared. The first "
+        "row repeats its reference, and so shows the accuracy of the measurement. `bonds` moves the walls away, "
+        "`driven platens` replaces them, `two materials` gives every second body another friction angle and "
+        "stiffness.\n\n"
+        "| bodies | feature | compared with | particles | contacts per particle | ns per contact | ns per particle | "
+        "additional ns per contact | ratio |\n| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
         command, processor_name(), name_of(chosen_set()), lanes_of(chosen_set()), study.pairs, study.seconds);
     for (const FeatureRow& row : rows) {
         if (row.kind != FeatureRowKind::added) continue;
@@ -56,15 +57,13 @@ std::string page_of(const std::string& command, const FeatureStudy& study, const
                             interval(row.difference, 1e9, "{:.2f}"), interval(row.ratio, 1.0, "{:.3f}"));
     }
     text +=
-        "\n## Features that a scene lacks\n\n`dispatched`: force passes as the engine picks them, beside those of the "
-        "kernel compiled without the feature; whole steps, which look for all that a world might have, beside the "
-        "least step (forces, their sums, kick and drift alone: tests/bench/throughput/least_step.hpp). `forced`: the "
-        "same "
-        "scene under a kernel compiled with the feature, which finds nothing to do: what one kernel for all would "
-        "cost. "
-        "A difference is not resolved where the interval holds 1. Instructions are counted by "
+        "\n## Features that a scene lacks\n\n`dispatched`: force passes with the kernel that the engine chooses, "
+        "compared with the kernel compiled without the feature; complete steps, which check for all features, compared "
+        "with the minimal step (only forces, their sums, kick and drift: tests/bench/throughput/least_step.hpp). "
+        "`forced`: the same scene with a kernel compiled with the unused feature, which shows the cost of a single "
+        "kernel for all features. A difference is not resolved if the interval contains 1. Instructions are counted by "
         "`tests/benchmarks/instruction_counts`.\n\n"
-        "| bodies | absent | how | beside | ns a contact | times | difference |\n"
+        "| bodies | absent | how | compared with | ns per contact | ratio | difference |\n"
         "| --- | --- | --- | --- | ---: | ---: | --- |\n";
     for (const FeatureRow& row : rows) {
         if (row.kind == FeatureRowKind::added) continue;
@@ -78,7 +77,7 @@ std::string page_of(const std::string& command, const FeatureStudy& study, const
 
 std::string table_of(const std::string& command, const std::vector<FeatureRow>& rows) {
     std::string text = fmt::format(
-        "# Made by `{}` on {}. Times of a step; intervals hold the median at 95 %.\n"
+        "# Made by `{}` on {}. Times per step; intervals contain the median with a probability of 95 %.\n"
         "kind,bodies,feature,beside,particles,contacts,ns_a_contact,ns_a_particle,ns_a_contact_more,more_low,more_high,"
         "ratio,ratio_low,ratio_high\n",
         command, processor_name());
@@ -92,8 +91,8 @@ std::string table_of(const std::string& command, const std::vector<FeatureRow>& 
     return text;
 }
 
-/// A bar a row of the first table, discs and polygons side by side: the ratio, for times of different pairs differ by
-/// what else the machine did.
+/// A bar chart of the first table, with discs and polygons side by side. It shows ratios, since absolute times of
+/// different pairs depend on what else the machine was doing.
 std::string script_of(const std::vector<FeatureRow>& rows) {
     const auto data_of = [&](bool discs) {
         std::string data;
@@ -109,14 +108,14 @@ std::string script_of(const std::vector<FeatureRow>& rows) {
         "set terminal svg size 900,480 font \"DejaVu Sans,11\" background rgb 'white'\nset output \"features.svg\"\n"
         "set multiplot layout 1,2\nset style fill solid 0.5 noborder\nset errorbars 2\n"
         "set grid ytics lc rgb '#d8d8d8'\nset xtics rotate by 40 right nomirror\nset yrange [0:*]\nset key off\n"
-        "set bmargin 11\nset lmargin 15\nset rmargin 1\nset ylabel \"times the row it stands beside\"\n"
+        "set bmargin 11\nset lmargin 15\nset rmargin 1\nset ylabel \"ratio to the compared row\"\n"
         "set title \"discs\"\nplot $discs using 0:2:3:4:(0.7):xtic(1) with boxerrorbars lc rgb '#33608c', 1 lc rgb "
         "'#808080'\nset title \"polygons\"\nplot $polygons using 0:2:3:4:(0.7):xtic(1) with boxerrorbars lc rgb "
         "'#33608c', 1 lc rgb '#808080'\nunset multiplot\n",
         data_of(true), data_of(false));
 }
 
-/// Rows of both tables, tests/bench_tests/commands/bench_test.cpp counts them; only the progress depends on it.
+/// Number of rows in both tables, checked by tests/bench_tests/commands/bench_test.cpp; used only for progress.
 constexpr std::size_t feature_rows = 42;
 
 FeatureStudy study_of(const po::variables_map& given) {
@@ -144,22 +143,23 @@ CommandLine describe_bench_features() {
     options.add_options()("output,o", po::value<std::string>()->value_name("DIR")->default_value("out/features"),
                           "folder for features.md, .csv, .svg")  //
         ("count", po::value<std::int64_t>()->value_name("N"),
-         "discs, and polygons, of each scene (default 5000; quick: 300)")  //
+         "number of discs, and of polygons, in each scene (default 5000; quick: 300)")  //
         ("pairs", po::value<int>()->value_name("N"),
-         "runs of both scenes, of which the median counts (default 15; quick: 6)")                          //
-        ("seconds", po::value<double>()->value_name("X"), "of one run, about (default 0.08; quick: 0.01)")  //
-        ("quick", "small and short");
+         "pairs of runs, of which the median is used (default 15; quick: 6)")  //
+        ("seconds", po::value<double>()->value_name("X"),
+         "approximate duration of a run (default 0.08; quick: 0.01)")  //
+        ("quick", "small scenes and short runs");
     return {.synopses = {"crackle-bench features [OPTIONS]"},
             .description =
-                "Nanoseconds a contact and step with one feature added after the other, and what is left of "
+                "Measures the time per contact and step while features are added one at a time, and the cost of "
                 "features that a scene lacks.",
             .options = {{"options", options}},
             .verbose = "seconds of each row",
             .examples = {{"crackle-bench features --quick", "seconds: 300 bodies, short runs"},
                          {"crackle-bench features -o out/features", "minutes: features.md, .csv, .svg"},
                          {"crackle-bench features --count 50000 --pairs 30"}},
-            .notes = {"Pairs take turns, so that a busy machine is busy for both; an interval that holds 1 shows no "
-                      "difference."}};
+            .notes = {"Runs of a pair alternate, so that other work on the machine affects both; if an interval "
+                      "contains 1, no difference is shown."}};
 }
 
 int bench_features(const Invocation& invocation) {

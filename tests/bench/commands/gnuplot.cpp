@@ -25,7 +25,7 @@ std::string draw_with_gnuplot(const std::filesystem::path& script) {
     if (failed != 0) return fmt::format("gnuplot cannot be started ({})", std::strerror(failed));
     int status = 0;
     while (waitpid(child, &status, 0) < 0) {
-        if (errno != EINTR) return fmt::format("gnuplot was lost ({})", std::strerror(errno));
+        if (errno != EINTR) return fmt::format("gnuplot ended unexpectedly ({})", std::strerror(errno));
     }
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
     return fmt::format("gnuplot did not draw {}", name);

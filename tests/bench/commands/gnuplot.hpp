@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures by gnuplot, a program of its own.
+// Draws pictures with gnuplot, which runs as a separate program.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace crackle::tools {
 
-/// Runs gnuplot on a script, in the script's folder. @return empty if it drew, else what is wrong, one sentence
+/// Runs gnuplot on a script, in the script's folder. @return empty on success, otherwise one sentence about the error
 std::string draw_with_gnuplot(const std::filesystem::path& script);
 
 }  // namespace crackle::tools

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle-bench guide`: the guide's rock on many packings, each of the guide's numbers beside ours.
+// `crackle-bench guide`: tests the guide's rock on many packings and compares each of the guide's numbers with the
+// results.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <fmt/format.h>
@@ -46,7 +47,7 @@ void check_counts(const char* option, const std::vector<std::int64_t>& counts, s
     }
 }
 
-/// One number holds for all; fewer than there are places: the last holds for the rest.
+/// A single number applies to all places. If there are fewer numbers than places, the last one applies to the rest.
 std::vector<std::int64_t> spread_counts(std::vector<std::int64_t> counts, std::size_t places, const char* option) {
     if (counts.size() > places)
         throw InputError(fmt::format("crackle-bench guide: {}: found {} numbers, expected at most {}", option,
@@ -96,7 +97,7 @@ Selection selection_of(const po::variables_map& given) {
     return selection;
 }
 
-/// Adds a test unless it is planned already: circles serve all laws.
+/// List of planned tests without repetition, since tests of circles serve all laws.
 class TestList {
   public:
     void add(const GuideTest& test) {
@@ -108,7 +109,7 @@ class TestList {
     std::vector<GuideTest> tests_;
 };
 
-// The guide gives no tensile strength of its Voronoi specimen.
+// The guide states no tensile strength for its Voronoi specimen.
 const std::vector<std::pair<const char*, const char*>> loaded_tests{{"circles", "tension"},
                                                                     {"circles", "compression"},
                                                                     {"delaunay", "tension"},
@@ -136,7 +137,7 @@ void add_experiments(TestList& list, const Selection& selection) {
             }
         }
     }
-    // Voronoi polygons have one loaded row, and take the longest.
+    // Voronoi polygons take the longest, and only one row needs them loaded.
     for (const std::string of : {"circles", "delaunay"}) {
         for (std::int64_t seed = 1; seed <= selection.experiment_packings[of == "circles" ? 1 : 2]; ++seed) {
             for (const auto& experiment : experiments) {
@@ -149,7 +150,7 @@ void add_experiments(TestList& list, const Selection& selection) {
     }
 }
 
-/// In the order in which a page grows useful: elastic, strengths a packing after the other, experiments.
+/// Tests in order of usefulness: elastic tests, then strengths packing by packing, then experiments.
 std::vector<GuideTest> tests_of(const Selection& selection) {
     TestList list;
     for (std::int64_t seed = 1; seed <= selection.packings; ++seed) {
@@ -158,7 +159,7 @@ std::vector<GuideTest> tests_of(const Selection& selection) {
                 list.add(studies::guide_test(as_shipped, law, specimen, elastic_test, seed));
         }
     }
-    // Voronoi polygons take the longest and serve one row.
+    // Voronoi polygons come last, since they take the longest and only one row needs them.
     for (const bool of_voronoi : {false, true}) {
         for (std::size_t law = 0; law < selection.laws.size(); ++law) {
             for (std::int64_t seed = 1; seed <= selection.strength_packings[law]; ++seed) {
@@ -173,7 +174,7 @@ std::vector<GuideTest> tests_of(const Selection& selection) {
     return list.take();
 }
 
-/// The command without what does not change its numbers.
+/// The command line, without options that do not affect the numbers.
 std::string command_of(const po::variables_map& given, const Selection& selection) {
     std::string text = "crackle-bench guide";
     if (given.contains("quick")) text += " --quick";
@@ -197,19 +198,22 @@ CommandLine describe_bench_guide() {
         return po::value<std::vector<std::int64_t>>()->multitoken()->value_name(name);
     };
     options.add_options()("packings", po::value<std::int64_t>()->value_name("N"),
-                          "seeds 1 to this (default 20; quick: 2)")  //
+                          "number of packings, with seeds from 1 (default 20; quick: 2)")  //
         ("laws", po::value<Words>()->multitoken()->value_name("LAW"),
          "contact laws of polygons (default rounded demseg demseg_mean)")  //
         ("strength-packings", numbers("N"),
-         "packings that are also loaded until they fail, a number per law (default 5 0 0: the guide's law takes small "
-         "steps)")  //
+         "packings that are also loaded until they fail, a number per law (default 5 0 0, since the guide's law needs "
+         "small steps)")  //
         ("experiment-packings", numbers("N"),
-         "packings of the experiments: elastic, loaded circles, loaded triangles (default 3 2 0)")                  //
-        ("experiments", po::value<Words>()->multitoken()->value_name("NAME"), "only these (default all)")           //
-        ("rate-factor", po::value<double>()->value_name("X")->default_value(1.0, "1"), "times as fast as shipped")  //
+         "packings of the experiments: elastic, loaded circles, loaded triangles (default 3 2 0)")  //
+        ("experiments", po::value<Words>()->multitoken()->value_name("NAME"),
+         "only these experiments (default all)")  //
+        ("rate-factor", po::value<double>()->value_name("X")->default_value(1.0, "1"),
+         "load X times as fast as shipped")  //
         ("minutes", po::value<double>()->value_name("X"),
-         "give up tests not done by then; the page shows what is there")                                      //
-        ("jobs", po::value<int>()->value_name("N")->default_value(2), "tests at a time, each on one thread")  //
+         "stop after this time; the page shows the results so far")  //
+        ("jobs", po::value<int>()->value_name("N")->default_value(2),
+         "number of tests in parallel, each on one thread")  //
         ("cases", po::value<std::string>()->value_name("DIR")->default_value("specimens/guide_rock"),
          "folder of the shipped cases")                                                                               //
         ("output,o", po::value<std::string>()->value_name("DIR")->default_value("out/guide"), "folder for the page")  //
@@ -218,19 +222,17 @@ CommandLine describe_bench_guide() {
     for (const auto& one : studies::guide_experiments()) experiments.words.push_back(one.name);
     return {.synopses = {"crackle-bench guide [OPTIONS]"},
             .description =
-                "Tests the guide's rock on many packings and shows each of the guide's numbers beside mean "
-                "and standard deviation of ours, with a verdict and, for each row outside, the experiments "
-                "that move it.\n\n"
-                "DIR gets guide.md, guide.csv and cache/, a file per test: the same command goes on where a "
-                "stopped one was, and a larger one takes what is there. After a change of the engine, "
-                "remove cache/.",
+                "Tests the guide's rock on many packings and compares each of the guide's numbers with our mean and "
+                "standard deviation. For each row outside, experiments show what changes it.\n\n"
+                "Writes guide.md, guide.csv and cache/ with a file per test into DIR. The same command continues a "
+                "stopped run, and a larger one uses the existing results. After a change of the engine, remove cache/.",
             .options = {{"options", options}},
             .choices = {{"laws", {"rounded", "demseg", "demseg_mean"}}, experiments},
-            .verbose = "each test as it is done",
+            .verbose = "each finished test",
             .examples = {{"crackle-bench guide --quick"},
                          {"crackle-bench guide --strength-packings 5 1 0 --minutes 30 -o out/guide"},
                          {"crackle-bench guide --laws rounded --strength-packings 20 --experiment-packings 3 3"}},
-            .notes = {"exit codes: 0 done, 2 bad input, 130 interrupted (the page shows what is there)"}};
+            .notes = {"exit codes: 0 done, 2 bad input, 130 interrupted (the page shows the results so far)"}};
 }
 
 int bench_guide(const Invocation& invocation) {
@@ -251,7 +253,7 @@ int bench_guide(const Invocation& invocation) {
         throw InputError(fmt::format("crackle-bench guide: --jobs: found {}, expected 1 to 1024", ensemble.jobs));
     const std::vector<GuideTest> tests = tests_of(selection);
     for (const GuideTest& test : tests)
-        static_cast<void>(studies::guide_case(test, ensemble));  // refused before minutes are spent
+        static_cast<void>(studies::guide_case(test, ensemble));  // refuses an invalid case before any test runs
 
     watch_interrupts();
     studies::EnsembleHooks hooks;

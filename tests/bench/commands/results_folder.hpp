@@ -6,7 +6,7 @@
 
 namespace crackle::tools {
 
-/// Makes the folder of a study's results where there is none. @throws InputError if it cannot
+/// Creates the folder for a study's results if it is missing. @throws InputError if this fails
 void make_results_folder(const std::filesystem::path& folder);
 
 }  // namespace crackle::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle-bench stress`: the scenes of the claims «Stability under stress», for as long as wanted.
+// `crackle-bench stress`: runs the scenes of the claims «Stability under stress» for any number of steps.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <fmt/format.h>
@@ -26,14 +26,12 @@ CommandLine describe_bench_stress() {
     options.add_options()("steps", po::value<std::int64_t>()->value_name("N")->default_value(1000000),
                           "steps of each scene");
     return {.synopses = {"crackle-bench stress [OPTIONS]"},
-            .description =
-                "Runs scenes that are hard on the engine and shows by how much of the energy each account "
-                "stays open.",
+            .description = "Runs difficult scenes and reports the closing error of each energy balance.",
             .options = {{"options", options}},
-            .verbose = "time step and its bound, scene by scene",
+            .verbose = "time step and its bound for each scene",
             .examples = {{"crackle-bench stress"}, {"crackle-bench stress --steps 10000"}},
-            .notes = {"exit codes: 0 every scene kept its account of energy, 1 one did not or became unstable, 2 bad "
-                      "input"}};
+            .notes = {"exit codes: 0 the energy balance of every scene closes, 1 one does not, or a scene became "
+                      "unstable, 2 bad input"}};
 }
 
 int bench_stress(const Invocation& given) {
@@ -41,7 +39,7 @@ int bench_stress(const Invocation& given) {
     const auto steps = given.values["steps"].as<std::int64_t>();
     if (steps < 1) throw InputError(fmt::format("crackle-bench stress: --steps: found {}, expected at least 1", steps));
     fmt::print(
-        "| scene | bodies | steps | account left open [-] | wall time [s] | verdict |\n"
+        "| scene | bodies | steps | closing error [-] | wall time [s] | verdict |\n"
         "| --- | ---: | ---: | ---: | ---: | --- |\n");
     std::fflush(stdout);
     bool fails = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle-bench throughput`: the engine's rates beside the machine's limits, taken in the same run.
+// `crackle-bench throughput`: measures the engine's speed and the machine's limits in the same run.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <fmt/format.h>
@@ -41,14 +41,14 @@ struct Row {
     std::string scene;
     std::int64_t particles = 0;
     int threads = 1;
-    double contacts = 0.0;  // a particle
+    double contacts = 0.0;  // per particle
     double rate = 0.0;      // particle-steps / s
-    double bare = 0.0;      // of the bare kernel on the same discs, 0: not measured
-    double bytes = 0.0;     // a particle, 0: unknown
-    double list = 0.0;      // steps that a neighbour list lasted, 0: unknown
+    double bare = 0.0;      // bare kernel on the same discs, particle-steps/s; 0 if not measured
+    double bytes = 0.0;     // per particle; 0 if unknown
+    double list = 0.0;      // number of steps per neighbour list; 0 if unknown
 };
 
-/// Steps until the seconds have gone. @return particle-steps a second
+/// Takes steps for the given time. @return particle-steps per second
 template <class Step>
 double rate_of(std::size_t particles, double seconds, Step step) {
     std::int64_t steps = 0;
@@ -70,7 +70,7 @@ struct Settings {
     std::size_t empty_process;
 };
 
-/// The bare kernel on the discs of a timed test.
+/// Speed of the bare kernel on the discs of a timed test.
 double bare_rate(std::int64_t count, double seconds) {
     World world = build_world(timed_discs(count));
     compute_forces(world);
@@ -87,7 +87,7 @@ Row measure_test(const Settings& settings, const std::string& kind, std::int64_t
         rates.push_back(timed.rate());
         row.particles = timed.particles;
         row.contacts = timed.contacts_per_particle;
-        if (k == 0) row.bytes = timed.bytes_per_particle;  // later ones hold what earlier ones left behind
+        if (k == 0) row.bytes = timed.bytes_per_particle;  // later runs include memory left by earlier ones
         if (with_bare) bares.push_back(bare_rate(count, 0.25 * settings.seconds));
     }
     row.rate = median(rates);
@@ -95,7 +95,7 @@ Row measure_test(const Settings& settings, const std::string& kind, std::int64_t
     return row;
 }
 
-/// Flowing columns, each for as long as it flows, until the seconds have gone.
+/// Runs flowing columns, each for as long as it flows, for the given time in total.
 Row measure_flow(const Settings& settings, bool polygons, std::int64_t count) {
     constexpr int until_in_touch = 100;  // steps
     std::vector<double> rates, lists;
@@ -140,16 +140,15 @@ std::string page_of(const std::string& command, const Limits& limits, const std:
     std::string text = fmt::format(
         "# Throughput\n\nMade by `{}` on {}, kernels for {}, {} lanes of doubles, one process. Triad: {:.0f} GB/s in "
         "the first cache, "
-        "{:.0f} in the second, {:.0f} in memory. Rates in million particle-steps a second, of the whole engine as "
-        "`crackle test` runs it (bonds, friction, dashpots, platens, curve, events, frames; a curve row every 100 "
-        "steps); the bare kernel has neither neighbour search nor bonds, ledger, controls or observers. Contacts: "
-        "bonded "
-        "points a particle. Memory: peak resident set while stepping less an empty process. Flowing: a column without "
-        "its right wall in the midst of its collapse, its front as fast as a dam break's, touching points; and how "
-        "many "
-        "steps a neighbour list lasted.\n\n"
-        "| scene | particles | threads | contacts a particle | rate, M/s | bare kernel, M/s | ratio | ns a particle | "
-        "bytes a particle | steps a list |\n"
+        "{:.0f} in the second, {:.0f} in memory. Rates are million particle-steps per second of the whole engine, as "
+        "in `crackle test` (bonds, friction, dashpots, platens, curve, events, frames; a curve row every 100 steps). "
+        "The bare kernel has no neighbour search, bonds, energy balance, controls or observers. Contacts: "
+        "bonded points per particle. Memory: peak resident set while stepping minus that of an empty process. Flowing: "
+        "a "
+        "collapsing column without its right wall, whose front is as fast as that of a dam break; contacts are "
+        "touching points. Steps per list: number of steps for which a neighbour list remains valid.\n\n"
+        "| scene | particles | threads | contacts per particle | rate, M/s | bare kernel, M/s | ratio | ns per "
+        "particle | bytes per particle | steps per list |\n"
         "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
         command, processor_name(), name_of(chosen_set()), lanes_of(chosen_set()), limits.l1, limits.l2, limits.memory);
     for (const Row& row : rows) {
@@ -174,7 +173,7 @@ std::string table_of(const std::string& command, const Limits& limits, const std
     return text;
 }
 
-/// Rate over size, a curve per scene.
+/// Draws speed against size, with one curve per scene.
 std::string script_of(const std::vector<Row>& rows) {
     std::string data, plots;
     const auto add = [&](const std::string& name, const std::string& title, auto chosen, auto value) {
@@ -205,7 +204,7 @@ std::string script_of(const std::vector<Row>& rows) {
     return "# SPDX-License-Identifier: GPL-3.0-or-later\n" + data +
            "set terminal svg size 640,420 font \"DejaVu Sans,11\" background rgb 'white'\nset output "
            "\"throughput.svg\"\nset logscale xy\nset format x \"10^{%L}\"\nset grid lc rgb '#d8d8d8'\n"
-           "set xlabel \"particles\"\nset ylabel \"million particle-steps a second\"\nset key outside right\n"
+           "set xlabel \"particles\"\nset ylabel \"million particle-steps per second\"\nset key outside right\n"
            "plot " +
            plots + "\n";
 }
@@ -217,18 +216,18 @@ CommandLine describe_bench_throughput() {
     options.add_options()("output,o", po::value<std::string>()->value_name("DIR")->default_value("out/throughput"),
                           "folder for throughput.md, .csv, .svg")  //
         ("counts", po::value<std::vector<std::int64_t>>()->multitoken()->value_name("N"),
-         "circles of the scenes (default 300 1000 5000 50000 1000000; quick: 300 5000)")                    //
-        ("seconds", po::value<double>()->value_name("X"), "of stepping, each run (default 2; quick: 0.3)")  //
+         "numbers of circles (default 300 1000 5000 50000 1000000; quick: 300 5000)")                                 //
+        ("seconds", po::value<double>()->value_name("X"), "duration of each run's stepping (default 2; quick: 0.3)")  //
         ("repeats", po::value<int>()->value_name("N"),
-         "runs of a scene, of which the median counts (default 3; quick: 1)")  //
+         "runs of a scene, of which the median is used (default 3; quick: 1)")  //
         ("kinds", po::value<std::vector<std::string>>()->multitoken()->value_name("KIND"),
          "circles, voronoi, delaunay, flowing (default all, polygons up to 50000)")                            //
         ("threads", po::value<std::vector<int>>()->multitoken()->value_name("N"), "of circles (default 1 2)")  //
         ("quick", "small and short");
     return {.synopses = {"crackle-bench throughput [OPTIONS]"},
             .description =
-                "The engine's rates over size, threads and kind of specimen, beside what a bare kernel and "
-                "the memory reach in the same run.",
+                "Measures the engine's rate for several sizes, threads and kinds of specimens, and compares it with a "
+                "bare kernel and the memory's bandwidth in the same run.",
             .options = {{"options", options}},
             .verbose = "seconds of each row",
             .examples = {{"crackle-bench throughput --quick", "seconds: small scenes, half a second each"},
@@ -236,7 +235,8 @@ CommandLine describe_bench_throughput() {
                           "minutes: up to a million circles; throughput.md, .csv, .svg"},
                          {"crackle-bench throughput --counts 300 5000 --repeats 5"},
                          {"crackle-bench throughput --kinds circles voronoi --threads 1"}},
-            .notes = {"Rates are particle-steps a second. Machines are noisy: compare what stands in one table."}};
+            .notes = {
+                "Rates are particle-steps per second. Machines are noisy, so compare only values of the same table."}};
 }
 
 int bench_throughput(const Invocation& invocation) {
@@ -294,7 +294,7 @@ int bench_throughput(const Invocation& invocation) {
         replace_file(settings.folder / "throughput.md", page_of(command, limits, rows));
         replace_file(settings.folder / "throughput.csv", table_of(command, limits, rows));
     };
-    // Planned first: the progress wants to know how many there are.
+    // All rows are planned before the first is run, because the progress line shows their number.
     struct Planned {
         std::string what;
         std::function<Row()> measure;

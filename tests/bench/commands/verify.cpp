@@ -39,7 +39,7 @@ std::vector<Claim> chosen_claims(const std::vector<std::string>& only) {
     return some;
 }
 
-/// Before minutes are spent on a page that cannot be written.
+/// Refuses a page that cannot be written before the claims are checked, which takes minutes.
 void check_writable(const fs::path& page) {
     const fs::path folder = page.has_parent_path() ? page.parent_path() : fs::path(".");
     if (!fs::is_directory(folder) || fs::is_directory(page)) {
@@ -73,15 +73,15 @@ void report(Messages& messages, const CheckedClaim& checked) {
 CommandLine describe_bench_verify() {
     po::options_description options;
     options.add_options()("output,o", po::value<std::string>()->value_name("FILE"),
-                          "write the page there (Markdown); default: print it")                                 //
+                          "file for the page (Markdown); default: print it")                                    //
         ("only", po::value<Arguments>()->value_name("CLAIM"), "check this claim; may be given more than once")  //
-        ("list", "name all claims, one a line");
+        ("list", "list the names of all claims");
     Choices names{"only", {}};
     for (const Claim& claim : verification::claims()) names.words.push_back(claim.name);
     return {.synopses = {"crackle-bench verify [OPTIONS]"},
             .description =
-                "Checks every closed form and law that the engine has to meet and shows claim, expected, "
-                "got, error, tolerance, observed order and verdict.",
+                "Compares the engine with closed forms and laws. Prints each claim with expected value, result, error, "
+                "tolerance, observed order and verdict.",
             .options = {{"options", options}},
             .choices = {names},
             .verbose = "each row of a claim",

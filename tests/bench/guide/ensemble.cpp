@@ -33,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// Stands in every cached result: raised when other quantities are measured.
+// Stored in every cached result; increment it when other quantities are measured.
 constexpr int measures_version = 2;
 
 double thread_seconds() {
@@ -42,7 +42,8 @@ double thread_seconds() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Processor time of a simulated second, over the first steps of loading; the intact specimen's list is built once.
+/// Processor time per simulated second, from the first steps of loading. The intact specimen's neighbour list is built
+/// only once.
 double cost_of_second(World& world) {
     constexpr int warm_up = 20, steps = 300;
     for (int k = 0; k < warm_up; ++k) step(world);
@@ -51,14 +52,14 @@ double cost_of_second(World& world) {
     return (thread_seconds() - before) / (steps * world.stepping.time_step);
 }
 
-/// Counts and back-tensions of a specimen that stands alone.
+/// Counts and back-tensions of a specimen without platens.
 void take_counts(GuideResult& result, const TestCase& description, const TestHooks& hooks) {
     const Specimen specimen = make_specimen(description, hooks);
     Scene scene = specimen.scene;
-    // Any will do for circles: they bond at the overlaps they have.
+    // The thickness does not matter for circles, which bond at their existing overlaps.
     scene.thick = description.bond.thick.value_or(0.1 * specimen.mean_radius);
     scene.segment_law = description.numerics.contact_law;
-    scene.time_step = 0.0;  // the packing's own; none is taken
+    scene.time_step = 0.0;  // derived automatically; no step is taken
     scene.domain.wall_present = {false, false, false, false};
     const double thick = scene.thick;
     World world = build_world(std::move(scene));
@@ -98,7 +99,7 @@ void take_elastic(GuideResult& result, VirtualTest& test) {
 void take_loaded(GuideResult& result, const VirtualTest& test, double seconds) {
     const FailureTracker& failure = test.state.failure;
     auto& q = result.quantities;
-    // The guide's strengths are largest stresses, whatever came before.
+    // The guide's strengths are the largest stresses of a test, including those after a first peak.
     const std::int64_t largest = failure.largest_row;
     q["failed"] = failure.collapsed ? 1.0 : 0.0;
     q["largest_stress"] = failure.largest_stress;
@@ -120,7 +121,7 @@ std::string case_text(const TestCase& description) {
     return text.str();
 }
 
-/// What a cached result must have been made from.
+/// Identifies the input of a cached result.
 std::string mark_of(const TestCase& description, const GuideTest& test) {
     return sha256(fmt::format("{} {}\n{}", measures_version, test.loading, case_text(description)));
 }
@@ -138,7 +139,7 @@ std::optional<GuideResult> read_cached(const fs::path& file, const std::string& 
     return result;
 }
 
-/// Complete or absent, whenever the bench is stopped.
+/// Writes a cached result; if the program is stopped, the file is either complete or absent.
 void write_cached(const fs::path& file, const std::string& mark, const GuideResult& result) {
     Json json{{"mark", mark}, {"error", result.error}, {"quantities", Json::object()}};
     for (const auto& [name, value] : result.quantities) json["quantities"][name] = value;
@@ -218,7 +219,7 @@ GuideResults run_guide_tests(const std::vector<GuideTest>& tests, const Ensemble
     fs::create_directories(options.cache);
     std::vector<std::optional<GuideResult>> results(tests.size());
     std::atomic<std::size_t> next{0}, done{0};
-    std::mutex guard;  // of progress and failure
+    std::mutex guard;  // protects progress and failure
     std::exception_ptr failure;
     std::atomic<bool> stop{false};
     const auto stopped = [&] { return stop || (hooks.interrupted && hooks.interrupted()); };
@@ -230,7 +231,7 @@ GuideResults run_guide_tests(const std::vector<GuideTest>& tests, const Ensemble
                 const std::string mark = mark_of(description, tests[k]);
                 results[k] = read_cached(file, mark);
                 if (!results[k]) {
-                    if (stopped()) continue;  // what is cached behind this one still counts
+                    if (stopped()) continue;  // later tests may still be in the cache
                     try {
                         results[k] = measure_guide_test(description, tests[k], stopped);
                     } catch (const TestInterrupted&) {

@@ -27,7 +27,7 @@ void set_platens(TestCase& test, double friction_angle) {
     test.loading.platen_friction_angle = friction_angle;
 }
 
-/// Overlaps at bonding, of circles and of polygons.
+/// Scales the overlaps at bonding, for circles and polygons.
 void scale_overlap(TestCase& test, double factor) {
     test.packing.mean_overlap = factor * *test.packing.mean_overlap;
     if (test.bond.thick) test.bond.thick = *test.mesh.thick + factor * (*test.bond.thick - *test.mesh.thick);
@@ -43,29 +43,28 @@ bool Reach::holds(const std::string& specimen, const std::string& loading) const
 const std::vector<GuideExperiment>& guide_experiments() {
     static const std::vector<GuideExperiment> all{
         {as_shipped, "the shipped cases", everything, [](TestCase&) {}},
-        {"seeds_boundary", "triangles between the centres alone, mesh.boundary = \"seeds\"; nothing has platens",
-         elastic,
+        {"seeds_boundary", "triangles between the centres only, mesh.boundary = \"seeds\"; no platens", elastic,
          [](TestCase& test) {
              if (test.mesh.kind == MeshKind::delaunay) test.mesh.boundary = Boundary::centres;
-             test.mesh.merge_destroyed = test.has_table("mesh");  // of slivers on the ragged outline
+             test.mesh.merge_destroyed = test.has_table("mesh");  // merges slivers at the uneven outline
          },
          true},
-        {"narrow_radii", "radii from 1.8 to 2.2 cm in place of 1.333 to 2.667", everything,
+        {"narrow_radii", "radii from 1.8 to 2.2 cm instead of 1.333 to 2.667", everything,
          [](TestCase& test) { set_radii(test, 1.8e-2, 2.2e-2); }},
-        {"wide_radii", "radii from 0.8 to 3.2 cm in place of 1.333 to 2.667", everything,
+        {"wide_radii", "radii from 0.8 to 3.2 cm instead of 1.333 to 2.667", everything,
          [](TestCase& test) { set_radii(test, 0.8e-2, 3.2e-2); }},
-        {"square", "as high as wide in place of twice as high", everything,
+        {"square", "as high as wide instead of twice as high", everything,
          [](TestCase& test) { test.packing.height_to_width = 1.0; }},
         {"double_overlap", "twice the overlap at bonding", everything,
          [](TestCase& test) { scale_overlap(test, 2.0); }},
-        {"equal_springs", "k_s = k_n in place of k_n/4", everything,
+        {"equal_springs", "k_s = k_n instead of k_n/4", everything,
          [](TestCase& test) { test.material.shear_stiffness = *test.material.normal_stiffness; }},
-        {"soft_shear", "k_s = k_n/16 in place of k_n/4", everything,
+        {"soft_shear", "k_s = k_n/16 instead of k_n/4", everything,
          [](TestCase& test) { test.material.shear_stiffness = *test.material.normal_stiffness / 16.0; }},
-        {"low_friction", "friction angle 10 degrees in place of 27", runs,
+        {"low_friction", "friction angle 10 degrees instead of 27", runs,
          [](TestCase& test) { test.material.friction_angle = 10.0; }},
-        {"low_damping", "damping ratio 0.02 in place of 0.2", runs, [](TestCase& test) { set_damping(test, 0.02); }},
-        {"high_damping", "damping ratio 1 in place of 0.2", runs, [](TestCase& test) { set_damping(test, 1.0); }},
+        {"low_damping", "damping ratio 0.02 instead of 0.2", runs, [](TestCase& test) { set_damping(test, 0.02); }},
+        {"high_damping", "damping ratio 1 instead of 0.2", runs, [](TestCase& test) { set_damping(test, 1.0); }},
         {"frictional_platens", "platens not bonded, friction 27 degrees", squeezing,
          [](TestCase& test) { set_platens(test, 27.0); }},
         {"smooth_platens", "platens not bonded, without friction", squeezing,

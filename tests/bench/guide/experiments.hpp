@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the guide leaves open and might have been otherwise: each experiment changes one thing of the shipped cases.
+// Settings that the guide does not state and that may have been different. Each experiment changes one setting of the
+// shipped cases.
 // Tested by tests/bench_tests/guide/ensemble_test.cpp.
 #pragma once
 
@@ -12,7 +13,7 @@ namespace crackle::studies {
 
 inline constexpr const char* as_shipped = "shipped";  ///< the experiment that changes nothing
 
-/// Tests that an experiment touches; where it does not, the shipped test stands in.
+/// Tests that an experiment changes; for all others the shipped test is used.
 struct Reach {
     bool circles = true, polygons = true;
     bool elastic = true, tension = true, compression = true;
@@ -25,10 +26,10 @@ struct GuideExperiment {
     std::string sentence;
     Reach reach;
     void (*change)(TestCase& test);
-    bool without_platens = false;  ///< no platen holds such a specimen: its tests only count
+    bool without_platens = false;  ///< the specimen has no platens, so its tests only count
 };
 
-/// All, the shipped case first.
+/// All experiments, beginning with the shipped case.
 const std::vector<GuideExperiment>& guide_experiments();
 const GuideExperiment& guide_experiment(const std::string& name);
 

@@ -39,7 +39,7 @@ Spread row_spread(const GuideRow& row, const GuidePage& page, const GuideResults
     return spread_of(values);
 }
 
-/// What an experiment does to a row, on the packings that have it with and without.
+/// Effect of an experiment on a row, from the packings that were tested with and without it.
 struct Effect {
     std::string law, experiment, sentence;
     int packings = 0;
@@ -65,7 +65,7 @@ std::optional<Effect> effect_of(const GuideRow& row, const GuidePage& page, cons
                   guide_experiment(experiment).sentence,
                   a.packings,
                   a.mean,
-                  b.mean,  // A change within the scatter explains nothing, even where it crosses the limit.
+                  b.mean,  // A change smaller than the scatter explains nothing, even if it crosses the limit.
                   reaches_guide(row, b.mean, shipped) && std::abs(b.mean - a.mean) >= shipped.deviation};
 }
 
@@ -86,7 +86,7 @@ std::vector<Effect> effects_on(const GuideRow& row, const GuidePage& page, const
         if (other == law || !takes_polygons(row)) continue;
         if (auto effect = effect_of(row, page, results, law, other, as_shipped, shipped)) {
             effect->experiment = "law " + other;
-            effect->sentence = fmt::format("contact law {} in place of {}", other, law);
+            effect->sentence = fmt::format("contact law {} instead of {}", other, law);
             effects.push_back(*effect);
         }
     }
@@ -97,7 +97,7 @@ std::vector<Effect> effects_on(const GuideRow& row, const GuidePage& page, const
     return effects;
 }
 
-/// What the experiments show, in a sentence: from their numbers alone.
+/// One sentence on the results of the experiments, derived only from their numbers.
 std::string finding(const GuideRow& row, const std::vector<Effect>& effects) {
     std::vector<std::string> reaching;
     const Effect* nearest = nullptr;
@@ -110,13 +110,13 @@ std::string finding(const GuideRow& row, const std::vector<Effect>& effects) {
     }
     if (!reaching.empty()) return fmt::format("Brings it inside: {}.", fmt::join(reaching, ", "));
     if (nearest != nullptr) {
-        return fmt::format("None alone brings it inside; the longest way towards it goes `{}`: {} → {}.",
+        return fmt::format("None alone brings it inside; the largest change towards it is that of `{}`: {} → {}.",
                            nearest->experiment, number(nearest->before), number(nearest->after));
     }
-    return "None moves it towards the guide's value.";
+    return "None changes it towards the guide's value.";
 }
 
-/// Laws under which a row comes out the same, together; rows of circles and of the mesh are so under all.
+/// Groups laws that give the same value in a row. Rows about circles or the mesh have only one group.
 std::vector<std::vector<std::string>> laws_alike(const GuideRow& row, const GuidePage& page,
                                                  const GuideResults& results) {
     std::vector<std::vector<std::string>> groups;
@@ -144,14 +144,14 @@ std::string experiments_of(const GuideRow& row, const GuidePage& page, const Gui
                             takes_polygons(row) ? fmt::format(", {}", fmt::join(laws, " and ")) : "");
         const std::vector<Effect> effects = effects_on(row, page, results, law);
         if (effects.empty()) {
-            text += "No experiment has been run on it.\n";
+            text += "No experiment has been run for it.\n";
             continue;
         }
         text += finding(row, effects) + "\n\n";
         std::vector<std::string> idle;
         std::string lines;
         for (const Effect& e : effects) {
-            // Below what a page shows of a number: it moves something else.
+            // The change is smaller than the digits that the page prints, so the experiment does not affect this row.
             if (std::abs(e.after - e.before) < 5e-4 * std::abs(e.before)) {
                 idle.push_back("`" + e.experiment + "`");
                 continue;
@@ -188,7 +188,7 @@ std::string table(const GuidePage& page, const GuideResults& results) {
     return head + '\n' + rule + '\n' + text;
 }
 
-/// Tests without a result or without a failure: nothing is left out in silence.
+/// Lists tests that are missing, have no result or did not fail.
 std::string notices(const GuidePage& page, const GuideResults& results) {
     std::string text;
     if (page.tests_missing > 0)
@@ -200,7 +200,7 @@ std::string notices(const GuidePage& page, const GuideResults& results) {
         if (!result.error.empty()) text += fmt::format("- {}: no result: {}\n", who, result.error);
         const auto failed = result.quantities.find("failed");
         if (failed != result.quantities.end() && failed->second == 0.0)
-            text += fmt::format("- {}: has not failed, its largest stress is the one so far.\n", who);
+            text += fmt::format("- {}: has not failed; its largest stress is the largest so far.\n", who);
     }
     return text.empty() ? text : "\n## Notices\n\n" + text;
 }
@@ -210,12 +210,12 @@ std::string notices(const GuidePage& page, const GuideResults& results) {
 std::string guide_page(const GuidePage& page, const GuideResults& results) {
     std::string text = fmt::format(
         "# The guide's rock, as an ensemble\n\nMade by `{}`; every number is in guide.csv.\n\n"
-        "Packings are seeds 1 to {} of the shipped rock. Ours: mean ± standard deviation (packings). **Inside**: the "
-        "guide's value, one packing's, lies within two standard deviations of our mean, or within the rounding of its "
-        "print; where the guide says «larger», our mean is. Strengths take fewer packings than the rest, for they need "
-        "runs{}. Circles are tested once, for the laws differ in polygons (and by 0.02 % of the modulus where a circle "
-        "touches the end of a platen). Run times are processor seconds of a "
-        "simulated second, on one thread.\n\n",
+        "Packings have the seeds 1 to {} of the shipped rock. Ours: mean ± standard deviation (packings). **Inside**: "
+        "the guide's value, which is that of one packing, differs from our mean by at most two standard deviations or "
+        "by its rounding. If the guide states «larger», our mean is larger. Strengths are means over fewer packings "
+        "because they need complete runs{}. Circles are tested once, since the laws differ only for polygons (and by "
+        "0.02 % of the modulus if a circle touches the end of a platen). Run times are processor seconds per simulated "
+        "second, on one thread.\n\n",
         page.command, page.packings,
         page.rate_factor == 1.0 ? std::string(" (loaded as shipped)")
                                 : fmt::format(" (loaded {:g} times as fast as shipped)", page.rate_factor));
@@ -226,9 +226,9 @@ std::string guide_page(const GuidePage& page, const GuideResults& results) {
     }
     if (!experiments.empty()) {
         text +=
-            "\n## What moves the rows outside\n\nEach experiment changes one thing of the shipped cases, on the same "
-            "packings; its mean is judged with the relative spread of the shipped case, and counts from a change of "
-            "one standard deviation.\n" +
+            "\n## What changes the rows outside\n\nEach experiment makes one change to the shipped cases, with the "
+            "same packings. Its mean is judged with the relative spread of the shipped case; changes below one "
+            "standard deviation count as no effect.\n" +
             experiments;
     }
     return text + notices(page, results);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ensemble of the guide's rock as a page and as CSV. No date, version or time in them, but run times are measured.
+// Writes the results for the guide's rock as a page and as CSV. They contain no date, version or wall-clock time, but
+// measured processor times.
 // Tested by tests/bench_tests/guide/ensemble_test.cpp.
 #pragma once
 
@@ -12,18 +13,18 @@
 namespace crackle::studies {
 
 struct GuidePage {
-    std::string command;            ///< that makes it, named in its header
-    std::vector<std::string> laws;  ///< columns; runs of experiments are of the first
-    std::int64_t packings = 0;      ///< seeds 1 to this
+    std::string command;            ///< command that writes the page, printed in its header
+    std::vector<std::string> laws;  ///< one column per law; experiments use the first law
+    std::int64_t packings = 0;      ///< the seeds are 1 to this number
     double rate_factor = 1.0;
-    std::size_t tests_missing = 0;  ///< planned and not run yet
+    std::size_t tests_missing = 0;  ///< number of planned tests not run yet
 };
 
-/// The table with verdicts, then each row outside with the experiments tried on it. Markdown.
+/// The page in Markdown: the table with verdicts, then each row outside the limits with its experiments.
 std::string guide_page(const GuidePage& page, const GuideResults& results);
 
-/// A line a packing, experiment, law and quantity: the page's rows by key, and what the tests measured as
-/// specimen.loading.quantity.
+/// CSV with one line per packing, experiment, law and quantity. Quantities are the page's rows, by key, and the tests'
+/// own results, as specimen.loading.quantity.
 std::string guide_csv(const GuidePage& page, const GuideResults& results);
 
 }  // namespace crackle::studies

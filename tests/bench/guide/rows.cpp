@@ -15,14 +15,14 @@ constexpr double deviations_allowed = 2.0;
 
 using Test = std::pair<std::string, std::string>;
 
-/// A quantity of one test in some unit.
+/// Row for a quantity of one test, in the given unit.
 GuideRow plain(GuideRow row, const Test& test, const std::string& quantity, double unit) {
     row.tests = {test};
     row.value = [=](const Measured& m) { return m(test.first, test.second, quantity) / unit; };
     return row;
 }
 
-/// A quantity of one test over that of another.
+/// Row for the ratio of a quantity between two tests.
 GuideRow ratio(GuideRow row, const Test& over, const Test& under, const std::string& quantity) {
     row.tests = {over, under};
     row.value = [=](const Measured& m) {
@@ -31,7 +31,7 @@ GuideRow ratio(GuideRow row, const Test& over, const Test& under, const std::str
     return row;
 }
 
-/// Processor time of a step, one test's over another's.
+/// Row for the ratio of the processor times per step of two tests.
 GuideRow step_time(GuideRow row, const Test& over, const Test& under) {
     row.tests = {over, under};
     row.value = [=](const Measured& m) {

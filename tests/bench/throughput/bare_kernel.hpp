@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A contact step stripped to its arithmetic: what the engine's rate is measured against.
+// A step reduced to the arithmetic of contacts, with which the engine's speed is compared.
 //
-// Discs of one material touch with normal spring and dashpot, and with incremental shear spring and dashpot under a
-// Coulomb limit, by the same code as in the engine. Every point writes one record of 32 bytes; every body adds up its
-// own in a fixed order and is kicked and drifted. No neighbour search, walls, bonds, ledger, controls or observers. A
-// body's state fills a cache line, points are looked at several at a time (solver/base/lanes.hpp). On one thread.
+// Discs of one material interact through normal and incremental shear springs with dashpots and a Coulomb limit, by the
+// engine's own code. Each point writes a record of 32 bytes; each body sums its records in a fixed order, then kick and
+// drift follow. There are no neighbour search, walls, bonds, energy account, controls or observers. A body's state
+// fills a cache line, and several points are processed at once (solver/base/lanes.hpp). The kernel uses one thread.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ namespace crackle::throughput {
 
 class BareKernel {
   public:
-    /// Copies the discs of an unbonded world and its circle-circle points that touch, bonded or not. They have the
-    /// contact law of the first body's material, with the dashpots of a ratio at the first point's effective mass.
-    /// Bodies that are no single circles (platens) are left out.
+    /// Copies the discs of a world and its touching circle-circle points, which are treated as unbonded. They get the
+    /// contact law of the first body's material, with dashpots for the effective mass at the first point. Other bodies,
+    /// such as platens, are left out.
     explicit BareKernel(const World& world);
 
     void step();
@@ -29,7 +29,7 @@ class BareKernel {
     std::size_t bodies() const { return bodies_.size(); }
     std::size_t points() const { return points_.size(); }
 
-    /// A point with its two bodies of the world and the force on i, as Points::force has it.
+    /// A point with the indices of its two bodies in the world, and the force on body i as in Points::force.
     struct Contact {
         BodyIndex i, j;
         PointForce force;
@@ -49,7 +49,7 @@ class BareKernel {
     };
 
     void move_bodies();
-    // By the kernels (bare_forces.cpp).
+    // Defined in bare_forces.cpp, once for each instruction set.
     template <InstructionSet>
     void compute_forces_of();
     template <InstructionSet>
@@ -57,13 +57,13 @@ class BareKernel {
 
     Array<Body> bodies_;
     Array<Inertia> inertia_;
-    Array<Point> points_;  // padded to a multiple of most_lanes with points of a lone pair
+    Array<Point> points_;  // padded to a multiple of most_lanes with points of a separate pair
     std::size_t real_points_ = 0;
     Array<PointForce> forces_;
     Array<std::uint32_t> begin_, slots_;
     std::vector<BodyIndex> world_body_;
     ContactLaw law_;
-    double root_mass_;  // sqrt(kg), of every point
+    double root_mass_;  // sqrt(kg), the same for all points
     double time_step_;
 };
 

@@ -27,14 +27,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double apothem = 0.02, gap = 1e-3, overlap = 8e-5;  // m, of hexagons; overlap of discs too
-// About a hundredth of an overlap over a disc's period.
+constexpr double apothem = 0.02, gap = 1e-3, overlap = 8e-5;  // m; apothem and gap of hexagons, overlap of discs
+// During one period of a disc, this moves bodies by about a hundredth of an overlap.
 constexpr double stir_speed = 1e-3;  // m/s
 constexpr int steps_before_start = 20;
-// A loading loop looks at its hooks only so often.
+// Number of steps between two calls of the hooks in the loading loop.
 constexpr std::int64_t steps_between_looks = 64;
 
-/// Processor time of this thread, s: other work on the machine counts less than in wall-clock time.
+/// Processor time of this thread, s. Other work on the machine affects it less than wall-clock time.
 double processor_seconds() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -48,11 +48,11 @@ Scene packed_hexagons(std::int64_t count) {
     const int rows = std::max(3, static_cast<int>(count / columns));
     Scene scene = honeycomb(columns, rows, apothem, gap, timed_rock());
     scene.thick = gap + overlap;
-    wall_in(scene, 0.5 * scene.thick - overlap);  // corners press the walls as they do neighbours
+    wall_in(scene, 0.5 * scene.thick - overlap);  // corners overlap the walls as much as their neighbours
     return scene;
 }
 
-/// The scene at rest where springs and dashpots have brought it, with a time step that holds for every feature.
+/// The scene at rest in equilibrium, with a time step that is stable with every feature.
 Scene settled(Scene scene) {
     constexpr int most_steps = 6000;
     constexpr double rest = 0.1 * stir_speed;
@@ -75,7 +75,7 @@ struct Features {
     bool area = false, coulomb = false, random_strengths = false;
 };
 
-/// Blocks as wide as the specimen on its lower and upper side, held and driven as a test's platens are.
+/// Adds blocks as wide as the specimen below and above it, held and driven like the platens of a test.
 void put_between_platens(Scene& scene) {
     const Domain& domain = scene.domain;
     const double depth = 0.05 * (domain.y2 - domain.y1), outwards = scene.circles.empty() ? 0.5 * scene.thick : 0.0;
@@ -94,7 +94,7 @@ void put_between_platens(Scene& scene) {
     scene.domain.wall_present = {false, false, false, false};
 }
 
-/// Discs joined with the next one to clumps of two, where it lies beside them.
+/// Joins each disc with the next one to a clump of two, if they are side by side.
 void join_to_clumps(Scene& scene) {
     std::vector<Body> joined;
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -134,7 +134,7 @@ World world_with(Scene scene, const Features& features) {
     if (features.coulomb) {
         scene.bond_law = BondLaw::coulomb;
         for (Material& material : scene.materials) {
-            material.tensile_strength = 1e3 * material.normal_stiffness * overlap;  // nothing breaks
+            material.tensile_strength = 1e3 * material.normal_stiffness * overlap;  // strong enough that nothing breaks
             material.cohesion = 2.0 * material.tensile_strength;
             material.residual_friction_angle = material.friction_angle;
         }
@@ -163,15 +163,15 @@ std::int64_t loaded_points(const World& world) {
 
 // ---- timing
 
-/// Something that goes in steps from a start that can be had again.
+/// Work that consists of steps and can be repeated from the same initial state.
 struct Trial {
     std::int64_t particles, contacts;
     std::function<void()> reset;
-    std::function<double(std::int64_t)> run;  ///< takes this number of steps; @return s
-    std::int64_t together = 1;                ///< steps come in multiples of it
+    std::function<double(std::int64_t)> run;  ///< runs this number of steps; returns the time, s
+    std::int64_t together = 1;                ///< the number of steps must be a multiple of this
 };
 
-/// @param step of a world
+/// @param step function that runs one step of a world
 template <class Step>
 Trial trial_of(const World& start, World& work, Step step) {
     return {static_cast<std::int64_t>(start.bodies.size()), loaded_points(start), [&start, &work] { work = start; },
@@ -184,11 +184,11 @@ Trial trial_of(const World& start, World& work, Step step) {
 
 double run_of(const Trial& trial, std::int64_t steps) {
     trial.reset();
-    trial.run(trial.together * std::max<std::int64_t>(1, steps / 16 / trial.together));  // into the caches
+    trial.run(trial.together * std::max<std::int64_t>(1, steps / 16 / trial.together));  // loads the caches
     return trial.run(steps);
 }
 
-/// Steps that fill about `seconds`.
+/// Number of steps that take about `seconds`.
 std::int64_t steps_to_fill(const Trial& trial, double seconds) {
     std::int64_t rounds = 1;  // of trial.together steps
     while (true) {
@@ -200,7 +200,7 @@ std::int64_t steps_to_fill(const Trial& trial, double seconds) {
     }
 }
 
-/// Times of `trial` beside those of `other`, in turns: who begins alternates.
+/// Measures `trial` and `other` in pairs; the order alternates.
 FeatureRow compare(const FeatureStudy& study, FeatureRow row, const Trial& other, const Trial& trial) {
     const std::int64_t steps = steps_to_fill(trial.together > 1 ? trial : other, study.seconds);
     const auto contact_seconds = [steps](const Trial& of, double seconds) {
@@ -282,17 +282,17 @@ void add_rungs(const FeatureStudy& study, const std::string& bodies, const Scene
     }
 }
 
-/// A virtual test with all its observers and files beside the steps of its world alone.
+/// Compares a virtual test with all its observers and files to the steps of its world alone.
 void add_observers(const FeatureStudy& study, const std::string& kind, const Add& add) {
     const TimedSpecimen specimen{kind, study.count, 1, 4.0 * study.seconds};
     VirtualTest test = bond_timed_test(specimen, study.scratch / kind);
-    std::filesystem::remove_all(study.scratch / kind / "out");  // of an earlier study
+    std::filesystem::remove_all(study.scratch / kind / "out");  // results of an earlier study
     OutputFolder output = OutputFolder::create(study.scratch / kind / "out", Earlier::refused, {});
     TestFiles files(output, "", test.state, {});
     const auto load = [&](std::int64_t steps) {
         const std::int64_t end = test.world.stepping.steps + steps;
         const double begun = processor_seconds();
-        double took = 0.0;  // until the last look: the picture of the peak that follows comes once a test
+        double took = 0.0;  // time at the last hook; the frame at the peak, drawn later, occurs only once per test
         TestHooks hooks;
         hooks.interrupted = [&] {
             took = processor_seconds() - begun;
@@ -301,7 +301,7 @@ void add_observers(const FeatureStudy& study, const std::string& kind, const Add
         load_specimen(test, hooks, &files);
         return took;
     };
-    load(steps_between_looks);  // the first checkpoint is behind it
+    load(steps_between_looks);  // the first checkpoint has now been written
     const VirtualTest start = test;
     const auto reset = [&] { test = start; };
     const std::int64_t contacts = loaded_points(start.world);
@@ -339,7 +339,7 @@ const std::vector<Absence>& absences() {
     return all;
 }
 
-/// At rest: a force pass again and again changes nothing.
+/// Brings the world to rest, so that repeated force passes change nothing.
 void hold_still(World& world) {
     for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;
 }
@@ -349,7 +349,7 @@ void force_pass(World& world, const ContactFeatures& features) {
     chosen_sweep()(world, {world, features}, nullptr, 0.0);
 }
 
-/// Force passes alone, where an overhead shows most.
+/// Compares force passes alone, in which an overhead is most visible.
 void add_absent_kernels(const FeatureStudy& study, const std::string& bodies, const Scene& scene, const Add& add) {
     for (const Absence& absence : absences()) {
         World start = world_with(scene, absence.scene);
@@ -374,7 +374,7 @@ void add_absent_kernels(const FeatureStudy& study, const std::string& bodies, co
     }
 }
 
-/// Whole steps of discs that lack most of what a world can have, beside the least step of them.
+/// Compares whole steps of discs without most features to the least step for these discs.
 void add_absent_parts(const FeatureStudy& study, const Scene& scene, const Add& add) {
     struct Part {
         const char *absent, *beside;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Unbonded bodies that flow: a column without its right wall, in the midst of its collapse under gravity.
+// Flowing unbonded bodies: a column without its right wall during its collapse under gravity.
 // Tested by tests/bench_tests/throughput/feature_costs_test.cpp.
 #pragma once
 
@@ -11,13 +11,13 @@ namespace crackle::throughput {
 
 struct FlowingColumn {
     Scene scene;
-    double lasts;  ///< s, in which it flows on
+    double lasts;  ///< s, time for which it continues to flow
 };
 
-/// Bodies start with the motion of a collapse: v = √(g/H)·(x, −y) from the corner of floor and left wall, H the
-/// column's height. The front then has √(gH), the speed of a dam break. Waiting for it would take simulated time of the
-/// order √(H/g), minutes with many bodies.
-/// @param count bodies, met within a few @param polygons hexagons in place of discs
+/// Bodies start with velocities of a collapse: v = √(g/H)·(x, −y) from the corner of floor and left wall, where H is
+/// the column's height. The front then moves at √(gH), the speed of a dam break. Waiting for it to develop would take a
+/// simulated time of about √(H/g), which means minutes for many bodies.
+/// @param count approximate number of bodies @param polygons whether the bodies are hexagons instead of discs
 FlowingColumn flowing_column(std::int64_t count, bool polygons);
 
 }  // namespace crackle::throughput

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A step with nothing but what the discs of a world need: what the engine's step is compared with where a scene lacks a
-// feature.
+// The least step: a step with only the operations that discs need, with which the engine's step is compared if a scene
+// lacks a feature.
 //
-// Forces by the engine's contact kernels of given features, their sums, kick and drift as the engine compiles them for
-// discs without gravity. The largest speed is found, and whether it is a number: neighbour list and health of a run
-// depend on it. Everything else that a world can have is left out: a check of the list, threads, a profile, gravity,
-// bodies that turn, driven bodies, losses, breaks. Same bytes as step() as long as nothing of that happens.
+// It computes forces with the engine's contact kernels for the given features, sums them, and applies kick and drift as
+// the engine does for discs without gravity. It also finds the largest speed and checks that it is finite, since the
+// neighbour list and the health checks need it. Everything else is left out: checks of the list, threads, a profile,
+// gravity, rotating frames, driven bodies, losses, breaks. It gives the same bytes as step() as long as none of these
+// matters.
 // Tested by tests/bench_tests/throughput/feature_costs_test.cpp.
 #pragma once
 
@@ -14,11 +15,11 @@
 
 namespace crackle::throughput {
 
-/// The least step of a world of single circles that has taken its first step, on one thread.
+/// Runs the least step for a world of single circles that has already taken its first step, on one thread.
 void least_step(World& world, const ContactFeatures& features);
 
-/// Makes room for what the kernels of these features remember of a point, in a world that lacks some of them. Bonds,
-/// sliders and dashpots that are not there stay without effect.
+/// Allocates the arrays that kernels with these features store per point, for a world that lacks some of the features.
+/// Absent bonds, friction and dashpots have no effect.
 void make_room_for(World& world, const ContactFeatures& features);
 
 }  // namespace crackle::throughput

@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Number behind a key of /proc/self/status, bytes.
+/// Value of a key in /proc/self/status, bytes.
 std::size_t status_bytes(const std::string& key) {
     std::ifstream in("/proc/self/status");
     for (std::string word; in >> word;) {

@@ -15,7 +15,7 @@ constexpr double outside = 0.05;
 
 /// Largest k with 2·P(B(n, ½) < k) <= 5 %. @param n at least fewest_for_interval
 std::size_t rank_of_bound(std::size_t n) {
-    // Terms by logarithms: 2^-n is 0 from n = 1075 on.
+    // Logarithms are used because 2^-n underflows to 0 for n >= 1075.
     const auto count = static_cast<double>(n);
     const double whole = std::lgamma(count + 1.0) - count * std::log(2.0);
     double below = 0.0;  // P(B < k + 1)

@@ -30,16 +30,16 @@ using Clock = std::chrono::steady_clock;
 constexpr double mean_radius = 0.02, mean_overlap = 8e-5;  // m
 constexpr double polygon_gap = 1e-3;                       // m, between polygons
 constexpr double height_to_width = 2.0;
-// Share of the mean overlap, so large that a quarter of the lattice's bonds is lost.
+// Relative to the mean overlap; large enough that a quarter of the lattice's bonds are lost.
 constexpr double shake_share = 1.2;
 constexpr double steps_between_rows = 100.0;
-constexpr double fewest_rows = 2000.0;  // that a test measures (load_specimen.cpp)
-// The first neighbour list is wider than those that follow, for 64 steps (neighbours.cpp): a million circles, 35 ms a
-// step, would be timed under it alone.
+constexpr double fewest_rows = 2000.0;  // smallest number of rows that a test measures (load_specimen.cpp)
+// The first neighbour list, used for 64 steps, is wider than later ones (neighbours.cpp). At 35 ms per step, a test of
+// a million circles would otherwise be timed only with this list.
 constexpr std::int64_t fewest_steps = 200;
-// No machine does more particle-steps a second; the test must not end before the clock does.
+// More particle-steps per second than any machine reaches; the test must not end before the measuring time is over.
 constexpr double highest_rate = 2e8;
-// A hundredth of what bonds bear: mean overlap over mean diameter is 2e-3.
+// A hundredth of the strain at which bonds break; the mean overlap is 2e-3 of the mean diameter.
 constexpr double end_strain = 2e-5;
 
 double rows_of(const TimedSpecimen& specimen) {
@@ -60,7 +60,7 @@ std::string case_text(const TimedSpecimen& specimen) {
 
 void write_particles(const fs::path& path, std::int64_t count) {
     Scene scene = timed_discs(count);
-    scene.materials[0].damping_ratio.reset();  // the file has no place for it, the case sets it
+    scene.materials[0].damping_ratio.reset();  // the file cannot contain it; the case sets it
     std::ofstream out(path);
     write_geometry(out, scene);
 }
@@ -86,7 +86,7 @@ Scene timed_discs(std::int64_t count) {
     request.columns = std::max(3, static_cast<int>(std::lround(width)));
     request.rows = std::max(3, static_cast<int>(std::lround(static_cast<double>(count) / (request.columns - 0.5))));
     Scene scene = disordered_discs(request, timed_rock());
-    // Walls that the outermost discs overlap as their neighbours do: platens bond to them.
+    // The outermost discs overlap the walls as much as their neighbours, so that platens bond to them.
     wall_in(scene, 0.0);
     scene.domain.y1 += mean_overlap;
     scene.domain.y2 -= mean_overlap;
@@ -99,7 +99,7 @@ VirtualTest bond_timed_test(const TimedSpecimen& specimen, const fs::path& folde
     const fs::path case_path = folder / "case.toml";
     std::ofstream(case_path) << case_text(specimen);
     VirtualTest test = bond_test(read_case(case_path));
-    // A row every steps_between_rows steps of the length that bonding has found.
+    // One row every steps_between_rows steps, with the time step found at bonding.
     const double strain_a_step = end_strain / (rows_of(specimen) * steps_between_rows);
     change_velocity(test.world, test.setup.apparatus.top, 1,
                     -strain_a_step * test.setup.specimen.height / test.world.stepping.time_step);
@@ -110,11 +110,11 @@ TimedTest time_test(const TimedSpecimen& specimen, const fs::path& folder, std::
                     Profile* profile) {
     VirtualTest test = bond_timed_test(specimen, folder);
     test.world.workers.profile = profile;
-    fs::remove_all(folder / "out");  // of the trial before
+    fs::remove_all(folder / "out");  // results of the previous trial
     OutputFolder output = OutputFolder::create(folder / "out", Earlier::refused, {});
     TestFiles files(output, "", test.state, {});
     const auto load_for = [&](double seconds) {
-        std::optional<Clock::time_point> begun;  // by the first step, after the first checkpoint
+        std::optional<Clock::time_point> begun;  // set by the first step, after the first checkpoint
         const std::int64_t end = test.world.stepping.steps + fewest_steps;
         TestHooks hooks;
         hooks.interrupted = [&] {

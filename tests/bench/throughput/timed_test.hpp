@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The engine as `crackle test` runs it, timed: bonds, friction, dashpots, platens, curve, events and frames on.
+// Times the engine as used by `crackle test`, with bonds, friction, dashpots, platens, curve, events and frames.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 #pragma once
 
@@ -15,32 +15,35 @@ namespace crackle::throughput {
 
 struct TimedSpecimen {
     std::string kind = "circles";  ///< circles, delaunay, voronoi
-    std::int64_t count = 304;      ///< circles, of which polygons are meshed; met within a few
+    std::int64_t count = 304;      ///< number of circles, from which polygons are meshed; the actual number differs
+                                   ///< slightly
     int threads = 1;
-    double seconds = 2.0;  ///< of stepping, at least
+    double seconds = 2.0;  ///< smallest duration of the stepping loop
 };
 
 struct TimedTest {
     std::int64_t particles = 0, steps = 0, bonds = 0, list_builds = 0;
-    double step_seconds = 0.0;           ///< wall clock of the stepping loop, observers and files included
-    double contacts_per_particle = 0.0;  ///< bonded points; those with platens included
-    double bytes_per_particle = 0.0;     ///< peak resident set while stepping less an empty process; 0: unknown
+    double step_seconds = 0.0;           ///< wall-clock time of the stepping loop, including observers and files
+    double contacts_per_particle = 0.0;  ///< number of bonded points per particle, including those at platens
+    double bytes_per_particle = 0.0;     ///< peak resident set while stepping, minus that of an empty process; 0 if
+                                         ///< unknown
 
     double rate() const { return static_cast<double>(particles) * static_cast<double>(steps) / step_seconds; }
 };
 
-/// Material of all timed specimens: the guide's rock.
+/// Material of all timed specimens: that of the guide's rock.
 Material timed_rock();
 
-/// Discs on a shaken triangular lattice, about 2.2 contacts a disc, in a box that they touch; ids row by row.
+/// Discs on a randomly displaced triangular lattice with about 2.2 contacts per disc, in a box whose walls they touch;
+/// ids are assigned row by row.
 Scene timed_discs(std::int64_t count);
 
-/// Makes the specimen's particle file and case in `folder` and bonds it. Loaded there, it has a curve row every 100
-/// steps, more than `seconds` of them on any machine, and nothing breaks.
+/// Writes the specimen's particle file and case to `folder` and bonds the specimen. When loaded there, it has a curve
+/// row every 100 steps, takes more than `seconds` on any machine, and nothing breaks.
 VirtualTest bond_timed_test(const TimedSpecimen& specimen, const std::filesystem::path& folder);
 
-/// Loads such a test until `seconds` have gone, with files.
-/// @param empty_process resident bytes of this process before anything was made
+/// Loads such a test for `seconds`, writing its files.
+/// @param empty_process resident set of this process before anything was allocated, bytes
 TimedTest time_test(const TimedSpecimen& specimen, const std::filesystem::path& folder, std::size_t empty_process,
                     Profile* profile = nullptr);
 

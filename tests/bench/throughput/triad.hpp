@@ -8,7 +8,7 @@
 
 namespace crackle::throughput {
 
-/// a[k] = b[k] + s·c[k], by the kernels of an instruction set.
+/// Computes a[k] = b[k] + s·c[k], compiled for an instruction set.
 using Triad = void (*)(double* a, const double* b, const double* c, double s, std::size_t count);
 template <InstructionSet>
 void triad_of(double* a, const double* b, const double* c, double s, std::size_t count);

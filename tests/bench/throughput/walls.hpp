@@ -6,7 +6,8 @@
 
 namespace crackle::throughput {
 
-/// Four walls around all discs and corners of the scene. @param room m, between the outermost of them and the walls
+/// Adds four walls around all discs and corners of the scene. @param room distance between the walls and the outermost
+/// of them, m
 void wall_in(Scene& scene, double room);
 
 }  // namespace crackle::throughput

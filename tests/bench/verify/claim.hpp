@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A verification claim: a closed form or a law that the engine has to meet, and the rows that show how well it does.
-// Plain data with two readers: the tests (tests/verification/claims_test.cpp) and the page (`crackle-bench verify`).
-//
-// A row compares one number. Its tolerance comes from an estimate of the error, named beside it, never from what came
-// out. Where a discretisation error exists, a row carries the observed order of convergence too, and falls with it.
+// A verification claim: a closed form or a law that the engine must satisfy, and rows that show how well it does.
+// Claims are plain data, used by the tests (tests/verification/claims_test.cpp) and for the page (`crackle-bench
+// verify`). A row compares one number. Its tolerance comes from a named error estimate, never from the result itself.
+// If there is a discretisation error, the row also checks the observed order of convergence.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
@@ -15,7 +14,7 @@
 
 namespace crackle::verification {
 
-/// How `got` has to stand to `expected`.
+/// Required relation of `got` to `expected`.
 enum class Relation : std::uint8_t { equal, at_most, at_least };
 
 struct ClaimRow {
@@ -24,14 +23,14 @@ struct ClaimRow {
     std::string label;
     Relation relation = Relation::equal;
     double expected = none;
-    double got = none;        ///< not a number in a row that the engine does not offer
-    double error = none;      ///< absolute, or over the expected value
-    double tolerance = none;  ///< not a number in a row that only shows a figure
-    std::string estimate;     ///< where the tolerance comes from, in a word or two
+    double got = none;        ///< NaN if the engine does not have this option
+    double error = none;      ///< absolute, or relative to the expected value
+    double tolerance = none;  ///< NaN in a row that only shows a value
+    std::string estimate;     ///< origin of the tolerance in one or two words
     std::optional<double> order, expected_order;
     bool holds = false;
-    bool relative_error = false;  ///< error and tolerance are over the expected value
-    bool shown_only = false;      ///< a figure that belongs to the claim but is not compared; always holds
+    bool relative_error = false;  ///< whether error and tolerance are relative to the expected value
+    bool shown_only = false;      ///< whether the value is shown but not compared; such a row always holds
 };
 
 struct Claim {
@@ -39,15 +38,16 @@ struct Claim {
     std::string group;      ///< heading on the page
     std::string statement;  ///< the closed form in words
     std::vector<ClaimRow> (*check)() = nullptr;
-    bool slow = false;      ///< seconds in a release build: a test of its own label
-    bool offered = true;    ///< false: the engine has no such option; the rows show what would be expected
-    std::string note = {};  ///< derivation, limits, why it is not offered
+    bool slow = false;      ///< whether it takes seconds in a release build; its test then has the label `slow`
+    bool offered = true;    ///< whether the engine has this option; if not, the rows show what would be expected
+    std::string note = {};  ///< derivation, limits, or why the option does not exist
 };
 
 /// All claims in the order of the page.
 const std::vector<Claim>& claims();
 
-/// The rows of a claim. A check that ends with an exception (such as an unstable run) is a row that fails and names it.
+/// The rows of a claim. If the check ends with an exception (such as an unstable run), the result is a failed row that
+/// names it.
 std::vector<ClaimRow> check_claim(const Claim& claim);
 
 /// «holds», «FAILS», «shown» or «not offered».

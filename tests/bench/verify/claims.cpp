@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The register of all claims, in the order of the page.
+// Lists all claims, in the order of the page.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <exception>

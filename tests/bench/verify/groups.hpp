@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The claims of each file; claims() lists them in the order of the page.
+// The claims that each source file defines; claims() lists them in the order of the page.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 

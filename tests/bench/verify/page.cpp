@@ -16,7 +16,7 @@ std::string number(double value, int digits) {
     return std::isnan(value) ? std::string("–") : fmt::format("{:.{}g}", value, digits);
 }
 
-/// Text in a table's cell.
+/// Text escaped for a cell of a Markdown table.
 std::string cell(const std::string& text) {
     std::string safe;
     for (const char c : text) {
@@ -96,12 +96,11 @@ std::string verification_page(const std::vector<CheckedClaim>& checked, const st
     }
     std::string text = fmt::format(
         "# Verification\n\nMade by `{}`; the same rows are tests (`ctest -R ClaimTest`). {} claims; {} rows hold, {} "
-        "fail, {} are only shown, {} are of options that the engine does not offer.\n\n"
-        "Errors are absolute unless marked «rel.»: over the expected value, as their tolerances then are. A tolerance "
-        "names the estimate it comes from: «reference» is what the table of closed forms asks of a sound "
-        "implementation, «exact» means equal. The order of convergence is observed under refinement of the step; a row "
-        "holds only if it falls short of the expected one by at most {}. The last digits of errors at rounding level "
-        "belong to the machine.\n\n",
+        "fail, {} are only reported, {} belong to options that the engine does not offer.\n\n"
+        "Errors are absolute unless marked «rel.»; error and tolerance are then relative to the expected value. Each "
+        "tolerance names its source: «reference» is the requirement of the table of closed forms, «exact» means "
+        "equality. The order of convergence is measured by reducing the time step; a row holds only if the order is "
+        "below the expected one by at most {}. The last digits of errors at rounding level depend on the machine.\n\n",
         command, checked.size(), held, failed, shown, unoffered, order_slack);
     text += overview(checked);
     std::string group;

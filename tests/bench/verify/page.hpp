@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The claims and what came out, as a Markdown page. No date, version or time in it: the same numbers give the same
+// Writes claims and results as a Markdown page. It contains no date, version or time, so the same numbers give the same
 // bytes.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
@@ -16,11 +16,11 @@ struct CheckedClaim {
     std::vector<ClaimRow> rows;
 
     bool fails() const;
-    /// Largest error over its tolerance; not a number where no row has a tolerance above 0.
+    /// Largest ratio of error to tolerance; NaN if no row has a tolerance above 0.
     double share_of_tolerance() const;
 };
 
-/// @param command that makes the page, named in its header
+/// @param command command that writes the page, printed in its header
 std::string verification_page(const std::vector<CheckedClaim>& checked, const std::string& command);
 
 }  // namespace crackle::verification

@@ -16,7 +16,7 @@ Rows& Rows::add(ClaimRow row) {
     return *this;
 }
 
-// Comparisons are written so that not a number fails.
+// Comparisons are written such that NaN fails.
 Rows& Rows::relative(const std::string& label, double got, double expected, double tolerance,
                      const std::string& estimate) {
     const double error = std::abs(got - expected) / std::abs(expected);

@@ -10,22 +10,23 @@
 
 namespace crackle::verification {
 
-/// Errors of the same quantity at a step and at a smaller one.
+/// Errors of the same quantity at two step sizes.
 struct Convergence {
     double coarse = 0.0, fine = 0.0;
-    double refinement = 2.0;  ///< coarse step over fine step
+    double refinement = 2.0;  ///< ratio of the coarse step to the fine step
     double expected_order = 2.0;
 };
 
 /// log(coarse/fine)/log(refinement).
 double observed_order(const Convergence& errors);
 
-/// What an observed order may fall short of by: the next term of the error series is still felt at the steps taken.
+/// Amount by which an observed order may fall short of the expected one, since the next term of the error series still
+/// matters at these steps.
 inline constexpr double order_slack = 0.3;
 
 class Rows {
   public:
-    /// |got - expected| <= tolerance·|expected|. @param estimate where the tolerance comes from, in a word or two
+    /// |got - expected| <= tolerance·|expected|. @param estimate origin of the tolerance, in one or two words
     Rows& relative(const std::string& label, double got, double expected, double tolerance,
                    const std::string& estimate);
     /// |got - expected| <= tolerance.
@@ -33,14 +34,14 @@ class Rows {
                    const std::string& estimate);
     Rows& at_most(const std::string& label, double got, double limit, const std::string& estimate);
     Rows& at_least(const std::string& label, double got, double limit, const std::string& estimate);
-    /// A count or a choice that has to be met exactly.
+    /// Adds a count or a choice that must be equal.
     Rows& exactly(const std::string& label, double got, double expected);
-    /// A figure that belongs to the claim but is not compared.
+    /// Adds a value that is shown but not compared.
     Rows& shown(const std::string& label, double got);
-    /// What would be expected of something that the engine does not offer.
+    /// Adds the expected value of an option that the engine does not have.
     Rows& unoffered(const std::string& label, double expected);
-    /// Adds the observed order to the last row, which falls where it is short of the expected one by more than
-    /// order_slack.
+    /// Adds the observed order to the last row, which fails if the order is more than order_slack below the expected
+    /// one.
     Rows& converging(const Convergence& errors);
 
     std::vector<ClaimRow> take() { return std::move(rows_); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle-bench` as a user calls it: help, refusals, how loud it is, one quick claim, and the page's format.
+// Tests `crackle-bench` as called by a user: help, refusals, verbosity, one quick claim, and the format of the page.
 
 #include <algorithm>
 #include <map>
@@ -134,7 +134,7 @@ TEST_F(BenchCommand, AccuracyWritesATableAndItsPicture) {
         call("accuracy --quick -o curves --only bounce_energy --only chain_wave --only peak_circles");
     ASSERT_EQ(answer.code, 0) << answer.err;
     std::istringstream lines(read("curves/accuracy.csv"));
-    std::map<std::string, double> error;  // by study, integrator, parameter, value
+    std::map<std::string, double> error;  // keyed by "study integrator parameter value"
     std::string line;
     std::getline(lines, line);
     EXPECT_TRUE(line.starts_with("# Made by `crackle-bench accuracy --quick --only bounce_energy")) << line;
@@ -150,13 +150,13 @@ TEST_F(BenchCommand, AccuracyWritesATableAndItsPicture) {
     EXPECT_EQ(error.size(), 21u);
     EXPECT_LT(error.at("bounce_energy consistent time_step 0.2"), 1e-9);
     EXPECT_GT(error.at("bounce_energy leapfrog time_step 0.2"), 1e-4);
-    // Second order in the step.
+    // The error is of second order in the step.
     EXPECT_NEAR(error.at("chain_wave leapfrog time_step 0.4") / error.at("chain_wave leapfrog time_step 0.2"), 4.0,
                 0.5);
     EXPECT_LT(error.at("peak_circles leapfrog time_step 0.4"), 0.5);
     EXPECT_LT(error.at("peak_circles leapfrog rate_tolerance 0.05"), 0.5);
     EXPECT_NE(read("curves/accuracy.gp").find("plot $bounce_energy_0"), std::string::npos);
-    // Where there is no gnuplot, the message states why, and the table is there all the same.
+    // Without gnuplot the message says so, and the table is still written.
     if (answer.err.find("found no gnuplot") == std::string::npos) {
         EXPECT_NE(read("curves/accuracy.svg").find("<svg"), std::string::npos) << answer.err;
     }
@@ -179,7 +179,7 @@ TEST_F(BenchCommand, WritesAPageThatNamesItsCommandAndIsTheSameAgain) {
                              "2 claims; 4 rows hold, 0 fail, 0 are only shown, 4 are of options"})
         EXPECT_NE(page.find(part), std::string::npos) << part << '\n' << page;
     EXPECT_EQ(page.find("FAILS"), std::string::npos) << page;
-    // Every line of a table has the columns of its head.
+    // Every row of a table has as many columns as its heading.
     std::istringstream lines(page);
     std::ptrdiff_t bars = 0;
     for (std::string line, before; std::getline(lines, line); before = line) {
@@ -228,16 +228,16 @@ TEST_F(BenchCommand, QuickEnsembleOfTheGuideHasItsElasticRowsAndGoesOnFromItsCac
         std::string("guide --quick --cases '") + CRACKLE_SOURCE_DIR + "/specimens/guide_rock' -o ";
     const testing::Answer answer = call(words + "guide");
     ASSERT_EQ(answer.code, 0) << answer.err;
-    EXPECT_TRUE(answer.err.empty()) << "no progress beside a terminal\n" << answer.err;
+    EXPECT_TRUE(answer.err.empty()) << "no progress without a terminal\n" << answer.err;
     const std::string page = read("guide/guide.md");
     EXPECT_EQ(answer.out, page);
     EXPECT_TRUE(page.starts_with("# The guide's rock, as an ensemble\n\nMade by `crackle-bench guide --quick")) << page;
     for (const char* part :
          {"| what | the guide | rounded: ours | verdict | demseg: ours | verdict | demseg_mean: ours | verdict |",
-          // The packing is compressed to this very mean overlap.
+          // The packing is compressed to exactly this mean overlap.
           "| mean back-tension, circles, kN | 0.774 | 0.774 ±", "| triangles | 537 |", "| about √10 |",
           "| circles' tensile strength over 19.4 kN/m | about 1/4 | – | – |", "(2) | inside |",
-          "(2) | **outside**, +27 % |", "No experiment has been run on it."})
+          "(2) | **outside**, +27 % |", "No experiment has been run for it."})
         EXPECT_NE(page.find(part), std::string::npos) << part << '\n' << page;
     EXPECT_EQ(page.find("no result"), std::string::npos) << page;
 
@@ -247,7 +247,7 @@ TEST_F(BenchCommand, QuickEnsembleOfTheGuideHasItsElasticRowsAndGoesOnFromItsCac
           "\n1,shipped,rounded,circles.elastic.youngs_modulus,N/m,"})
         EXPECT_NE(csv.find(part), std::string::npos) << part;
 
-    // Run times are measured again where a test is run again: equal bytes come from the cache alone.
+    // Run times would differ if a test were run again, so equal bytes show that the cache was used.
     ASSERT_EQ(call(words + "guide --jobs 1").code, 0);
     EXPECT_EQ(read("guide/guide.csv"), csv);
     std::filesystem::remove(folder_ / "guide/cache/shipped_demseg_voronoi_elastic_2.json");

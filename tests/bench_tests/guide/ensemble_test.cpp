@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ensemble of the guide's rock: its statistics, its verdicts, and what its experiments change.
+// Tests the ensemble of the guide's rock: its statistics, its verdicts, and the changes made by its experiments.
 
 #include <gtest/gtest.h>
 
@@ -60,10 +60,11 @@ TEST(GuideEnsemble, TestsThatAnExperimentDoesNotTouchAreTheShippedOnes) {
     results[guide_test("smooth_platens", "demseg", "circles", "compression", 3)] = peak(5.0);
     results[guide_test("low_friction", "demseg", "circles", "compression", 3)] = peak(5.0);
     const GuideRow& row = row_named("circles_compressive_over_tensile");
-    EXPECT_DOUBLE_EQ(row_value(row, results, as_shipped, "rounded", 3), 3.0) << "circles serve all laws";
+    EXPECT_DOUBLE_EQ(row_value(row, results, as_shipped, "rounded", 3), 3.0)
+        << "results of circles are used for all laws";
     EXPECT_DOUBLE_EQ(row_value(row, results, "smooth_platens", "demseg", 3), 2.5)
         << "platens that only touch cannot pull";
-    EXPECT_TRUE(std::isnan(row_value(row, results, "low_friction", "demseg", 3))) << "its tension is not there";
+    EXPECT_TRUE(std::isnan(row_value(row, results, "low_friction", "demseg", 3))) << "its tension test is missing";
     EXPECT_TRUE(std::isnan(row_value(row, results, as_shipped, "demseg", 4)));
 }
 
@@ -94,10 +95,10 @@ TEST(GuideEnsemble, CirclesAreNearlyTheSameUnderEveryLaw) {
     };
     const auto rounded = elastic("rounded"), guide = elastic("demseg");
     for (const char* quantity : {"youngs_modulus", "mean_back_tension", "contacts", "first_slip_stress"}) {
-        // One of three hundred circles may touch the end of a platen's face.
+        // One of about 300 circles may touch the end of a platen's face, where the laws differ.
         EXPECT_NEAR(guide.at(quantity) / rounded.at(quantity), 1.0, 1e-3) << quantity;
     }
-    EXPECT_NEAR(rounded.at("mean_back_tension"), 774.0, 0.5) << "N, what the packing is compressed to";
+    EXPECT_NEAR(rounded.at("mean_back_tension"), 774.0, 0.5) << "N, the value to which the packing is compressed";
 }
 
 TEST(GuideEnsemble, TrianglesBetweenTheCentresAloneAreCountedWithoutPlatens) {
@@ -109,7 +110,7 @@ TEST(GuideEnsemble, TrianglesBetweenTheCentresAloneAreCountedWithoutPlatens) {
     const GuideResult triangles = counted("delaunay"), circles = counted("circles");
     EXPECT_EQ(triangles.error, "");
     EXPECT_EQ(circles.quantities.at("particles"), 304.0);
-    // 2n - 2 - h of n centres, h on the outline; the guide has 537.
+    // There are 2n - 2 - h triangles for n centres, h of them on the outline; the guide has 537.
     EXPECT_GT(triangles.quantities.at("particles"), 500.0);
     EXPECT_LT(triangles.quantities.at("particles"), 2.0 * 304.0 - 2.0 - 30.0);
     EXPECT_NEAR(circles.quantities.at("mean_back_tension"), 774.0, 15.0) << "without the platens' bonds";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bare kernel computes what the engine computes, or the two rates could not be compared.
+// The bare kernel computes the same forces as the engine; otherwise their rates could not be compared.
 
 #include "tests/bench/throughput/bare_kernel.hpp"
 
@@ -17,9 +17,10 @@
 namespace crackle::throughput {
 namespace {
 
-constexpr double radius = 0.02;  // m, one for all: the bare kernel knows one dashpot
+constexpr double radius = 0.02;  // m, the same for all discs, since the bare kernel has only one dashpot constant
 
-/// Discs of which all neighbours touch, stirred: springs and dashpots act, at high speed sliders too. @param speed m/s
+/// Discs that touch all their neighbours, with random velocities. Springs and dashpots act; at high speed, contacts
+/// slide as well. @param speed m/s
 World stirred_discs(double speed) {
     Scene scene = triangular_lattice(20, 20, radius, 8e-5, timed_rock());
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -51,14 +52,15 @@ double largest_difference(const World& world, const BareKernel& bare, double& sc
 TEST(BareKernel, HasTheForcesOfTheEngine) {
     World world = stirred_discs(5.0);
     compute_forces(world);
-    advance(world);  // from here on the drift is a whole step, as the bare kernel's
+    advance(world);  // from now on a drift lasts a whole step, as in the bare kernel
     BareKernel bare(world);
     compute_forces(world);
     bare.compute_forces();
     double scale = 0.0;
     int sliding = 0;
     const double difference = largest_difference(world, bare, scale, sliding);
-    // Overlaps of 8e-5 m from coordinates of 1 m have 12 digits, and velocities as many.
+    // Overlaps of 8e-5 m are computed from coordinates of about 1 m, so they have 12 correct digits; velocities have as
+    // many.
     std::printf("largest difference of forces: expected 0, got %.3g of the largest, %d of %zu points slide\n",
                 difference / scale, sliding, bare.points());
     EXPECT_GT(bare.points(), 800u);

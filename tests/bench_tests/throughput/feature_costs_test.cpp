@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the study of features compares: the least step does what the engine's step does, and its rows are labelled by
-// it.
+// Tests the feature study: the least step gives the same results as the engine's step, and rows are labelled
+// accordingly.
 
 #include "tests/bench/throughput/feature_costs.hpp"
 
@@ -23,7 +23,7 @@
 namespace crackle::throughput {
 namespace {
 
-/// Stirred, without bonds.
+/// Unbonded discs with random velocities.
 World loose_discs() {
     Scene scene = triangular_lattice(12, 12, 0.02, 8e-5, timed_rock());
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -53,7 +53,7 @@ TEST(LeastStep, GivesTheBytesOfTheEnginesStep) {
     frictionless.friction = false;
     least_step(least, frictionless);
     step(by_engine);
-    EXPECT_FALSE(same_bodies(by_engine, least)) << "features make no difference";
+    EXPECT_FALSE(same_bodies(by_engine, least)) << "unused features must not change results";
 }
 
 TEST(LeastStep, KernelsWithFeaturesThatAreNotThereChangeNothing) {
@@ -76,14 +76,15 @@ TEST(FeatureCosts, EveryRowHasItsNumbersInOrder) {
         if (row.kind == FeatureRowKind::added && row.bodies == "discs") discs[row.feature] = row;
         EXPECT_GT(row.contact_seconds, 0.0) << row.feature;
         EXPECT_GT(row.contacts, row.particles) << row.bodies << ' ' << row.feature;
-        // A difference and its ratio are of the same pairs.
+        // The difference and the ratio are computed from the same pairs of runs.
         EXPECT_EQ(row.difference.low > 0.0, row.ratio.low > 1.0) << row.feature;
     });
     std::filesystem::remove_all(scratch);
     EXPECT_EQ(kinds["added"], 11 + 10 + 2);
     EXPECT_EQ(kinds["dispatched"], 4 + 4 + 2);
     EXPECT_EQ(kinds["forced"], 4 + 4 + 1);
-    // Nothing parts while it is stirred: the rows of loose discs have the same contacts, and clumps fewer bodies.
+    // No contact opens during the runs, so all rows of unbonded discs have the same number of contacts. Clumps make
+    // fewer bodies.
     EXPECT_EQ(discs.at("normal springs").contacts, discs.at("friction").contacts);
     EXPECT_EQ(discs.at("bonds").contacts, discs.at("two materials").contacts);
     EXPECT_EQ(discs.at("driven platens").particles, discs.at("bonds").particles + 2);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The interval of a median: its ranks for known numbers of values, and how often it holds the true median.
+// Tests the confidence interval of a median: its ranks for tabulated sample sizes, and how often it contains the true
+// median.
 
 #include "tests/bench/throughput/median_interval.hpp"
 
@@ -15,7 +16,7 @@
 namespace crackle::throughput {
 namespace {
 
-/// 1 to n, not in order.
+/// The numbers 1 to n in mixed order.
 std::vector<double> numbers_to(int n) {
     std::vector<double> values;
     for (int k = 0; k < n; ++k) values.push_back(1.0 + (7 * k + 3) % n);
@@ -25,7 +26,7 @@ std::vector<double> numbers_to(int n) {
 TEST(MedianInterval, HasTheRanksOfTheBinomialTables) {
     struct Known {
         int n;
-        double low;  // rank, as in tables of the sign test at 5 %
+        double low;  // rank of the lower bound, as tabulated for the sign test at 5 %
     };
     for (const Known& known : {Known{6, 1}, {8, 1}, {9, 2}, {11, 2}, {12, 3}, {15, 4}, {20, 6}, {25, 8}, {100, 40}}) {
         const MedianInterval interval = median_interval(numbers_to(known.n));
@@ -37,7 +38,7 @@ TEST(MedianInterval, HasTheRanksOfTheBinomialTables) {
 
 TEST(MedianInterval, GoesOnWhereAHalfToTheNumberOfValuesIsZero) {
     const MedianInterval interval = median_interval(numbers_to(10001));
-    // Normal limit: half a width of 1.96·√n/2.
+    // By the normal approximation, half the interval is 1.96·√n/2 ranks wide.
     EXPECT_NEAR(interval.low, 5001.0 - 0.98 * std::sqrt(10001.0), 1.0);
 }
 

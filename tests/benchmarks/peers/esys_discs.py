@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What ESyS-Particle's two inputs share: the discs between four elastic walls as packed, and the timed run.
-# Nothing moves the walls: at rest a step costs the same. The time step is a tenth of ours, at which the bonds of ESyS-Particle are not stable.
+# Shared by the two inputs of ESyS-Particle: the packed discs between four elastic walls, and the timed run.
+# The walls do not move; the cost of a step does not depend on it. The time step is a tenth of ours, because ESyS-
+# Particle's bonds are unstable at ours.
 # Source: ESyS-Particle tutorial (rot_compress.py, bingle_Runnable.py) and the documentation in the module.
 import json
 import math
@@ -15,11 +16,11 @@ from esys.lsm.util import BoundingBox, Vec3
 
 with open(sys.argv[1]) as file:
     job = json.load(file)
-WALLS = {"left": (0, 1), "right": (0, -1), "bottom": (1, 1), "top": (1, -1)}  # axis and sense of the normal
+WALLS = {"left": (0, 1), "right": (0, -1), "bottom": (1, 1), "top": (1, -1)}  # axis and direction of the normal
 
 
 def make_simulation():
-    """The simulation with its discs and walls; the discs."""
+    """Makes the simulation. @return simulation with discs and walls; the discs"""
     radii = [radius for _, _, radius in job["discs"]]
     left, right, bottom, top = job["box"]
     sim = LsmMpi(numWorkerProcesses=1, mpiDimList=[1, 1, 1])
@@ -40,7 +41,7 @@ def make_simulation():
 
 
 def processor_seconds_of_worker():
-    """Seconds of the other rank, a child of the same mpirun: it does the stepping, this one gives the orders."""
+    """Processor time of the other rank, a child of the same mpirun, which does the stepping; this rank only controls it."""
     total = 0.0
     for entry in os.listdir("/proc"):
         try:
@@ -53,7 +54,7 @@ def processor_seconds_of_worker():
 
 
 class Clock(Runnable):
-    """Reads the time at the start of each step."""
+    """Records the time at the start of each step."""
 
     def __init__(self):
         Runnable.__init__(self)
@@ -66,7 +67,7 @@ class Clock(Runnable):
 
 
 def run_and_report(sim, groups):
-    """`groups`: interactions between discs, whose numbers are the contacts."""
+    """groups: interactions between discs; their number is the number of contacts."""
     steps, last = job["steps"], job["warm_up"] + job["steps"]
     for group in groups:
         sim.createFieldSaver(InteractionScalarFieldSaverPrms(interactionName=group, fieldName="count", fileName=group + ".count", fileFormat="SUM",
@@ -76,8 +77,8 @@ def run_and_report(sim, groups):
     sim.setNumTimeSteps(last)
     sim.run()
     end, times = time.perf_counter(), clock.times[job["warm_up"]:]
-    # Either rank spins while it waits for the other. Where others have the processors, that is most of the worker's time. A
-    # step without such a wait is then the better measure, if it is shorter than a turn of the scheduler.
+    # Each rank spins while it waits for the other. On a busy machine, this is most of the worker's time. Then a single
+    # step without waiting is a better measure, if it is shorter than a time slice of the scheduler.
     worker = processor_seconds_of_worker() - clock.processor
     undisturbed = steps * statistics.median(after - before for before, after in zip(times, times[1:]))
     contacts = sum(float(open(group + ".count").read().split()[-1]) for group in groups)

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # YADE, bonded discs squeezed between two bonded platens: JCFpm, its jointed cohesive frictional particle model. Run by compare_peers:
 #   yade -n -x -j1 yade_bonded.py JOB.json
-# A contact of the packing, overlap d0, becomes a bond without force at the distance it has: k_n, k_s, tensile strength k_n d0, shear strength
-# mu (k_n d0 + f_n), as our back-tension bond. What differs: a JCFpm bond breaks where ours slides. Local damping 0.2 in place of dashpots.
-# With "stop_below" in the job it ends where the stress has fallen below that share of its peak, looked at every «look_every» steps.
+# A contact of the packing with the overlap d0 becomes a bond, free of force at its initial distance, as our back-
+# tension bond. It has k_n, k_s, tensile strength k_n d0 and shear strength mu (k_n d0 + f_n). Differences: a JCFpm bond
+# breaks under shear where ours slides; local damping of 0.2 replaces dashpots.
+# With "stop_below" in the job, the run ends when the stress has fallen below this share of its peak; it is checked every "look_every" steps.
 # Source: YADE's documentation, class reference: JCFpmMat, JCFpmPhys, Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM.
 import math
 
@@ -15,7 +16,8 @@ stiffness, shear, friction = job["normal_stiffness"], job["shear_stiffness"], jo
 
 
 def material(radius):
-    # Stiffness of a contact: harmonic mean of modulus times radius, so that new ones have k_n too. Strengths until each bond gets its own, below.
+    # The stiffness of a contact is the harmonic mean of modulus times radius; with these moduli, new contacts have k_n
+    # too. The strengths hold until each bond gets its own below.
     return O.materials.append(JCFpmMat(type=1, young=stiffness / radius, poisson=shear / stiffness, density=job["density"],
                                        frictionAngle=math.atan(friction), tensileStrength=1e30, cohesion=1e30))
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What YADE's two inputs share: discs as spheres that stay in their plane, with the mass and inertia of discs of unit thickness, and the timed run.
+# Shared by the two inputs of YADE: discs as spheres that stay in their plane, with the mass and inertia of discs of
+# unit thickness, and the timed run.
 import json
 import math
 import sys
@@ -14,7 +15,8 @@ left, right, bottom, top = job["box"]
 
 
 def add_discs(material, strain_a_step=0.0):
-    """`material` gives the index of one for a radius. Velocities as of a block between platens that close by this length a step: loading sends no shock."""
+    """material: returns the material's index for a radius. Initial velocities are those of a block between platens that close by this
+    length per step, so loading causes no shock."""
     for x, y, radius in job["discs"]:
         state = O.bodies[O.bodies.append(utils.sphere((x, y, 0), radius, material=material(radius)))].state
         state.mass = job["density"] * math.pi * radius**2
@@ -24,8 +26,8 @@ def add_discs(material, strain_a_step=0.0):
 
 
 def run_timed():
-    """What compare_peers reads, without what only the model knows."""
-    if job["warm_up"]:  # to O.run, 0 means without end
+    """The results that compare_peers reads, except those of the model."""
+    if job["warm_up"]:  # for O.run, 0 means without end
         O.run(job["warm_up"], wait=True)
     begin, start, processor = O.iter, time.perf_counter(), time.process_time()
     O.run(job["steps"], wait=True)

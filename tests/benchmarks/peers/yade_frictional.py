@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # YADE, frictional discs held by four walls as packed, nothing bonded: linear springs, Coulomb limit. Run by compare_peers:
 #   yade -n -x -j1 yade_frictional.py JOB.json
-# Nothing moves the walls: at rest a step costs the same.
+# The walls do not move; the cost of a step does not depend on it.
 # Source: YADE's documentation, class reference: Ip2_FrictMat_FrictMat_FrictPhys, Law2_ScGeom_FrictPhys_CundallStrack.
 import math
 

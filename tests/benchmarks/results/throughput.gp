@@ -44,6 +44,6 @@ set logscale xy
 set format x "10^{%L}"
 set grid lc rgb '#d8d8d8'
 set xlabel "particles"
-set ylabel "million particle-steps a second"
+set ylabel "million particle-steps per second"
 set key outside right
 plot $circles1 with linespoints lw 1.6 title "bonded circles, 1 thread", $circles2 with linespoints lw 1.6 title "bonded circles, 2 threads", $bare with linespoints lw 1.6 title "bare kernel", $voronoi with linespoints lw 1.6 title "voronoi", $delaunay with linespoints lw 1.6 title "delaunay", $flow with linespoints lw 1.6 title "flowing circles", $flow_polygons with linespoints lw 1.6 title "flowing hexagons"

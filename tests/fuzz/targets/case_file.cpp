@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// case.toml and a file other.toml that it may include; what was read is written as a resolved case.
+// case.toml, and a file other.toml that it may include. The case that was read is written as a resolved case.
 
 #include "specimens/case/case_file.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The checkpoint of a test; its hashes are made right, so that what they protect is reached. What is read is drawn, as
-// a resumed test would: whatever is an index must have been looked at.
+// The checkpoint of a test. Its hashes are corrected, so that the code behind them is reached. The state that was read
+// is drawn as in a resumed test, so that invalid indices would be used.
 
 #include "specimens/results/checkpoint.hpp"
 
@@ -17,7 +17,7 @@
 
 namespace {
 
-/// With the number of the present layout, which cases that were found keep pace with.
+/// Uses the current layout version, so that stored inputs stay valid.
 std::string title() {
     std::ostringstream out;
     crackle::save_test(out, "", {}, {}, {});

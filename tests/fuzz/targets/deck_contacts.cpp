@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// in_cf.dat and in_cf0.dat of a chain of circles: the first byte says which, the others are the file.
+// in_cf.dat or in_cf0.dat for a chain of circles: the first byte selects the file, the others are its contents.
 
 #include "solver/demseg/contact_files.hpp"
 

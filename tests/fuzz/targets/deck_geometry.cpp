@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// in_gm.dat of either mode; what was read is written and read again.
+// in_gm.dat of either mode; the result is written and read again.
 
 #include "solver/demseg/geometry.hpp"
 

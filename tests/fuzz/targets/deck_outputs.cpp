@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The outputs of a deck's run and its in_gm.dat: shown, and shortened for the next part.
+// The outputs of a deck run and its in_gm.dat, which are shown and then truncated for the next part.
 
 #include "solver/demseg/outputs.hpp"
 
@@ -23,7 +23,7 @@ void crackle::fuzz::deck_outputs(std::string_view bytes) {
     try {
         const Recording recording = read_deck_recording(folder, 3);
         for (std::size_t k = 0; k < recording.frames.size(); ++k) recording.frame(k);
-    } catch (const InputError&) {  // drop_rows_after() may think otherwise
+    } catch (const InputError&) {  // drop_rows_after() is tried even if showing failed
     }
     drop_rows_after(folder, 5);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// new_state.bin of a deck that goes on; its hashes are made right, so that what they protect is reached.
+// new_state.bin of a continued deck. Its hashes are corrected, so that the code behind them is reached.
 
 #include "solver/demseg/deck_state.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A deck with one step done.
+/// A deck run after one step.
 fs::path make_deck() {
     const fs::path folder = scratch() / "deck", shipped = fs::path(CRACKLE_SOURCE_DIR) / "specimens/demseg/triangle";
     fs::create_directories(folder);
@@ -27,7 +27,7 @@ fs::path make_deck() {
     return folder;
 }
 
-constexpr std::size_t hashes_at = 16;  // behind magic and version
+constexpr std::size_t hashes_at = 16;  // after magic number and version
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A PNG image of minerals, laid over four grains. The checksums of its chunks are made right.
+// A PNG image of minerals for four grains. The checksums of its chunks are corrected.
 
 #include <zlib.h>
 
@@ -10,7 +10,7 @@
 namespace crackle::fuzz {
 namespace {
 
-constexpr std::size_t signature = 8, frame = 12;  // of a chunk: length, name, checksum
+constexpr std::size_t signature = 8, frame = 12;  // bytes of a chunk's length, name and checksum
 
 std::uint32_t word_at(const std::string& bytes, std::size_t at) {
     std::uint32_t word = 0;

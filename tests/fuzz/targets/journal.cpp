@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The journal of a set of files that is being replaced; its hash is made right.
+// The journal of a set of files that is being replaced; its hash is corrected.
 
 #include <xxhash.h>
 
@@ -15,7 +15,7 @@ void crackle::fuzz::journal(std::string_view bytes) {
         std::memcpy(text.data() + magic, &hash, sizeof hash);
     }
     const std::filesystem::path folder = scratch() / "journal";
-    std::filesystem::remove_all(folder);  // with what the last input put there
+    std::filesystem::remove_all(folder);  // removes files of the last input
     std::filesystem::create_directories(folder);
     complete_replacement(write_file("journal/files.journal", text));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Labels of minerals, one a grain, for four grains.
+// Labels of minerals, one per grain, for four grains.
 
 #include "specimens/making/minerals.hpp"
 #include "tests/fuzz/input.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A campaign's ledger. First byte 0: what its file has in place of a whole one's, a byte after three of its place.
-// Otherwise cells of tables, with hashes that are made right again: table, column, row, kind of value, value.
+// A campaign's ledger. If the first byte is 0, the rest replaces bytes of a valid ledger: three bytes of position, then
+// the new byte. Otherwise it sets cells of tables, with corrected hashes: table, column, row, kind of value, value.
 
 #include "specimens/campaign/ledger.hpp"
 
@@ -30,7 +30,7 @@ constexpr const char* plan_text =
     "title = \"small\"\n[[test]]\nname = \"pull\"\ncase = \"case.toml\"\n[[axis]]\nkey = "
     "\"material.friction_angle\"\nvalues = [20, 30]\n[packings]\ncount = 2\n";
 
-/// The bytes of a ledger of four tests, one of which went wrong.
+/// The bytes of a ledger of four tests, one of which failed.
 std::string whole_ledger() {
     write_file("case.toml", test_case);
     const Plan plan = read_plan(write_file("plan.toml", plan_text));
@@ -54,7 +54,7 @@ std::string whole_ledger() {
     return read_file(file);
 }
 
-/// With bytes at places that the input says.
+/// Replaces bytes at the positions given by the input.
 std::string changed_file(std::string bytes, std::string_view input) {
     for (Values values(input.substr(0, 400)); !bytes.empty() && !input.empty(); input.remove_prefix(4)) {
         if (input.size() < 4) break;
@@ -104,7 +104,7 @@ void change_cells(const std::filesystem::path& file, std::string_view input) {
         bind_cell(update, 1, values);
         try {
             update.exec();
-        } catch (const SQLite::Exception&) {  // such as a key that is there twice, or a kind that the column has not
+        } catch (const SQLite::Exception&) {  // for example a duplicate key, or a value of a wrong kind
         }
     }
     SQLite::Statement tests(database, "SELECT identity FROM test");
@@ -122,7 +122,7 @@ void change_cells(const std::filesystem::path& file, std::string_view input) {
     plan.exec();
 }
 
-/// What commands do with it, each for itself.
+/// Reads the ledger as the commands do, each separately.
 template <class Reading>
 void read_as(const Reading& reading) {
     try {

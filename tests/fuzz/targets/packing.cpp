@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A packing that a campaign keeps, behind its first line, whose hash is made right.
+// A packing kept by a campaign. The hash in its first line is corrected.
 
 #include <fmt/format.h>
 #include <xxhash.h>

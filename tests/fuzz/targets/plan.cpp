@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// plan.toml of a campaign and the case.toml that it is made of. Up to 200 tests: each further test reads a case again.
+// plan.toml of a campaign, and the case.toml that it names. The plan has at most 200 tests, since each test reads a
+// case again.
 
 #include "specimens/campaign/plan_file.hpp"
 #include "tests/fuzz/input.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The frames of a test as a recording. Bytes are the values of arrays, which are packed as a frame has them: mutations
-// of packed text would never get past zlib.
+// The frames of a test as a recording. The bytes are values of arrays, which are compressed as in a frame, since
+// mutations of compressed text would never get past zlib.
 
 #include "specimens/recordings/recording.hpp"
 

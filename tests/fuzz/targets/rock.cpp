@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// rock.toml of a calibration, the case.toml that its tests are made of, and a measured curve.csv.
+// rock.toml of a calibration, the case.toml of its tests, and a measured curve.csv.
 
 #include "specimens/calibration/rock.hpp"
 #include "tests/fuzz/input.hpp"

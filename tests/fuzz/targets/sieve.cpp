@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A sieve curve; radii are drawn from what was read.
+// A sieve curve, from which radii are drawn.
 
 #include <cmath>
 #include <random>

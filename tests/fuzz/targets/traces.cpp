@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A file of measured traces: of the first byte c a CSV, d a DXF drawing, l one of which a layer is read, any other a
-// table.
+// A file of measured traces. The first byte selects the format: c for CSV, d for a DXF drawing, l for a layer of a
+// drawing, anything else for a table.
 
 #include "specimens/joints/trace_files.hpp"
 #include "tests/fuzz/targets.hpp"

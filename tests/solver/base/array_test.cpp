@@ -24,7 +24,7 @@ TEST(LargePages, LargeArraysBeginAPageAndSmallOnesDoNotNeedTo) {
         const Array<double> numbers(large - 1);
         others += place_of(numbers) % page != 0 ? 1 : 0;
     }
-    EXPECT_GT(others, 0) << "small arrays are aligned to pages, too: room for nothing";
+    EXPECT_GT(others, 0) << "small arrays are aligned to pages too: too little memory";
 }
 
 TEST(LargePages, NumbersStayWhenAnArrayGrowsFromSmallToLarge) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Against MPFR with 300 bits, at arguments that specimens have.
+// Compares functions with MPFR at 300 bits, for arguments that occur in specimens.
 #include "solver/base/correctly_rounded.hpp"
 
 #include <fmt/format.h>
@@ -87,8 +87,8 @@ TEST(CorrectlyRoundedPow, AndAtan2AreTheNearestDoubles) {
     }
 }
 
-/// Φ(z) lies below p for the double below and above it for the one above, and no other double is nearer: the middles
-/// to both neighbours enclose the root.
+/// The root lies between the midpoints to both neighbouring doubles: Φ is below p at the lower midpoint and above p at
+/// the upper one.
 TEST(CorrectlyRoundedNormalQuantile, IsTheNearestDouble) {
     std::mt19937_64 random(9);
     std::uniform_real_distribution<double> share(0.0, 1.0);

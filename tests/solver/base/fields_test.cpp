@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A field that is added to a struct and its list reaches all that walks the list: checkpoint, hash, and what points
-// carry from one neighbour list to the next. The compiler refuses a list that lacks one.
+// Tests that a field added to a struct and its list is included in the checkpoint, the hash, and the values that points
+// carry to the next neighbour list. A list that lacks a field does not compile.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 
 namespace crackle {
 
-// Archives look for what saves a struct in its own namespace.
+// Archives find the function that saves a struct in the struct's own namespace.
 struct FewPoints {
     std::vector<double> root_mass;
     std::vector<double> shear_force;
@@ -75,7 +75,7 @@ TEST(Fields, OneMoreIsCarriedToTheNextList) {
     const auto carried = [](auto points) {
         std::vector<Remembered> all;
         visit_remembered(points, [&](auto& values, Remembered remembered) {
-            EXPECT_NE(static_cast<const void*>(&values), &points.root_mass) << "is found again, not carried";
+            EXPECT_NE(static_cast<const void*>(&values), &points.root_mass) << "is recomputed, not carried over";
             all.push_back(remembered);
         });
         return all;
@@ -96,7 +96,7 @@ struct Complete {
 static_assert(lists_all_fields<Complete>());
 static_assert(lists_all_fields<FewPoints>() && lists_all_fields<WearingPoints>());
 
-/// Lists `visited` of its members. What an archive or a hash refuses of it by static_assert is refused here.
+/// Lists `Visited` of its members. The static_assert of archives and hashes must reject an incomplete list.
 template <int Visited>
 struct Lacking {
     double x;
@@ -115,7 +115,7 @@ static_assert(!lists_all_fields<Lacking<1>>(), "an array is missing");
 static_assert(!lists_all_fields<Lacking<2>>(), "a vector is missing");
 static_assert(lists_all_fields<Lacking<3>>());
 
-/// Fields as in copied lines that were not changed.
+/// A field listed twice, as after copying a line.
 struct Twice {
     double vx, vy;
 

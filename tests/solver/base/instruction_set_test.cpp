@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which kernels a program takes. That all of them give the same bytes: the tests named after a set
-// (tests/support/with_set).
+// Tests which kernels a program chooses. The tests named after a set (tests/support/with_set) check that all sets give
+// the same bytes.
 #include "solver/base/instruction_set.hpp"
 
 #include <gtest/gtest.h>

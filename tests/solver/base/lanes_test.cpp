@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lanes by themselves; built with two of them, four and eight, whatever the machine.
+// Tests vector lanes alone, compiled for two, four and eight lanes on any machine.
 
 #include "solver/base/lanes.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which errors of the system are about a path that the user gave, and which are the system's.
+// Tests which system errors concern a path given by the user, and which are system failures.
 #include "solver/base/system_failure.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(SystemFailure, IsWhateverIsNotAboutAPath) {
 TEST(SystemFailure, OfAFileThatIsNotWrittenIsNoJudgementOnItsName) {
     const testing::ScratchFolder scratch;
     EXPECT_THROW(replace_file(scratch / "absent" / "file", "text"), OutputError);
-    // Opens, and reading it gives EIO: what a failing disc does.
+    // This file can be opened, but reading it fails with EIO, as on a failing disc.
     EXPECT_THROW(static_cast<void>(read_file("/proc/self/mem")), SystemFailure);
     EXPECT_THROW(static_cast<void>(read_file(scratch / "absent")), InputError);
 }

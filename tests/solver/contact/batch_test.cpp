@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points side by side give the bytes of points one by one, of one law in all lanes and of several: the same scene with
-// two materials that are alike.
+// Tests that batches of points give the same bytes as single points, with one law in all lanes and with several laws.
+// The latter use the same scene with two equal materials.
 
 #include "solver/contact/batch.hpp"
 
@@ -34,9 +34,9 @@ Material damped_rock() {
 
 struct Trial {
     Scene scene;
-    double thick = 0.0;  // m, bonds at this; 0: no bonds
-    double speed = 0.0;  // m/s, of the bodies to begin with, at random
-    bool slides = true;  // some point comes to slide
+    double thick = 0.0;  // m, thickness for bonding; 0 for no bonds
+    double speed = 0.0;  // m/s, random initial velocities of the bodies
+    bool slides = true;  // whether some point must slide
 };
 
 World made(Trial trial, bool two_materials) {
@@ -55,14 +55,14 @@ World made(Trial trial, bool two_materials) {
     return world;
 }
 
-/// Flags of all points, without the numbers of their laws.
+/// Flags of all points, without the indices of their laws.
 std::vector<std::uint16_t> flags_of(const World& world) {
     std::vector<std::uint16_t> flags;
     for (const PointState& state : world.points.state) flags.push_back(state.flags);
     return flags;
 }
 
-/// What points remember under the consistent integrator; nothing under the other.
+/// Compares the values that points store under the consistent integrator; there are none under leapfrog.
 void expect_same_memory(const World& a, const World& b) {
     EXPECT_TRUE(same_bytes(a.points.opening, b.points.opening));
     EXPECT_TRUE(same_bytes(a.points.last_overlap, b.points.last_overlap));
@@ -152,7 +152,7 @@ TEST(PointBatch, DiscsAmongPolygons) {
 }
 
 TEST(PointBatch, DiscsOnOneAndTheSameSpot) {
-    // Their normal is no direction: whatever the scalar way makes of it, the batch makes the same.
+    // With coincident centres the normal is arbitrary; the batch must use the same one as the scalar code.
     Scene scene = triangular_lattice(9, 9, 0.02, 0.0, damped_rock());
     scene.circles[scene.bodies[40].first_circle].centre = scene.circles[scene.bodies[41].first_circle].centre;
     World together = made({scene}, false), apart = made({scene}, false);
@@ -163,21 +163,21 @@ TEST(PointBatch, DiscsOnOneAndTheSameSpot) {
     EXPECT_TRUE(same_bytes(together.points.force, apart.points.force));
 }
 
-/// Scenes whose points have shares of their own.
+/// Trials whose points have their own stiffness and strength factors.
 Trial with_shares(Trial trial, BondLaw law, StiffnessUnits units) {
     trial.scene.bond_law = law;
     trial.scene.units = units;
     if (law != BondLaw::coulomb) return trial;
     for (Material& material : trial.scene.materials) {
         material.residual_friction_angle = 20.0;
-        // N where bonds of the trials break within its steps; in area units over a face of some centimetres.
+        // N; chosen so that bonds break during the trials. In area units, for a face of a few centimetres.
         material.tensile_strength = units == StiffnessUnits::area ? 1e4 : 400.0;
         material.cohesion = 2.0 * material.tensile_strength;
     }
     return trial;
 }
 
-/// Any set of friction, dashpots, bonds and the consistent integrator, under each bond law, in both units.
+/// All combinations of friction, dashpots, bonds and the consistent integrator, with each bond law and both units.
 class EverySetOfFeatures : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(EverySetOfFeatures, GivesTheBytesOfPointsOneByOne) {
@@ -226,7 +226,7 @@ TEST(PointBatch, OfFacesByTheirArea) {
     expect_the_same(area({triangular_lattice(9, 9, 0.02, 0.0, damped_rock()), 0.0, 1.0}), 2000, false);
 }
 
-/// Every second body is of a material that differs by what `vary` changes.
+/// Every second body gets a material that differs by the change `vary`.
 void expect_the_same_of_two(Trial trial, const std::function<void(Material&)>& vary) {
     trial.scene.materials.push_back(trial.scene.materials[0]);
     vary(trial.scene.materials[1]);
@@ -279,7 +279,8 @@ TEST(PointBatch, CoulombBondsThatBreak) {
     }
 }
 
-/// Circles whose flat faces slide along two crossing traces, part, meet others and break, shaken and sheared.
+/// Circles whose flat faces slide along two crossing traces, separate, meet others and break, with random velocities
+/// and shear.
 World faces_in_motion(const std::vector<Joint>& joints, Integrator integrator) {
     testing::JointedCircles circles;
     Scene scene = testing::scene_of(circles);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Kernels on arrays of one's own, without a world: circles in a row, one contact point between each two.
+// Tests kernels on the test's own arrays, without a world: circles in a row with one contact point between neighbours.
 
 #include "solver/contact/force.hpp"
 
@@ -31,7 +31,7 @@ ContactLaw rock() {
     return law;
 }
 
-/// Circles in a row, all in arrays of this struct.
+/// Circles in a row; all arrays belong to this struct.
 struct Row {
     std::vector<BodyState> bodies;
     std::vector<BodyInertia> inertia;
@@ -50,7 +50,7 @@ struct Row {
     std::vector<PointForce> forces;
     LossBlock losses;
 
-    /// @param overlaps m, of each circle with the next
+    /// @param overlaps overlap of each circle with the next, m
     explicit Row(const std::vector<double>& overlaps) {
         const std::size_t points = overlaps.size();
         double x = 0.0;
@@ -75,7 +75,7 @@ struct Row {
         forces.resize(points);
     }
 
-    /// Bonds a point. @param at m, its overlap then
+    /// Bonds a point. @param at overlap at bonding, m
     void bond(PointIndex k, double at) {
         state[k].flags |= point_bonded | point_counted;
         bond_overlap[k] = at;
@@ -127,7 +127,7 @@ Row row_of(BondLaw law, const std::vector<double>& overlaps) {
     return row;
 }
 
-constexpr double exact = 1e-6;  // N, rounding of k_n times positions of about 1 m
+constexpr double exact = 1e-6;  // N, round-off of k_n times positions of about 1 m
 
 TEST(Force, OfEachLawIsZeroAtItsBondAndThenThatOfItsSprings) {
     for (std::size_t n = 0; n < bond_laws; ++n) {
@@ -141,7 +141,7 @@ TEST(Force, OfEachLawIsZeroAtItsBondAndThenThatOfItsSprings) {
         row.bodies[3].vy = 2.0;
         row.pass();
         EXPECT_NEAR(row.normal(2), 1e-4 * k_n, exact);
-        EXPECT_NEAR(row.shear(2), 2.0 * row.drift * k_s, 1e-3) << "the turn of the normal is left out";
+        EXPECT_NEAR(row.shear(2), 2.0 * row.drift * k_s, 1e-3) << "the rotation of the normal is neglected";
         EXPECT_EQ(row.total.broken, 0U);
     }
 }
@@ -190,14 +190,14 @@ TEST(Force, OfCoulombGrowsWithTheStrengthOfItsPoint) {
     EXPECT_TRUE(row.bonded(1));
 }
 
-/// Some hundred points in all states that a pass can meet.
+/// Several hundred points in all states that can occur in a pass.
 Row any_row(const ContactFeatures& features, bool two_laws) {
     std::mt19937_64 random(11);
     const auto any = [&](double from, double to) {
         return from + (to - from) * static_cast<double>(random() >> 11) * 0x1p-53;
     };
     std::vector<double> overlaps(640);
-    // Runs of points in contact, and of points apart, so that batches of each kind occur.
+    // Sequences of points in contact and of separate points, so that all kinds of batches occur.
     for (std::size_t k = 0; k < overlaps.size(); ++k)
         overlaps[k] = k % 64 < 40 ? any(0.02, 2.0) * bond_overlap : any(-1.0, k % 64 < 56 ? 0.0 : 1.0) * bond_overlap;
     Row row(overlaps);
@@ -252,7 +252,7 @@ TEST(Force, OfABatchHasTheBytesOfPointsOneByOneForAllLawsAndFeatures) {
         const auto law = static_cast<BondLaw>(set / 64);
         const auto bit = [&](std::size_t n) { return (set >> n & 1) != 0; };
         const ContactFeatures features{bit(0), bit(1), bit(2), bit(3), bit(4), bit(5), bit(2) ? law : BondLaw{}};
-        if (features.bonds && facts_of(law).own_shares && !features.own_shares) continue;  // no scene is such
+        if (features.bonds && facts_of(law).own_shares && !features.own_shares) continue;  // no such scene
         for (const bool two_laws : {false, true}) {
             SCOPED_TRACE(::testing::Message() << "set " << set << (two_laws ? " of two laws" : ""));
             Row batches = any_row(features, two_laws), single = batches;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a joint puts in place of the rock's law, and what it leaves.
+// Tests which values of the rock's law a joint replaces, and which it keeps.
 
 #include "solver/contact/joint_law.hpp"
 
@@ -51,7 +51,7 @@ TEST(JointLaw, NumbersStandInPlaceOfTheRocks) {
     EXPECT_DOUBLE_EQ(law.tensile_strength, 0.5e6);
     EXPECT_DOUBLE_EQ(law.cohesion, 1.5e6);
     EXPECT_DOUBLE_EQ(law.bond_friction, tangent_of_degrees(20.0));
-    EXPECT_DOUBLE_EQ(law.friction, tangent_of_degrees(20.0)) << "residual is the joint's own";
+    EXPECT_DOUBLE_EQ(law.friction, tangent_of_degrees(20.0)) << "the residual friction is that of the joint";
     EXPECT_DOUBLE_EQ(law.dilation, tangent_of_degrees(4.0));
     joint.residual_friction_angle = 15.0;
     joint.tensile_strength = 0.0;
@@ -61,7 +61,7 @@ TEST(JointLaw, NumbersStandInPlaceOfTheRocks) {
     EXPECT_EQ(law.tensile_strength, std::numeric_limits<double>::min()) << "holds without force, breaks when pulled";
     EXPECT_EQ(law.cohesion, 1e5);
     law = law_across(rock_law(), joint, {true, true, true});
-    EXPECT_EQ(law.tensile_strength, 2e6) << "nothing breaks: the rock's law says so";
+    EXPECT_EQ(law.tensile_strength, 2e6) << "the rock's bonds do not break";
     EXPECT_EQ(law.friction, rock_law().friction);
 }
 
@@ -129,7 +129,7 @@ TEST(JointLaw, ATurnedOutlineKeepsItsFacesOnTraces) {
     Scene scene = jointed_scene(cells);
     const World straight = build_world(scene);
     for (const Body& body : scene.bodies) {
-        // Clockwise, from the same corner.
+        // The corners in clockwise order, starting at the same corner.
         const auto corners = scene.vertices.begin() + body.first_vertex;
         const auto sides = scene.edge_sides.begin() + body.first_vertex;
         std::reverse(corners + 1, corners + 4);
@@ -148,7 +148,8 @@ TEST(JointLaw, ATurnedOutlineKeepsItsFacesOnTraces) {
     EXPECT_EQ(pairs_across(turned), pairs_across(straight));
     EXPECT_FALSE(pairs_across(turned).empty());
     for (std::size_t e = 0; e < turned.bodies.element_sides.size(); ++e) {
-        // The edge on a trace still is: of cells above the level one the lower edge, left of the upright one the right.
+        // The edge on the trace is still marked: for cells above the horizontal trace it is the lower edge, for cells
+        // left of the vertical trace the right edge.
         const TraceSide side = turned.bodies.element_sides[e];
         if (side == no_side) continue;
         const Element &from = turned.bodies.elements[e], &to = turned.bodies.elements[e % 4 == 3 ? e - 3 : e + 1];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bound by which most closed points are spared a look at their bodies' accelerations.
+// Tests the bound that avoids reading the bodies' accelerations for most closed points.
 
 #include "solver/contact/opening.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The record of broken bonds of a deck's run: a row per break, and how many bonds there are.
+// Tests the record of broken bonds of a deck run: one row per break, and the number of bonds.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using namespace testing;
 
-/// The guide's chain pulled at one end, ten times as fast: its bonds break at different times.
+/// The guide's chain pulled at one end at ten times the speed, so that its bonds break at different times.
 class Breaks : public ::testing::Test {
   protected:
     static constexpr std::int64_t steps = 4000;
@@ -31,7 +31,7 @@ class Breaks : public ::testing::Test {
         std::ofstream(scratch_ / "deck" / "in_bc.dat")
             << "3 0 2000 200 10\n2\n1 20\n2\n1 1 0 1 0 1 0\n20 1 4.2 1 0 1 0\n";
     }
-    /// @return the folder of its outputs
+    /// Runs the deck. @return the folder of its outputs
     std::filesystem::path run(const std::string& from, const std::string& to, std::int64_t count,
                               bool overwrite = false) const {
         DeckOptions options;
@@ -43,7 +43,7 @@ class Breaks : public ::testing::Test {
         DeckRun(options).run();
         return scratch_ / to;
     }
-    /// Lines behind the header.
+    /// Lines after the header.
     static std::vector<std::string> rows(const std::filesystem::path& folder) {
         std::ifstream in(folder / "events.csv");
         std::vector<std::string> lines;
@@ -53,7 +53,7 @@ class Breaks : public ::testing::Test {
         while (std::getline(in, line)) lines.push_back(line);
         return lines;
     }
-    /// The second field.
+    /// The second field of a row.
     static double step_of(const std::string& row) { return std::stod(row.substr(row.find(',') + 1)); }
 
     ScratchFolder scratch_;
@@ -77,7 +77,7 @@ TEST_F(Breaks, AreTheBondsLostBetweenTwoOutputs) {
     EXPECT_EQ(counted, breaks.size());
     EXPECT_GE(outputs_with_some, 3u);
 
-    // Each contact that has lost its back-tension has a row.
+    // Each contact that has lost its back-tension must have a row.
     const std::vector<DeckFrame> frames = read_frames(out / "cont2.dat");
     for (const DeckFrame& frame : frames) {
         const auto bonded = static_cast<double>(
@@ -91,7 +91,7 @@ TEST_F(Breaks, AreTheBondsLostBetweenTwoOutputs) {
 TEST_F(Breaks, OfTwoPartsAreThoseOfTheRunInOne) {
     const std::vector<std::string> whole = rows(run("deck", "whole", steps));
     ASSERT_GE(whole.size(), 3u);
-    // A part that ends at a break: both parts find it, one writes it.
+    // A part that ends at a break: both parts find the break, but only one writes it.
     const auto cut = static_cast<std::int64_t>(step_of(whole[1]));
     for (const std::int64_t length : {cut - 1, cut, cut + 1}) {
         const std::filesystem::path first = run("deck", "first", length, true);
@@ -106,7 +106,8 @@ TEST_F(Breaks, OfTwoPartsAreThoseOfTheRunInOne) {
         EXPECT_EQ(later.names_line, 0);
         EXPECT_TRUE(later.table.starts_with(breaks_header()));
         EXPECT_TRUE(later.table.ends_with(read_file(second / "events.csv")));
-        // Without the state the breaks of the cut are found again from the texts, and those of the next step written.
+        // Without the state file, the breaks of the last step are found again from the text files, and those of the
+        // next step are written.
         std::filesystem::remove(first / "new_state.bin");
         const std::string rest = read_file(run("first", "by text", 1, true) / "events.csv");
         const auto expected = std::ranges::count(whole, static_cast<double>(length + 1), step_of);
@@ -119,7 +120,7 @@ TEST_F(Breaks, BehindTheStepFromWhichARunGoesOnAreDropped) {
     const auto cut = static_cast<std::int64_t>(step_of(whole[1])) + 1;
     const std::filesystem::path folder = run("deck", "part", cut);
     const std::size_t before = rows(folder).size();
-    // Files as a killed part would leave them, the last line cut short.
+    // Files as left by a killed part, with an incomplete last line.
     std::ofstream(folder / "events.csv", std::ios::app) << whole[before] << '\n' << whole[before + 1].substr(0, 25);
     DeckOptions options;
     options.folder = folder;

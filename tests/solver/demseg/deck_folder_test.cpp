@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A deck run in its folder: what it leaves, continues from, and refuses.
+// Tests the folder of a deck run: its output files, continuing from them, and refusals.
 
 #include <gtest/gtest.h>
 
@@ -77,7 +77,7 @@ TEST_F(DeckFolder, GoingOnInPlaceAppends) {
 }
 
 TEST_F(DeckFolder, GoingOnDropsWhatAFailedPartHadWrittenBeyondItsBeginning) {
-    // For events.csv, which has no row here, see breaks_test.cpp.
+    // events.csv, which has no rows here, is tested in breaks_test.cpp.
     const std::array<const char*, 7> outputs{"output.dat",    "cont.dat",       "cont2.dat", "energy.dat",
                                              "f-d_curve.dat", "velocity_y.dat", "bonds.dat"};
     edit("in_bc.dat", "3 0 20000 200 10", "3 0 20000 50 10");
@@ -93,7 +93,7 @@ TEST_F(DeckFolder, GoingOnDropsWhatAFailedPartHadWrittenBeyondItsBeginning) {
         std::map<std::string, std::string> left;
         for (const char* name : {"new_in_gm.dat", "new_in_bc.dat", "new_in_cf.dat", "new_in_cf0.dat", "new_state.bin"})
             left[name] = read_file(first.output / name);
-        DeckRun(second).run();  // the part that is lost: rows and frames to step 200, the last of them cut short
+        DeckRun(second).run();  // the lost part: rows and frames up to step 200, the last one incomplete
         for (const auto& [name, text] : left) std::ofstream(first.output / name, std::ios::binary) << text;
         if (!with_state) std::filesystem::remove(first.output / "new_state.bin");
         for (const char* name : outputs) {
@@ -145,7 +145,7 @@ TEST_F(DeckFolder, ADerivedStepIsHandedOnAsTheStepInUse) {
 }
 
 TEST_F(DeckFolder, AStepThatThePileOutgrowsStopsTheRunWithItsOutputs) {
-    // Two discs come within each other's reach: the bound of a pair is 1/sqrt(2) of that of a disc alone, 1.12e-3 s.
+    // Two discs approach each other; the bound for a pair is 1/sqrt(2) of that for a single disc, 1.12e-3 s.
     std::ofstream(folder_ / "in_gm.dat") << "1 0 0\n0.9e-3 0 0\n1\n2.5 1e8 0 0 0 0\n-10 10 -10 10 0\n2 0 0\n"
                                             "1 1 1\n1 0 0\n1 2\n-2.125 0 0\n2 1 1\n-1 0 0\n1 2\n2.125 0 0\n";
     std::ofstream(folder_ / "in_bc.dat") << "0 0 200 100 10\n0\n0\n";
@@ -217,7 +217,7 @@ TEST_F(DeckFolder, AStateOfOtherBodiesThanItsGeometryIsRefusedWithARemedy) {
     std::ofstream(folder_ / "new_state.bin", std::ios::binary) << save_deck_state(*state, texts);
     EXPECT_NE(refusal([&] { DeckRun{options(true)}; }).find("found a state whose bodies differ from its geometry"),
               std::string::npos);
-    state->world.points.contact.pairs[0].body_i = 4711;  // there are twenty
+    state->world.points.contact.pairs[0].body_i = 4711;  // there are only twenty bodies
     std::ofstream(folder_ / "new_state.bin", std::ios::binary) << save_deck_state(*state, texts);
     EXPECT_NE(refusal([&] { DeckRun{options(true)}; }).find("found parts that do not belong together"),
               std::string::npos);
@@ -233,7 +233,7 @@ TEST_F(DeckFolder, AnUnstableRunKeepsItsOutputsAndEndsThere) {
     edit("in_bc.dat", "20 1 4.2", "20 0 3e7");
     edit("in_bc.dat", "3 0 20000 200 10", "0 0 20000 200 1");
     DeckOptions longer = options();
-    longer.steps = 300;  // the last disc, not bonded, goes 0.2 a step after 180 and shoots through the wall
+    longer.steps = 300;  // after step 180 the last disc, unbonded, moves 0.2 per step and passes through the wall
     EXPECT_THROW(DeckRun(longer).run(), UnstableRun);
     EXPECT_GT(read_rows(folder_ / "energy.dat").size(), 101u);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "new_in_gm.dat"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Decks read as Fortran's list-directed READ does: values, notes, what is ignored and what is not.
+// Tests that decks are read as by Fortran's list-directed READ: values, notes, ignored and refused text.
 #include "solver/demseg/deck_reader.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 using testing::refusal;
 using Values = std::vector<double>;
 
-/// Reads one READ after another, each of as many values as given here.
+/// Executes one READ after another, with the given numbers of values.
 std::vector<Values> reads(DeckReader& reader, const std::vector<int>& counts) {
     std::vector<Values> all;
     for (const int count : counts) {
@@ -55,11 +55,11 @@ TEST(DeckReader, TakesValuesAsFortranWritesThem) {
 TEST(DeckReader, AReadTakesAsManyLinesAsItNeedsAndTheNextStartsOnANewOne) {
     EXPECT_EQ(reads("1\n\n2 3 x\n4 y\n5", {3, 1, 1}), (std::vector<Values>{{1, 2, 3}, {4}, {5}}));
     EXPECT_EQ(reads("1 2 3\n4 5 6\n", {2, 3}), (std::vector<Values>{{1, 2}, {4, 5, 6}}));
-    EXPECT_EQ(reads("6*2\n1", {2, 1}), (std::vector<Values>{{2, 2}, {1}})) << "repeats end with their READ";
+    EXPECT_EQ(reads("6*2\n1", {2, 1}), (std::vector<Values>{{2, 2}, {1}})) << "a repeat count ends with its READ";
 }
 
 TEST(DeckReader, NotesAreIgnoredInCp932AndUtf8WithFullWidthBlanks) {
-    // 発生させる粒子半径の幅, behind a full-width blank. The CP932 bytes hold ASCII letters: 0x40 to 0x7e.
+    // 発生させる粒子半径の幅 after a full-width blank. Its CP932 bytes contain ASCII letters: 0x40 to 0x7e.
     const std::string cp932 =
         "\x94\xad\x90\xb6\x82\xb3\x82\xb9\x82\xe9\x97\xb1\x8e\x71\x94\xbc\x8c\x61\x82\xcc\x95\x9d";
     EXPECT_EQ(reads("1.0 2.0\x81\x40" + cp932 + "\n1 " + cp932 + "\n0.5", {2, 1, 1}),

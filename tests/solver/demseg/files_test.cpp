@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// in_bc.dat, in_cf.dat, in_cf0.dat, the state file and the outputs: layouts, round trips, refusals.
+// Tests in_bc.dat, in_cf.dat, in_cf0.dat, the state file and the outputs: formats, reading back what was written,
+// refusals.
 
 #include <gtest/gtest.h>
 
@@ -97,7 +98,8 @@ TEST(ContactFiles, BackTensionsOfEveryKindOfPointComeBack) {
     const std::int64_t bonds = bond_all(world, scene.thick);
     EXPECT_EQ(bonds, 8) << "circle on clump, three circles on the square, four corners between the squares";
     write_back_tensions(bonded, scene, world);
-    EXPECT_EQ(unbonded.str(), bonded.str()) << "without bonds the file holds what the overlaps would give";
+    EXPECT_EQ(unbonded.str(), bonded.str())
+        << "without bonds, the file contains the back-tensions that follow from the overlaps";
 
     World copy = build_world(scene);
     DeckReader reader("in_cf0.dat", bonded.str());
@@ -118,8 +120,9 @@ TEST(ContactFiles, SegmentsUnderTheGuidesLawComeBackByTheirNumbers) {
     scene.gravity = {3.0, -10.0};
     World world = build_world(scene);
     const std::int64_t bonds = bond_all(world, scene.thick);
-    // The single circle stands over a corner, the end of two segments. Bodies 3 and 4 face each other with edges 2 and
-    // 4, whose ends lie opposite each other and are ends of edges 1 and 3 as well: three more pairs at either end.
+    // The single circle is above a corner, where two segments end. Bodies 3 and 4 face each other with edges 2 and 4.
+    // The ends of these edges are opposite each other and also belong to edges 1 and 3, which gives three more pairs at
+    // either end.
     EXPECT_EQ(bonds, 5 + 1 + 6) << "circles, the facing pair, pairs at its ends";
     std::ostringstream tensions, again;
     write_back_tensions(tensions, scene, world);
@@ -169,7 +172,7 @@ TEST(ContactFiles, SpringsBondsAndFlagsComeBack) {
     std::ostringstream out, again;
     write_contacts(out, scene, world);
     EXPECT_NE(out.str().find("\n-3 "), std::string::npos) << "a contact with the floor or:\n" << out.str();
-    // The scene of a continued run is that of the end; here only the names matter.
+    // A continued run starts from the scene at the end; here only ids matter.
     World copy = build_world(scene);
     DeckReader reader("in_cf.dat", out.str());
     read_contacts(reader, scene, copy);
@@ -236,7 +239,7 @@ TEST(ContactFiles, BondsOfTwoHeldBodiesAreRead) {
     DeckReader contact_reader("in_cf.dat", contacts.str());
     read_contacts(contact_reader, scene, other);
     EXPECT_EQ(other.bonds.initial, 19);
-    scene.circles[scene.bodies[0].first_circle].centre.x -= 1.0;  // away from the second, which is held, too
+    scene.circles[scene.bodies[0].first_circle].centre.x -= 1.0;  // away from the second body, which is also held
     World apart = build_world(scene);
     DeckReader far("in_cf0.dat", tensions.str());
     EXPECT_NE(refusal([&] { read_back_tensions(far, scene, apart); }).find("found no contact"), std::string::npos);
@@ -265,7 +268,7 @@ TEST(ContactFiles, AContactListedFromItsOtherBodyIsTheSame) {
     ASSERT_EQ(contacts_refusal("1 0\n2 0\n3 0\n4 1\n3 0 2 5.5 0 1\n", &from_other), "accepted");
     double shear = 0.0;
     for (const double force : from_other.points.shear_force) shear += force;
-    EXPECT_EQ(shear, 5.5) << "a spring without a bond";
+    EXPECT_EQ(shear, 5.5) << "the spring of a point without a bond";
 }
 
 TEST(ContactFiles, UnknownContactsDuplicatesAndBondedWallsAreRefusedWithTheirLine) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Damaged decks: whatever the bytes, a reader returns or throws InputError. The sanitizers see to the rest.
+// Tests damaged decks: for any bytes, a reader returns or throws InputError. Sanitizers check for other errors.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace {
 using namespace testing;
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr int rounds = 1000;  // each takes several times as long there
+constexpr int rounds = 1000;  // with sanitizers, each takes several times as long
 #else
 constexpr int rounds = 3000;
 #endif
@@ -51,7 +51,7 @@ std::string damaged(std::string text, std::mt19937_64& random) {
     return text;
 }
 
-/// @return share of the damaged texts that were refused
+/// Reads damaged versions of a text. @return fraction of them that were refused
 double refused(const std::string& text, const std::function<void(DeckReader&)>& read) {
     std::mt19937_64 random(text.size());
     int count = 0;

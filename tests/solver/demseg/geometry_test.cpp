@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// in_gm.dat: what the guide's examples read as, that writing loses no bit, and what bad decks are answered.
+// Tests in_gm.dat: contents of the guide's examples, exact values after writing and reading, and messages for invalid
+// decks.
 
 #include "solver/demseg/geometry.hpp"
 

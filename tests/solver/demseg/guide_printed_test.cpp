@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The decks of the guide typed as it prints them, notes included (guide_printed/; those in Japanese in UTF-8, and in
-// CP932 with the line ends of DOS). Each runs as the shipped deck without notes does, and its number stands beside the
-// guide's in specimens/demseg/README.md. A file that the guide does not print again is that of an earlier example.
+// Tests the decks as printed in the guide, including notes (guide_printed/; those in Japanese in UTF-8, and in CP932
+// with DOS line ends). Each must run like the shipped deck without notes, and its result must be listed beside the
+// guide's in specimens/demseg/README.md. Files that the guide does not repeat are those of an earlier example.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ fs::path printed(const std::string& file) {
     return fs::path(CRACKLE_SOURCE_DIR) / "tests/solver/demseg/guide_printed" / file;
 }
 
-/// Decks put together in a scratch folder.
+/// Assembles decks in a temporary folder.
 class GuidePrinted : public ::testing::Test {
   protected:
     GuidePrinted() { fs::create_directories(deck_); }
@@ -43,7 +43,7 @@ class GuidePrinted : public ::testing::Test {
         options.output = scratch_ / output;
         return options;
     }
-    /// Runs the deck. @return where its outputs are
+    /// Runs the deck. @return folder of its outputs
     fs::path run() const {
         DeckRun(options(deck_, "out")).run();
         return scratch_ / "out";
@@ -57,7 +57,7 @@ struct Example {
     const char *name, *geometry, *boundary;  // folders of the printed files
     const char* shipped;                     // the deck without notes
     std::int64_t steps;
-    std::vector<const char*> ignored;  // of in_bc.dat, then of in_gm.dat
+    std::vector<const char*> ignored;  // expected notices, for in_bc.dat and then in_gm.dat
 };
 
 std::ostream& operator<<(std::ostream& out, const Example& example) { return out << example.name; }
@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(OfTheGuide, PrintedExample,
                                            Example{"repose_cp932", "repose_cp932", "repose_cp932", "repose", 20, {}}),
                          [](const auto& example) { return std::string(example.param.name); });
 
-/// Expects this number in the last column of the table in specimens/demseg/README.md.
+/// Checks that this number is in the last column of the table in specimens/demseg/README.md.
 ::testing::AssertionResult stands_in_table(const std::string& example, const std::string& guide,
                                            const std::string& ours) {
     const std::string row = fmt::format("| {} | {} |", guide, ours);
@@ -123,11 +123,11 @@ TEST_F(GuidePrinted, LimitOfTheStepAndTopOfABounce) {
     take(printed("circle/in_gm.dat"), "in_gm.dat");
     take(printed("circle/in_bc.dat"), "in_bc.dat");
     const double limit = DeckRun(options(deck_, "unused")).world().stepping.step_bound;
-    EXPECT_TRUE(agrees("limit of the step, s", limit, 1.123e-3, 2e-3)) << "the guide rounds m";
+    EXPECT_TRUE(agrees("limit of the step, s", limit, 1.123e-3, 2e-3)) << "the guide rounds the exponent m";
     EXPECT_TRUE(stands_in_table("limit of the step of ex01-1, s", "1.123e-3", fmt::format("{:.3f}e-3", 1e3 * limit)));
     double top = 0.0;
     for (const DeckFrame& frame : read_frames(run() / "output.dat")) {
-        if (frame.step > 5000.0) top = std::max(top, frame.rows[0][3]);  // back from the floor
+        if (frame.step > 5000.0) top = std::max(top, frame.rows[0][3]);  // after the bounce
     }
     EXPECT_TRUE(within("top", top, 5.0, 0.01));
     EXPECT_TRUE(stands_in_table("top of a bounce of ex01-1, of frames 100 steps apart", "5 (no loss)",
@@ -185,7 +185,7 @@ TEST_F(GuidePrinted, RandomCirclesAreSoMany) {
     EXPECT_TRUE(stands_in_table("circles made at random", "582", fmt::format("{}", circles)));
 }
 
-// The guide leaves out circles 3 to 582; the counts of line 6 are what is left.
+// The guide omits circles 3 to 582; the numbers in line 6 count those that remain.
 TEST_F(GuidePrinted, SlopeGoesOnFromItsStepAndHoldsItsWall) {
     take(printed("slope/in_gm.dat"), "in_gm.dat");
     take(printed("slope/in_bc.dat"), "in_bc.dat");
@@ -199,12 +199,12 @@ TEST_F(GuidePrinted, SlopeGoesOnFromItsStepAndHoldsItsWall) {
         EXPECT_TRUE(within("the toe, controlled by 0", frames.back().rows.back()[k], toe[k], 1e-12));
 }
 
-/// The guide's chain of 20 circles (its figure 10), of which it prints no in_gm.dat.
+/// The guide's chain of 20 circles (its figure 10), for which it prints no in_gm.dat.
 class GuidePrintedChain : public GuidePrinted {
   protected:
     GuidePrintedChain() { take(shipped_deck("chain_pulled") / "in_gm.dat", "in_gm.dat"); }
 
-    /// One step of the chain as it lies, so short that nothing moves, and its files as the guide renames them.
+    /// Runs one very short step, in which nothing moves, and renames its files as described in the guide.
     void make_in_cf0() const {
         std::string shorter = read_file(deck_ / "in_gm.dat");
         const std::string step = "2.0d-5";
@@ -216,7 +216,7 @@ class GuidePrintedChain : public GuidePrinted {
         fs::remove_all(out);
     }
 
-    /// Circles 1 and 2 held, 20 pulled: the guide's first way of loading.
+    /// Circles 1 and 2 are held and circle 20 is pulled, the guide's first way of loading.
     static constexpr const char* held = "1\n20\n3\n1 1 0.0 1 0.0 1 0.0\n2 1 0.0 1 0.0 1 0.0\n20 1 4.2 1 0.0 1 0.0\n";
 
     static double largest_force(const fs::path& out) {

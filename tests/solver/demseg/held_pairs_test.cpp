@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two bodies of a deck that are both held press and rub each other as any two do. What the outputs show of it has
-// closed forms, and the energies close. Without outputs such pairs have no contact points.
+// Tests that two held bodies of a deck exert normal and friction forces on each other like any others. Their outputs
+// have closed forms, and the energy account closes. Without outputs such pairs have no contact points.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -22,9 +22,9 @@ namespace {
 using namespace testing;
 
 constexpr double kn = 1e8, ks = 0.25e8, friction_angle = 20.0;
-constexpr double rounding = 1e-12;  // of sums of a few hundred numbers
+constexpr double rounding = 1e-12;  // round-off of sums of a few hundred numbers
 
-/// Circles of radius 1 in a row, 1.9 apart, all held; a ramp of 100 steps moves and turns them.
+/// Circles of radius 1 in a row at distances of 1.9, all held; a ramp of 100 steps moves and rotates them.
 class HeldPairs : public ::testing::Test {
   protected:
     struct Way {
@@ -77,12 +77,13 @@ TEST_F(HeldPairs, PressEachOtherByTheirOverlap) {
 }
 
 TEST_F(HeldPairs, OfAChainEachHasTheDifferenceOfItsTwoContacts) {
-    const std::vector<Way> ways{{0.0, 0.0}, {0.04, 0.0}, {-0.02, 0.0}, {0.07, 0.0}, {0.3, 0.0}};  // the last one leaves
+    const std::vector<Way> ways{
+        {0.0, 0.0}, {0.04, 0.0}, {-0.02, 0.0}, {0.07, 0.0}, {0.3, 0.0}};  // the last one separates
     write_deck(ways);
     run("deck", "out");
     double largest = 0.0, worst = 0.0;
     for (int step = 1; step <= 100; ++step) {
-        std::vector<double> contact(ways.size() + 1, 0.0);  // before, between and behind them
+        std::vector<double> contact(ways.size() + 1, 0.0);  // before, between and after them
         double strain = 0.0;
         for (std::size_t k = 1; k < ways.size(); ++k) {
             const double overlap = 0.1 - (ways[k].x - ways[k - 1].x) * step / 100.0;
@@ -97,8 +98,8 @@ TEST_F(HeldPairs, OfAChainEachHasTheDifferenceOfItsTwoContacts) {
         ASSERT_NEAR(energies()[static_cast<std::size_t>(step)][3], strain, 1e-11 * strain) << step;
     }
     EXPECT_TRUE(within("largest error of a force over the largest force", worst / largest, 0.0, 1e-11));
-    // The trapezoidal work of a step in which a spring opens errs by at most what it still held at the start of the
-    // step.
+    // In a step in which a spring opens, the error of the trapezoidal work is at most the energy stored at the start of
+    // the step.
     const double last_step = 0.23 / 100.0;
     EXPECT_TRUE(within("closing error", energies().back()[8], 0.0, 0.5 * kn * last_step * last_step));
 }
@@ -119,7 +120,7 @@ TEST_F(HeldPairs, RubByTheirHistoryUpToCoulombsLimit) {
         const std::vector<double> energy = energies(out).back();
         const double stored = 0.5 * expected * expected / ks;
         EXPECT_TRUE(agrees("strain energy", energy[3], 0.5 * kn * 0.01 + stored, 1e-11));
-        // In the step that reaches the limit the mean force is below it.
+        // In the step in which the limit is reached, the mean force is below it.
         const double step = arm * turn / 100.0;
         EXPECT_TRUE(within("lost to friction", energy[5], limit * std::max(0.0, arm * turn - limit / ks),
                            ks * step * step / 8.0));
@@ -146,7 +147,7 @@ TEST_F(HeldPairs, KeepTheirSpringsWhereTheRunGoesOn) {
 TEST_F(HeldPairs, AreBondedAndBreakLikeOthers) {
     write_deck({{}, {}, {0.2002, 0.0}}, 3);
     run("deck", "out");
-    // Bonded at an overlap of 0.1: pulled by 0.002002 a step until that is used up, which it is by 50 steps.
+    // Bonded at an overlap of 0.1 and pulled by 0.002002 per step, so that the bond breaks within 50 steps.
     EXPECT_TRUE(within("force on the middle one, at first", forces_on(2).front()[2], kn * 0.002002, kn * 1e-12));
     const Rows middle = forces_on(2);
     double largest = 0.0;
@@ -159,7 +160,7 @@ TEST_F(HeldPairs, AreBondedAndBreakLikeOthers) {
 }
 
 TEST_F(HeldPairs, AreFoundByFilesFromBeforeTheyWereHeld) {
-    // The guide's first way of loading: the chain's first two circles and its last one.
+    // The guide's first way of loading: the chain's first two circles are held and the last one is pulled.
     const std::string held = "\n1\n20\n3\n1 1 0.0 1 0.0 1 0.0\n2 1 0.0 1 0.0 1 0.0\n20 1 4.2 1 0.0 1 0.0\n";
     std::filesystem::create_directories(scratch_ / "deck");
     for (const char* name : {"in_gm.dat", "in_cf0.dat"})
@@ -183,7 +184,7 @@ TEST_F(HeldPairs, MayBeDrivenThroughEachOther) {
     EXPECT_NO_THROW(run("deck", "out", 1000));
 }
 
-/// Two circles that overlap, both held at a velocity.
+/// Two overlapping circles, both with a prescribed velocity.
 Scene held_circles(DrivenContacts wanted) {
     Scene scene;
     Material material;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A continued run has the contact law and the integrator of the run before, which the text files do not state.
+// Tests that a continued run has the contact law and integrator of the previous run, which the text files do not
+// contain.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ namespace {
 
 using namespace testing;
 
-/// Two squares, one upon the other.
+/// Two squares, one on top of the other.
 class KeptLaw : public ::testing::Test {
   protected:
     KeptLaw() {
@@ -48,7 +49,7 @@ class KeptLaw : public ::testing::Test {
         ASSERT_NE(at, std::string::npos) << text;
         std::ofstream(folder_ / name) << text.replace(at, what.size(), by);
     }
-    /// How many notices say this.
+    /// Number of notices that contain these words.
     static std::ptrdiff_t said(const DeckRun& deck, const std::string& words) {
         for (const std::string& notice : deck.notices()) fmt::print("  {}\n", notice);
         return std::ranges::count_if(deck.notices(), [&](const std::string& n) { return n.find(words) != n.npos; });
@@ -82,11 +83,11 @@ TEST_F(KeptLaw, HoldsForRenamedFilesAndForTheirBackTensions) {
     DeckOptions next = options(false);
     next.output = scratch_ / "next";
     EXPECT_EQ(law_of(DeckRun(next)), SegmentLaw::demseg);
-    edit("in_bc.dat", "1 100 ", "3 0 ");  // a repeated start with their bonds
+    edit("in_bc.dat", "1 100 ", "3 0 ");  // a new start with bonds
     const DeckRun repeated(next);
     EXPECT_EQ(law_of(repeated), SegmentLaw::demseg);
     EXPECT_GT(repeated.world().bonds.initial, 0);
-    edit("in_bc.dat", "3 0 ", "0 0 ");  // a new start takes nothing from them
+    edit("in_bc.dat", "3 0 ", "0 0 ");  // a new start uses nothing from the previous run
     EXPECT_EQ(law_of(DeckRun(next)), SegmentLaw::rounded);
 }
 

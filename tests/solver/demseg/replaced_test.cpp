@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A deck run that takes the place of an earlier one: whenever it is stopped the folder holds all that one of the two
-// left, and nothing of the other.
+// Tests a deck run that replaces an earlier one. At whatever moment it is stopped, the folder contains all files of one
+// of the two runs and none of the other.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -70,7 +70,7 @@ class ReplacedDeck : public ::testing::Test {
             all[file.path().filename().string()] = read_file(file.path());
         return all;
     }
-    /// Files of the folder without outputs that have no name of their own yet.
+    /// Files of the folder, except outputs that have not received their final names.
     Contents named() const {
         Contents all = contents(folder_);
         std::erase_if(all, [](const auto& file) { return file.first.ends_with(staged_suffix); });
@@ -94,7 +94,7 @@ TEST_F(ReplacedDeck, IsWholeUntilTheNewRunCanBeGoneOnWith) {
 
     DeckRun(going_on(new_steps - earlier_steps)).run();
     const Contents after = contents(folder_);
-    EXPECT_TRUE(after == new_) << "of the earlier run, gone on with; and nothing of the one that was stopped";
+    EXPECT_TRUE(after == new_) << "the continued earlier run, and nothing of the stopped run";
 }
 
 TEST_F(ReplacedDeck, IsReplacedByTheNextRunWhateverAStoppedOneLeft) {
@@ -105,13 +105,13 @@ TEST_F(ReplacedDeck, IsReplacedByTheNextRunWhateverAStoppedOneLeft) {
 
 TEST_F(ReplacedDeck, GivesWayWithTheFirstSave) {
     DeckOptions options = forced();
-    options.save_interval = 0.0;  // whenever the clock is looked at, every 64 steps
+    options.save_interval = 0.0;  // saves whenever the clock is read, every 64 steps
     const auto die = [&](const World& world) {
         if (world.stepping.steps == 0) {
             EXPECT_TRUE(named() == earlier_);
         }
         if (world.stepping.steps == 1) {
-            EXPECT_EQ(DeckFrames(folder_).heads().back().step, 0) << "of the new run";
+            EXPECT_EQ(DeckFrames(folder_).heads().back().step, 0) << "files of the new run";
         }
         if (world.stepping.steps == 200) throw Killed();
         return true;
@@ -147,7 +147,7 @@ TEST_F(ReplacedDeck, IsReadWhileItsRunReplacesTheFilesToGoOnWith) {
     const FolderLock running(folder_);
     write_journal(deck_journal(folder_), files);
     EXPECT_EQ(DeckFrames(folder_).heads().back().step, earlier_steps);
-    EXPECT_TRUE(fs::exists(deck_journal(folder_))) << "left to the run";
+    EXPECT_TRUE(fs::exists(deck_journal(folder_))) << "only a run completes it";
 }
 
 TEST_F(ReplacedDeck, KeepsItsFilesWhereTheNewRunIsUnstable) {
@@ -163,7 +163,7 @@ TEST_F(ReplacedDeck, KeepsItsFilesWhereTheNewRunIsUnstable) {
     };
     try {
         DeckRun(options).run(spoil);
-        ADD_FAILURE() << "ran to its end";
+        ADD_FAILURE() << "ran to the end";
     } catch (const UnstableRun& error) {
         EXPECT_EQ(std::string(error.what()),
                   "unstable at step 50, body 1: as a test has it; earlier outputs in " + folder_.string() +
@@ -172,7 +172,7 @@ TEST_F(ReplacedDeck, KeepsItsFilesWhereTheNewRunIsUnstable) {
     EXPECT_TRUE(named() == earlier_);
 }
 
-/// A full disc is imitated by a limit that the largest output meets on its way.
+/// A full disc is simulated by a file size limit that the largest output exceeds.
 TEST_F(ReplacedDeck, KeepsItsFilesAndSaysSoWhereTheNewOutputsCannotBeWritten) {
     std::size_t largest = 0;
     for (const auto& [name, text] : new_)
@@ -197,7 +197,7 @@ TEST_F(ReplacedDeck, KeepsItsFilesAndSaysSoWhereTheNewOutputsCannotBeWritten) {
 
 TEST_F(ReplacedDeck, WithAStateOfAnotherVersionSaysHowToGoOnWithoutIt) {
     std::string state = read_file(folder_ / "new_state.bin");
-    // A checkpoint's magic, its version behind it.
+    // The magic number of a checkpoint is followed by its version.
     const std::string whole = save_world(DeckRun(options(scratch_ / "other", 1)).world());
     const std::size_t at = state.find(whole.substr(0, 8));
     ASSERT_NE(at, std::string::npos);

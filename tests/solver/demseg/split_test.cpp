@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A deck run in parts is the deck run in one: with the state file to the byte, from the text files alone to 1e-9.
+// Tests that a deck run in several parts gives the same results as a single run: identical bytes with the state file,
+// and agreement to 1e-9 from the text files alone.
 
 #include <gtest/gtest.h>
 
@@ -24,10 +25,9 @@ using namespace testing;
 
 struct SplitCase {
     const char* deck;
-    std::int64_t steps;  // of the whole
-    std::int64_t
-        text_steps;  // of the whole where only text files are passed on: before chaos has blown up the last digits
-    // The deck with its dt replaced by 0; text files hand on the step in use, and nothing lowers it after that.
+    std::int64_t steps;       // number of steps of the whole run
+    std::int64_t text_steps;  // the same if only text files are passed on: fewer, since last digits soon differ
+    // Whether dt of the deck is replaced by 0. Text files pass on the step in use, and nothing lowers it afterwards.
     bool derived_step = false;
 };
 
@@ -57,7 +57,7 @@ class SplitRun : public ::testing::TestWithParam<SplitCase> {
             const std::string name = file.path().filename().string();
             if (!name.starts_with("in_")) continue;
             std::string text = read_file(file.path());
-            if (name == "in_gm.dat") {  // dt begins the second line
+            if (name == "in_gm.dat") {  // dt is the first value of the second line
                 const std::size_t at = text.find('\n') + 1;
                 text.replace(at, text.find(' ', at) - at, "0");
             }
@@ -66,7 +66,7 @@ class SplitRun : public ::testing::TestWithParam<SplitCase> {
         return copy;
     }
 
-    /// Three cuts, in order, none at an end.
+    /// Three cuts in ascending order, none at an end of the run.
     std::vector<std::int64_t> lengths(std::int64_t steps) const {
         std::mt19937_64 random(std::hash<std::string>{}(GetParam().deck));
         std::vector<std::int64_t> cuts{0, steps};
@@ -80,7 +80,7 @@ class SplitRun : public ::testing::TestWithParam<SplitCase> {
         return parts;
     }
 
-    /// Runs the parts one after the other, each into a folder of its own. @return the folders
+    /// Runs the parts one after another, each in its own folder. @return the folders
     std::vector<std::filesystem::path> run_parts(std::int64_t steps, bool with_state) {
         std::vector<std::filesystem::path> folders;
         std::filesystem::path from = deck();
@@ -136,7 +136,8 @@ TEST_P(SplitRun, FromTheTextFilesAloneAgreesTo1e9) {
     EXPECT_TRUE(within("velocities over the largest", speed_error / fastest, 0.0, 1e-9));
 }
 
-/// Two parts of a deck in one folder; the second is stopped at each moment of replacing the files for the next.
+/// Two parts of a deck in one folder; the second is stopped at each moment while it replaces the files for the next
+/// part.
 class StoppedDeck : public ::testing::Test {
   protected:
     static constexpr const char* next_files[] = {"new_in_gm.dat", "new_in_bc.dat", "new_in_cf.dat", "new_in_cf0.dat",
@@ -219,7 +220,7 @@ TEST_F(StoppedDeck, WhoseFilesAreCopiedByHandIsToldToCopyThemAgain) {
     options.folder = folder;
     options.output = scratch_ / "next";
     EXPECT_THROW(DeckRun{options}, InputError);
-    EXPECT_NO_THROW(DeckRun{options}) << "said once: they are complete now";
+    EXPECT_NO_THROW(DeckRun{options}) << "reported once; the results are then complete";
 }
 
 TEST_F(StoppedDeck, TwoRunsDoNotShareAFolder) {
@@ -238,7 +239,7 @@ TEST_F(StoppedDeck, TwoRunsDoNotShareAFolder) {
     }
     const DeckRun one(options);
     options.output = scratch_ / "apart too";
-    EXPECT_NO_THROW(DeckRun{options}) << "two may go on from one folder in others";
+    EXPECT_NO_THROW(DeckRun{options}) << "two runs may continue from one folder into others";
 }
 
 TEST_F(StoppedDeck, ALinkAmongItsOutputsIsRefusedAndNothingIsCutOff) {

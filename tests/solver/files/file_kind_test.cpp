@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of other programs are known by their first bytes, and plain texts are not taken for them.
+// Tests that files of other programs are recognised by their first bytes, and that plain text is not.
 #include "solver/files/file_kind.hpp"
 
 #include <gtest/gtest.h>

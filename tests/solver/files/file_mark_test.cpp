@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Length and hash of a file.
+// Tests length and hash of a file.
 #include "solver/files/file_mark.hpp"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ namespace crackle {
 namespace {
 
 TEST(FileMark, IsTheHashOfXxhsum) {
-    // `printf crackle | xxhsum -H3` and of nothing.
+    // Expected values are from `printf crackle | xxhsum -H3`, and from empty input.
     EXPECT_EQ(hash_text(mark_of("")), "2d06800538d394c2");
     EXPECT_EQ(mark_of("crackle").bytes, 7U);
     EXPECT_NE(mark_of("crackle"), mark_of("crackLe"));

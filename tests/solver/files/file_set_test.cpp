@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All files of a set are replaced or none, wherever the one who replaces them is stopped.
+// Tests that either all files of a set are replaced or none, wherever the process is stopped.
 #include "solver/files/file_set.hpp"
 
 #include <gtest/gtest.h>
@@ -56,7 +56,8 @@ TEST_F(Files, StoppedAfterAnyOfThemAreCompletedByTheNextReader) {
     for (std::size_t replaced = 0; replaced <= new_.size(); ++replaced) {
         for (const auto& [name, contents] : old_) write(name, contents);
         write_journal(journal(), new_);
-        for (const auto& [name, contents] : old_) EXPECT_EQ(read(name), contents) << "before it is completed";
+        for (const auto& [name, contents] : old_)
+            EXPECT_EQ(read(name), contents) << "before the replacement is completed";
         for (std::size_t k = 0; k < replaced; ++k)
             fs::rename(folder_ / (new_[k].first + staged_suffix), folder_ / new_[k].first);
         EXPECT_TRUE(complete_replacement(journal())) << replaced;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// New files touch nothing of anybody else: not by a link, not by a name that can be guessed, not by a leftover.
+// Tests that new files never overwrite files of others: not through a link, a guessable name or a leftover file.
 #include "solver/files/new_file.hpp"
 
 #include <fcntl.h>

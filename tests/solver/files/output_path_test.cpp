@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// However a path is written, it is the same place, and no command finds a folder where it needs a file.
+// Tests that different spellings of a path give the same path, and that a folder is refused where a file is needed.
 #include "solver/files/output_path.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// All bytes of a file, or an error: never the first part of it.
+// Tests that reading a file gives all its bytes or an error, never only its first part.
 #include "solver/files/read_file.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST(ReadFile, RefusesWhatIsNoneOrStopsBeforeItsEnd) {
     const testing::ScratchFolder scratch;
     EXPECT_NE(refusal_of(scratch / "absent").find("No such file"), std::string::npos);
     EXPECT_NE(refusal_of(scratch / "").find("found a folder"), std::string::npos);
-    // Opens, and reading it gives EIO: what a failing disc does.
+    // This file can be opened, but reading it fails with EIO, as on a failing disc.
     EXPECT_NE(refusal_of("/proc/self/mem").find("reading stopped with an error (Input/output error)"),
               std::string::npos)
         << refusal_of("/proc/self/mem");
@@ -52,7 +52,7 @@ TEST(ReadFile, RefusesMoreBytesThanItsKindMayHave) {
     for (const std::filesystem::path& path : {scratch / "file", std::filesystem::path("/dev/zero")})
         EXPECT_NE(testing::refusal([&] { read_text(path, 4); }).find("found more than 4 bytes, expected at most 4"),
                   std::string::npos);
-    std::filesystem::resize_file(scratch / "file", most_bytes_of_table + 1);  // a hole, of which nothing is read
+    std::filesystem::resize_file(scratch / "file", most_bytes_of_table + 1);  // a sparse file, of which nothing is read
     EXPECT_NE(testing::refusal([&] { read_text(scratch / "file", most_bytes_of_table); }).find("1073741824 bytes"),
               std::string::npos);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Arrays on the disc give back what was put into them, in whatever order, and leave nothing behind.
+// Tests that arrays on disc return the values stored in them, in any order, and leave no files behind.
 #include "solver/files/scratch_file.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 TEST(ScratchArray, HoldsWhatWasPutIntoItWhereverThatIs) {
     const testing::ScratchFolder scratch;
     ScratchArray<std::uint64_t> numbers(scratch / "");
-    const std::size_t count = 200'003;  // several stretches
+    const std::size_t count = 200'003;  // more than fits in memory at once
     numbers.assign(count, 7);
     std::vector<std::uint64_t> wanted(count, 7);
     for (std::size_t k = 0; k < count; k += 3) numbers[k] = wanted[k] = k * k;
@@ -56,7 +56,7 @@ TEST(ScratchArray, RefusesAFolderThatTakesNoFile) {
     std::ofstream(scratch / "file") << "no folder";
     try {
         const ScratchFile file(scratch / "file");
-        FAIL() << "went through";
+        FAIL() << "accepted";
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find("cannot be written (Not a directory)"), std::string::npos);
     }

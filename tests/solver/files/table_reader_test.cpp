@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One table, as many programs write it, is read alike; what cannot be meant is refused with its line, never passed
-// over.
+// Tests that a table is read the same in the formats of many programs, and that anything else is refused with its line,
+// never skipped.
 #include "solver/files/table_reader.hpp"
 
 #include <gtest/gtest.h>
@@ -96,7 +96,7 @@ TEST(TableReader, RefusesWhatCannotBeMeant) {
     EXPECT_EQ(refused("strain,stress,strain\n0,0,0\n"),
               "t.csv:1: found two columns strain, expected one; rename or remove the other");
     EXPECT_EQ(refused(""), "t.csv:1: found no heading, expected strain and stress");
-    // A row whose first value begins with # is no remark.
+    // A row whose first value begins with # is not a comment.
     EXPECT_EQ(refused("strain,stress\n#0,0\n"), "t.csv:2: found '#0', expected a number for strain");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Columns never run together.
+// Tests that columns are always separated.
 
 #include "solver/files/text_table.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which contacts are across a joint: of cells whose faces on traces are known.
+// Tests which contacts are across a joint, for cells whose faces on traces are known.
 
 #include "solver/geometry/across_joint.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 using testing::JointedCells;
 
-constexpr int most_steps = 200'000;  // of what should slide
+constexpr int most_steps = 200'000;  // limit for runs in which bodies should slide
 
 Joint of_friction(double angle) {
     Joint joint;
@@ -47,9 +47,9 @@ TEST(AcrossJoint, WhereTracesCrossTheFirstOfThoseThatPartTheBodiesCounts) {
     cells.right_of_column = {{1, 0}};
     cells.joints = {of_friction(20.0), of_friction(25.0)};
     const World world = jointed_world(cells);
-    EXPECT_EQ(between(world, 6, 10), 1) << "across the level one";
-    EXPECT_EQ(between(world, 6, 7), 0) << "across the upright one";
-    EXPECT_EQ(between(world, 6, 11), 1) << "across both: that of the first trace";
+    EXPECT_EQ(between(world, 6, 10), 1) << "across the horizontal trace";
+    EXPECT_EQ(between(world, 6, 7), 0) << "across the vertical trace";
+    EXPECT_EQ(between(world, 6, 11), 1) << "across both traces: the first one";
     EXPECT_EQ(between(world, 5, 10), 1);
     EXPECT_EQ(between(world, 5, 6), no_joint);
 }
@@ -63,7 +63,7 @@ TEST(AcrossJoint, ATraceThatIsAsTheRockHasNone) {
     EXPECT_EQ(between(world, 5, 9), 0);
 }
 
-/// The numbers of laws that occur among points of bodies on both sides, and elsewhere.
+/// Indices of the laws of points between bodies on opposite sides, and of all other points.
 TEST(AcrossJoint, PointsHaveItsLawBondedBrokenAndMetLater) {
     JointedCells cells;
     cells.above_row = {{1, 0}};
@@ -83,7 +83,7 @@ TEST(AcrossJoint, PointsHaveItsLawBondedBrokenAndMetLater) {
         EXPECT_GT(elsewhere, 0) << when;
     };
     check("bonded");
-    // The upper half slides over the lower one by more than a cell, so that each meets others.
+    // The upper half slides over the lower one by more than a cell, so that each cell meets others.
     for (int id = 1; id <= 16; ++id) {
         BodyState& body = world.bodies.state[body_of_id(world, id)];
         body.vx = id > 8 ? 1.0 : -1.0;
@@ -131,7 +131,7 @@ TEST(AcrossJoint, LawsAreTheSameHoweverWideTheListsSkinIs) {
     cells.joints = {of_friction(20.0)};
     cells.joints[0].bonded = false;
     Scene scene = jointed_scene(cells);
-    scene.time_step = 4e-7;  // one that is derived follows what is listed
+    scene.time_step = 4e-7;  // fixed, since an automatic step depends on the listed points
     std::vector<BodyState> ends[2];
     for (const bool wide : {false, true}) {
         scene.skin = wide ? 0.02 : 0.002;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shares of stiffness and strength in area units (solver/MODEL.md 4.5), on cells and discs whose faces are known.
+// Tests stiffness and strength factors in area units (solver/MODEL.md 4.5) for cells and discs whose faces are known.
 
 #include "solver/geometry/contact_share.hpp"
 
@@ -66,15 +66,16 @@ TEST(ContactShare, OfHexagonsIsTheirFaceBeforeTheInsetOverTheDistanceOfCentroids
     const double length = 2.0 * apothem / std::sqrt(3.0);
     const FaceSum face = face_between(world, 1, 2);
     EXPECT_EQ(face.points, 4);
-    // Shares are floats, of 6e-8 of themselves.
+    // Factors are stored in single precision, with a relative error of 6e-8.
     EXPECT_TRUE(agrees("k_n = E_c L/l, N/m", face.stiffness, modulus * length / (2.0 * apothem), 1e-6));
     EXPECT_TRUE(agrees("T = s_t L, N", face.tensile, tensile * length, 1e-6));
     EXPECT_TRUE(agrees("C = c L, N", face.cohesion, cohesion * length, 1e-6));
 }
 
 TEST(ContactShare, OfAFaceWhoseCornersOverhangAfterTheInsetGoesByTheGapOfTheFaces) {
-    // A rectangle below and a trapezoid above that share a face of 2 cm, each inset by half the thickness. The corners
-    // of the trapezoid, which turn by 45 degrees there, lie 0.293 of the thickness beyond those of the rectangle.
+    // A rectangle below and a trapezoid above share a face of 2 cm, and each is inset by half the thickness. The
+    // outline of the trapezoid turns by 45 degrees at the face's ends, so its corners are 0.293 of the thickness beyond
+    // those of the rectangle.
     constexpr double length = 0.02, thick = 1e-3, inset = 0.5 * thick;
     const double along = inset * std::tan(std::numbers::pi / 8.0),
                  at_top = inset * std::tan(3.0 * std::numbers::pi / 8.0);
@@ -94,7 +95,7 @@ TEST(ContactShare, OfAFaceWhoseCornersOverhangAfterTheInsetGoesByTheGapOfTheFace
                          true);
     const World world = bonded(scene, thick, 0.05 * thick);
     const FaceSum face = face_between(world, 1, 2);
-    ASSERT_EQ(face.points, 4) << "those that overhang are bonded, too";
+    ASSERT_EQ(face.points, 4) << "overhanging ones are bonded too";
     const BodyState &a = world.bodies.state[body_of_id(world, 1)], &b = world.bodies.state[body_of_id(world, 2)];
     const double distance = std::hypot(a.x - b.x, a.y - b.y);
     EXPECT_TRUE(agrees("k_n, N/m", face.stiffness, modulus * length / distance, 1e-6));
@@ -113,7 +114,7 @@ TEST(ContactShare, OfDiscsIsTwiceTheSmallerRadiusOverTheSumOfBoth) {
     EXPECT_TRUE(agrees("T, N", contact.tensile, tensile * 0.02, 1e-6));
 }
 
-/// Square cells `thick` apart between two held slabs, the upper last.
+/// A column of cells at distances of `thick` between two held slabs; the upper slab is last.
 Scene column(int cells, double width, double height, double thick) {
     Scene scene;
     scene.materials = {rock()};
@@ -156,7 +157,7 @@ TEST(ContactShare, OfACornerMetLaterIsHalfTheEdgesThatMeetInIt) {
     scene.units = StiffnessUnits::area;
     scene.materials[0].tensile_strength = scene.materials[0].cohesion = 0.0;
     scene.add_chain_body(1, 0, {{0.0, 0.0}, {side, 0.0}, {side, side}, {0.0, side}}, true);
-    const double d = side / std::sqrt(2.0), y = side + 1e-3;  // standing on its corner, a gap of the thickness above
+    const double d = side / std::sqrt(2.0), y = side + 1e-3;  // standing on a corner, at a gap equal to the thickness
     scene.add_chain_body(2, 0, {{0.02, y}, {0.02 + d, y + d}, {0.02, y + 2.0 * d}, {0.02 - d, y + d}}, true);
     const World world = build_world(scene);
     ASSERT_EQ(world.points.size(), 1U);

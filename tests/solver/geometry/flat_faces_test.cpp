@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Flat faces of circles at a trace: which circle has which part of it, and what two of them do to each other.
+// Tests flat faces of circles at a trace: how the trace is divided among circles, and the forces between two faces.
 
 #include "solver/geometry/flat_faces.hpp"
 
@@ -67,7 +67,7 @@ TEST(FlatFaces, ShareATraceByPower) {
 
 TEST(FlatFaces, LieFlushAndLapOverTheWholeTrace) {
     JointedCircles circles;
-    circles.from = {0.008, 0.076};  // not where rows end
+    circles.from = {0.008, 0.076};  // does not coincide with ends of rows
     circles.to = {0.232, 0.124};
     const World world = bonded_circles(scene_of(circles));
     double laps = 0.0;
@@ -81,7 +81,7 @@ TEST(FlatFaces, LieFlushAndLapOverTheWholeTrace) {
         }
     }
     EXPECT_NEAR(laps, norm(circles.to - circles.from), 1e-12);
-    // No other contact is between circles on opposite sides.
+    // There are no other contacts between circles on opposite sides.
     for (PointIndex k = 0; k < begin_of_faces(world); ++k) {
         const auto i = world.bodies.flat_faces_of(world.points.contact[k].body_i),
                    j = world.bodies.flat_faces_of(world.points.contact[k].body_j);
@@ -115,7 +115,7 @@ TEST(FlatFaces, AreOfCirclesThatTheirSideHolds) {
             EXPECT_GE(neighbours, 2) << "a circle at " << body.x << ", " << body.y;
         }
         std::cout << degrees << " degrees: " << over << " of " << world.bodies.flat_faces.size()
-                  << " circles have gone over to the other side, " << without << " have none of the trace\n";
+                  << " circles have changed sides, " << without << " have none of the trace\n";
     }
 }
 
@@ -138,7 +138,7 @@ TEST(FlatFaces, EndWithTheirTrace) {
 }
 
 TEST(FlatFaces, PartCirclesBeyondAnEndOutside) {
-    // Across a corner of the specimen: circles there have their feet beyond the end.
+    // The trace cuts off a corner of the specimen; some circles there project beyond its end.
     const auto crossing = [](bool outside) {
         Scene scene = scene_of({});
         const Vec2 from{-0.01, 0.05}, to{0.23, 0.19};
@@ -173,7 +173,7 @@ TEST(FlatFaces, FollowABendOnBothSides) {
     }
 }
 
-/// Random velocities and spins.
+/// Gives bodies random velocities and spins.
 void stir(World& world, double speed) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> v(-speed, speed);
@@ -245,7 +245,7 @@ TEST(FlatFaces, EnergyClosesToSecondOrderInTheStep) {
     EXPECT_LT(errors[1], 0.35 * errors[0]);
 }
 
-/// Two blocks with a joint along x between them, the upper one pressed on. @param pressed N
+/// Two blocks with a joint along x between them; the upper one is pressed down. @param pressed force, N
 Scene pressed_scene(Joint joint, double friction, double pressed, double turn = 0.0) {
     JointedCircles circles;
     circles.turn = turn;
@@ -268,7 +268,7 @@ Scene pressed_scene(Joint joint, double friction, double pressed, double turn = 
     return scene;
 }
 
-/// Pushes the upper block along once it has come to rest. @param speed m/s
+/// Moves the upper block along the joint after it has come to rest. @param speed m/s
 void push(World& world, double speed, std::int64_t rest_steps = 3000) {
     while (world.stepping.steps < rest_steps) step(world);
     for (const ControlState& control : world.bodies.controls)
@@ -284,7 +284,7 @@ double pull_on(const World& world) {
 
 TEST(FlatFaces, SlideFartherThanACircleAtCoulombsLimit) {
     constexpr double pressed = 2e5, friction = 25.0, speed = 0.1;  // N, degrees, m/s
-    for (const double degrees : {0.0, 17.0, 40.0}) {               // of the joint against the rows
+    for (const double degrees : {0.0, 17.0, 40.0}) {               // angle between joint and rows
         const double turn = degrees * std::numbers::pi / 180.0;
         World world = bonded_circles(pressed_scene(open_joint(friction), friction, pressed, turn));
         push(world, speed);
@@ -309,15 +309,15 @@ TEST(FlatFaces, SlideFartherThanACircleAtCoulombsLimit) {
     }
 }
 
-// Faces that part because circles turn do not meet again at once. Blocks pressed together by an open joint, whose
-// circles are set spinning; without friction or damping all energy stays theirs.
+// Faces that separate because circles rotate must not touch again at once. Blocks are pressed together by an open joint
+// and their circles are set spinning; without friction and damping the energy must be conserved.
 TEST(FlatFaces, GainNoEnergyAsTurningOpensThem) {
     Scene scene = pressed_scene(open_joint(0.0), 0.0, 2e5);
     scene.materials[0].damping_ratio = 0.0;
     scene.intact.no_breaking = true;
     scene.step_scale = 0.1;
     World world = bonded_circles(scene);
-    push(world, 5.0, 1000);  // m/s, until others meet than those that did at first
+    push(world, 5.0, 1000);  // m/s, until faces meet other faces than initially
     for (const double start = world.stepping.time; world.stepping.time < start + 0.015 / 5.0;) step(world);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> spin(-2000.0, 2000.0);  // rad/s
@@ -325,7 +325,7 @@ TEST(FlatFaces, GainNoEnergyAsTurningOpensThem) {
         if (body.y > 0.01 && body.y < 0.18) body.omega = spin(random);
     velocities_changed(world);
     compute_forces(world);
-    const Ledger begin = measure_ledger(world);  // whose account does not know of the spins
+    const Ledger begin = measure_ledger(world);  // its account does not include the spins
     double worst = 0.0;
     for (int n = 0; n < 20000; ++n) {
         step(world);
@@ -343,7 +343,7 @@ TEST(FlatFaces, KeepTheirLapWhileTheyAreBonded) {
     velocities_changed(world);
     using Pair = std::pair<std::uint32_t, std::uint32_t>;
     const auto bonded_laps = [&] {
-        std::map<Pair, double> laps;  // by faces
+        std::map<Pair, double> laps;  // keyed by pairs of faces
         for (PointIndex k = begin_of_faces(world); k < end_of_faces(world); ++k) {
             const ContactPoint point = world.points.contact[k];
             if ((world.points.state[k].flags & point_bonded) != 0)
@@ -353,7 +353,7 @@ TEST(FlatFaces, KeepTheirLapWhileTheyAreBonded) {
     };
     const std::map<Pair, double> before = bonded_laps();
     for (int n = 0; n < 200; ++n) step(world);
-    double moved = 0.0;  // m, of faces along each other
+    double moved = 0.0;  // m, displacement of faces along each other
     for (PointIndex k = begin_of_faces(world); k < end_of_faces(world); ++k)
         if ((world.points.state[k].flags & point_bonded) != 0)
             moved = std::max(
@@ -368,7 +368,7 @@ TEST(FlatFaces, KeepTheirLapWhileTheyAreBonded) {
 TEST(FlatFaces, MoveAlikeWheneverTheListIsBuilt) {
     const auto run = [](bool often) {
         Scene scene = pressed_scene(open_joint(25.0), 25.0, 2e5);
-        scene.time_step = 1e-6;  // derived ones follow the list
+        scene.time_step = 1e-6;  // fixed, since an automatic step depends on the list
         World world = bonded_circles(scene);
         push(world, 2.0, 1000);
         while (world.stepping.steps < 6000) {
@@ -437,7 +437,7 @@ TEST(FlatFaces, OfAnOpenJointBearNothingUntilItsApertureHasClosed) {
     lower_the_upper_block(0.999 * aperture);
     EXPECT_NEAR(force(), 0.0, 1e-12);
     lower_the_upper_block(1.001 * aperture);
-    // Each of a row of faces: E_c λ/(r_i + r_j) in series with K_n λ.
+    // Each face in a row has E_c λ/(r_i + r_j) in series with K_n λ.
     double expected = 0.0;
     for (PointIndex k = begin_of_faces(world); k < end_of_faces(world); ++k) {
         const ContactPoint point = world.points.contact[k];
@@ -466,7 +466,7 @@ TEST(FlatFaces, BrokenBondsRubAtTheResidualAngleOfTheJoint) {
     const double start = world.stepping.time;
     while (speed * (world.stepping.time - start) < 0.02) step(world);
     compute_forces(world);
-    EXPECT_EQ(world.bonds.broken, bonds) << "the joint's, and no other";
+    EXPECT_EQ(world.bonds.broken, bonds) << "only that of the joint";
     EXPECT_NEAR(pull_on(world) / (pressed * std::tan(15.0 * std::numbers::pi / 180.0)), 1.0, 0.01);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Closest feature of outlines against plain reference geometry, the remembered edge as a mere hint, and forces as the
-// gradient of the stored energy.
+// Tests the closest feature of outlines against a simple reference. The remembered edge must be only a starting guess,
+// and forces must be the gradient of the stored energy.
 
 #include "solver/geometry/geometry.hpp"
 
@@ -22,7 +22,7 @@ namespace {
 using testing::distance_to_outline;
 using verification::rock;
 
-/// Corners on an ellipse at random angles: convex, with short edges and sharp corners among them.
+/// Corners on an ellipse at random angles: convex, including short edges and sharp corners.
 std::vector<Vec2> random_convex(std::mt19937_64& generator) {
     const std::size_t n = 3 + uniform_below(generator, 8);
     std::vector<double> angles;
@@ -58,8 +58,8 @@ TEST(ConvexOutline, EdgeFacedLastIsAMereHint) {
         const Vec2 centroid{world.bodies.state[0].x, world.bodies.state[0].y};
         for (int k = 0; k < 200; ++k) {
             Vec2 p{uniform_number(generator, -1.5, 1.5), uniform_number(generator, -1.5, 1.5)};
-            if (k % 10 == 0) p = corners[static_cast<std::size_t>(k) % corners.size()];  // on a corner itself
-            if (k % 10 == 1) {                                                           // hardly outside an edge
+            if (k % 10 == 0) p = corners[static_cast<std::size_t>(k) % corners.size()];  // exactly on a corner
+            if (k % 10 == 1) {                                                           // slightly outside an edge
                 const std::size_t e = static_cast<std::size_t>(k) % corners.size();
                 p = 0.5 * (corners[e] + corners[(e + 1) % corners.size()]);
             }
@@ -69,7 +69,7 @@ TEST(ConvexOutline, EdgeFacedLastIsAMereHint) {
             worst_distance = std::max(worst_distance, std::abs(plain.distance - expected));
             inside += expected < 0.0 ? 1 : 0;
             ++total;
-            for (std::uint32_t hint = 0; hint <= piece.edge_count; ++hint) {  // one beyond the last as well
+            for (std::uint32_t hint = 0; hint <= piece.edge_count; ++hint) {  // includes one beyond the last
                 const OutlineFacing quick =
                     detail::face_convex(world.bodies.edges.data(), piece, hint, local.x, local.y);
                 worst_hint = std::max(worst_hint, std::abs(quick.distance - plain.distance));
@@ -103,7 +103,7 @@ TEST(ConvexOutline, DistanceAndNormalAreContinuousAroundEveryCorner) {
             const OutlineFacing now =
                 face_outline(BodyView(world), world.bodies.info(0), last.edge, p.x - centroid.x, p.y - centroid.y);
             if (k > 0) {
-                // |∇d| = 1, and the normal turns no faster than about a corner at that distance.
+                // |∇d| = 1, and the normal rotates no faster than around a corner at that distance.
                 const double way = norm(p - before);
                 worst = std::max({worst, std::abs(now.distance - last.distance) / way,
                                   std::hypot(now.gx - last.gx, now.gy - last.gy) * now.distance / way});
@@ -146,7 +146,8 @@ TEST(NonConvexOutline, DistanceOutsideIsThatOfTheWholeOutline) {
     EXPECT_LT(worst_open, 1e-13);
 }
 
-/// Two bodies near each other, without friction: force and moment must be minus the gradient of the stored energy.
+/// Two close bodies without friction: force and moment must be minus the gradient of the stored energy. @return largest
+/// error
 double gradient_error(Scene scene, int samples) {
     std::mt19937_64 generator(10);
     scene.materials = {rock(0.0)};
@@ -169,7 +170,7 @@ double gradient_error(Scene scene, int samples) {
         if (energy(world) == 0.0) continue;
         world.list.valid = false;
         compute_forces(world);
-        bool deep = false;  // the distance of an inside point has ridges where its closest edge changes
+        bool deep = false;  // inside, the gradient of the distance jumps where the closest edge changes
         for (PointIndex p = 0; p < world.points.size(); ++p) {
             const PointView view = view_point(world, p);
             deep = deep || view.overlap > 0.19;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The guide's contact of segments by hand: rules (i) to (iv), their resultant, corners, joints and free ends.
+// Tests the guide's segment law against results by hand: rules (i) to (iv), their resultant, corners, joints and free
+// ends.
 
 #include "solver/geometry/guide_segments.hpp"
 
@@ -21,7 +22,7 @@ using testing::agrees;
 using testing::within;
 using verification::rock;
 
-// Disc of radius 5 with its centre 3 above or below the line: l = 4. Segment of length 20: h_s = 10.
+// A disc of radius 5 with its centre 3 above or below the line has l = 4; a segment of length 20 has h_s = 10.
 constexpr double radius = 5.0, height = 3.0;
 const Bar bar{{0.0, 0.0}, {1.0, 0.0}, 20.0};
 
@@ -59,12 +60,14 @@ TEST(DiscAgainstSegment, FollowsTheGuidesFourRules) {
 }
 
 TEST(DiscAgainstSegment, OnTheLineIsPushedOutwardAndBehindItIsPushedOnBehind) {
-    // α has no sign: what got through is not pushed back. Counter-clockwise outlines have this bar's outside below.
+    // α is unsigned, so a disc that has passed through is not pushed back. For counter-clockwise outlines, the outside
+    // of this bar is below.
     EXPECT_TRUE(within("normal on the line, y", disc_case(bar, {10.0, 0.0}, radius).normal.y, 1.0, 0.0));
     EXPECT_TRUE(within("normal just inside, y", disc_case(bar, {10.0, 1e-9}, radius).normal.y, -1.0, 0.0));
 }
 
-/// Force over stiffness of a disc that passes along the bars at constant height, y component summed.
+/// Force divided by stiffness, y component, on a disc that moves along the bars at constant height, summed over all
+/// bars.
 double push(const std::vector<Bar>& bars, double x) {
     double sum = 0.0;
     for (const Bar& b : bars) {
@@ -88,7 +91,8 @@ TEST(DiscAgainstSegment, JumpsAtAFreeEndButNotAtAStraightJoint) {
     EXPECT_TRUE(
         within("jump of the force over k at a free end, r - |α|", push(free, -1e-9) - push(free, 1e-9), 2.0, 1e-8));
     EXPECT_TRUE(within("the same by sampling", largest_jump(free, -6.0, 6.0, 120001), 2.0, 1e-3));
-    // Steepest where (iii) and (ii) run apart; a thousandth of the way changes at most what that slope allows.
+    // The slope is largest at the transition between (iii) and (ii); in a thousandth of the distance, the force changes
+    // at most by what that slope allows.
     const double coarse = largest_jump(joined, -6.0, 6.0, 12001), fine = largest_jump(joined, -6.0, 6.0, 120001);
     fmt::print("  straight joint: largest change of a step {:.3g} at 1e-3, {:.3g} at 1e-4\n", coarse, fine);
     EXPECT_LT(fine, 0.11 * coarse);
@@ -112,7 +116,7 @@ DiscResultant::Contact resultant_of(const std::vector<Disc>& discs, bool mean) {
 
 TEST(DiscResultant, AddsVectorsAtTheWeightedMeanPlaceAndCancels) {
     const Bar upright{{30.0, -10.0}, {0.0, 1.0}, 20.0};
-    // 2 downwards at (10, 0) and 1 to the right at (30, 0).
+    // The resultant of 2 downwards at (10, 0) and 1 to the right at (30, 0).
     const std::vector<Disc> two{{bar, {10.0, 3.0}, radius, 1.0}, {upright, {26.0, 0.0}, radius, 1.0}};
     const DiscResultant::Contact sum = resultant_of(two, false), mean = resultant_of(two, true);
     EXPECT_TRUE(agrees("overlap of the sum", sum.overlap, std::sqrt(5.0), 1e-14));
@@ -141,7 +145,7 @@ Scene empty_scene(SegmentLaw law) {
 
 std::vector<Vec2> square_at(double x, double y) { return {{x, y}, {x + 0.04, y}, {x + 0.04, y + 0.04}, {x, y + 0.04}}; }
 
-/// Force of i on j over the stiffness along x, m, and the overlaps of the points that touch, largest first.
+/// Force of i on j along x divided by the stiffness, m, and the overlaps of the touching points, in descending order.
 std::pair<double, std::vector<double>> pressed(Scene scene) {
     World world = build_world(std::move(scene));
     compute_forces(world);
@@ -155,8 +159,9 @@ std::pair<double, std::vector<double>> pressed(Scene scene) {
 }
 
 TEST(SegmentPairs, FacesAMillimetreApartCarryTheirFourDiscsTwice) {
-    // Squares 1 mm apart, shifted by 1 cm, t = 1.08 mm: two corners lie before the other's face, each at 0.08 mm. Each
-    // is the end of a facing edge and of an edge at right angles to it. Rounded: two points of 0.08 mm.
+    // Squares at a gap of 1 mm, shifted by 1 cm, t = 1.08 mm: two corners face the other square's edge, each with an
+    // overlap of 0.08 mm. Each corner is the end of a facing edge and of an edge perpendicular to it. The rounded law
+    // gives two points with 0.08 mm.
     const double once = 8e-5;
     for (const SegmentLaw law : {SegmentLaw::rounded, SegmentLaw::demseg, SegmentLaw::demseg_mean}) {
         Scene scene = empty_scene(law);
@@ -168,7 +173,7 @@ TEST(SegmentPairs, FacesAMillimetreApartCarryTheirFourDiscsTwice) {
             continue;
         }
         const bool sum = law == SegmentLaw::demseg;
-        ASSERT_EQ(overlaps.size(), 3u) << "face with face, and each corner's other edge with the other's face";
+        ASSERT_EQ(overlaps.size(), 3u) << "the two faces, and each corner's other edge with the opposite face";
         EXPECT_TRUE(agrees("facing pair", overlaps[0], sum ? 2.0 * once : once, 1e-11));
         EXPECT_TRUE(agrees("edge at right angles", overlaps[1], once, 1e-11));
         EXPECT_TRUE(agrees("edge at right angles", overlaps[2], once, 1e-11));
@@ -177,7 +182,7 @@ TEST(SegmentPairs, FacesAMillimetreApartCarryTheirFourDiscsTwice) {
 }
 
 TEST(SegmentPairs, ACornerIsTwiceAsStiffAsASide) {
-    // A circle of 2 cm that comes within r + t of a side, or of a corner along its bisector, by 0.1 mm.
+    // A circle of radius 2 cm that overlaps a side, or a corner along its bisector, by 0.1 mm at a distance of r + t.
     const double reach = 0.02 + 1.08e-3 - 1e-4;
     const auto force = [&](Vec2 centre) {
         Scene scene = empty_scene(SegmentLaw::demseg);
@@ -195,8 +200,8 @@ TEST(SegmentPairs, ACornerIsTwiceAsStiffAsASide) {
 }
 
 TEST(SegmentPairs, ASegmentOfItsOwnIsTwoThicknessesWide) {
-    // Parallel open segments: a gap below t touches, from either side; the guide's 2t is the width seen by what is
-    // bare.
+    // Parallel open segments touch at a gap below t, from either side; in the guide, 2t is the width as seen from a
+    // bare segment.
     for (const double gap : {1.07e-3, -1.07e-3, 1.09e-3}) {
         Scene scene = empty_scene(SegmentLaw::demseg);
         scene.add_chain_body(1, 0, {{0.0, 0.0}, {0.04, 0.0}}, false);
@@ -210,7 +215,7 @@ TEST(SegmentPairs, ASegmentOfItsOwnIsTwoThicknessesWide) {
 }
 
 TEST(SegmentPairs, GradientOfTheOverlapIsThatOfDifferences) {
-    // Two skew polygons pushed into each other at random: every rule and mixtures of them.
+    // Two polygons pushed into each other at random angles: every rule and combinations of rules occur.
     std::mt19937_64 generator(4);
     const auto uniform = [&](double low, double high) { return low + (high - low) * uniform_number(generator); };
     for (const SegmentLaw law : {SegmentLaw::demseg, SegmentLaw::demseg_mean}) {
@@ -244,7 +249,7 @@ TEST(SegmentPairs, GradientOfTheOverlapIsThatOfDifferences) {
                     return (moved(h) - moved(-h)) / (2.0 * h);
                 };
                 double error = 0.0;
-                bool smooth = true;  // no rule changes within the difference
+                bool smooth = true;  // whether the rule stays the same within the finite difference
                 for (std::size_t d = 0; d < 6; ++d) {
                     const BodyIndex b = d < 3 ? view.body_i : view.body_j;
                     const double once = slope(b, static_cast<int>(d % 3), 1e-6),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a bond law states to code outside the kernels: its constants, what a break leaves, and when it fails in a linear
-// solution. A bond of k_n = 1e7 N/m, k_s = 2e6 N/m.
+// Tests the functions of a bond law for code outside the kernels: its constants, the state after a break, and failure
+// in a linear solution. The bond has k_n = 1e7 N/m and k_s = 2e6 N/m.
 
 #include "solver/laws/bond_law.hpp"
 

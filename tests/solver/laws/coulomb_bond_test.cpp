@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The coulomb bond (solver/MODEL.md 5.2) against its envelope and energies: two discs, one held, the other driven.
+// Tests envelope and energies of the coulomb bond (solver/MODEL.md 5.2) with two discs, one held and the other driven.
 
 #include "solver/laws/coulomb_bond.hpp"
 
@@ -23,7 +23,7 @@ using testing::agrees;
 using testing::within;
 
 constexpr double radius = 0.02, overlap = 1e-7, stiffness = 1e7, shear_share = 0.25, time_step = 1e-5;
-constexpr double tensile = 2.0, cohesion = 3.0;  // N; k_n δ0 is 1 N: such a bond parts at a gap
+constexpr double tensile = 2.0, cohesion = 3.0;  // N; k_n δ0 is 1 N, so the bond breaks only at a gap
 const double friction = std::tan(30.0 * std::numbers::pi / 180.0), residual = std::tan(20.0 * std::numbers::pi / 180.0);
 
 Material strong_rock() {
@@ -35,8 +35,8 @@ Material strong_rock() {
     return material;
 }
 
-/// Two bonded discs side by side; the one on the right is driven by these changes of the bond's forces a step, N. The
-/// other is far too heavy to follow, and free to turn, or nothing would be left to compute.
+/// Two bonded discs side by side. The right one is driven such that the bond's forces change by these amounts per step,
+/// N. The other is free to rotate, since nothing would be computed otherwise, but far too heavy to move.
 World driven_pair(double normal, double shear, double gap = -overlap) {
     Scene scene;
     scene.materials = {strong_rock()};
@@ -62,18 +62,18 @@ const BreakEvent& broken(World& world, int most = 100000) {
     return world.bonds.events.at(0);
 }
 
-/// How far beyond the envelope, N.
+/// Distance of a force beyond the envelope, N.
 double excess(double normal, double shear) {
     return std::max(-tensile - normal, std::abs(shear) - cohesion - friction * normal);
 }
 
 TEST(CoulombBond, BreaksOnItsEnvelopeAtAnyAngleToFirstOrderInTheStep) {
-    // The corner of the envelope lies at f_n = -2, |f_t| = 3 - 2 tan 30° = 1.845: 137.3 degrees.
+    // The corner of the envelope is at f_n = -2, |f_t| = 3 - 2 tan 30° = 1.845, or 137.3 degrees.
     for (const double degrees : {0.0, 45.0, 90.0, 120.0, 135.0, 140.0, 180.0}) {
         const double angle = degrees * std::numbers::pi / 180.0;
         double last = 0.0;
         for (const int finer : {1, 2, 4}) {
-            const double force = 0.01 / finer;  // N a step
+            const double force = 0.01 / finer;  // N per step
             World world = driven_pair(force * std::cos(angle), force * std::sin(angle));
             if (degrees == 0.0) {
                 for (int n = 0; n < 2000; ++n) step(world);
@@ -82,7 +82,8 @@ TEST(CoulombBond, BreaksOnItsEnvelopeAtAnyAngleToFirstOrderInTheStep) {
             }
             const BreakEvent event = broken(world);
             const double beyond = excess(event.normal_force, event.shear_force);
-            // A step's growth of |f_t| - μ f_n, and the turn of the normal by the slip, 1e-7 over 4 cm.
+            // The tolerance is the increase of |f_t| - μ f_n in a step, plus the rotation of the normal by the slip,
+            // 1e-7 over 4 cm.
             EXPECT_TRUE(within("beyond the envelope, N", beyond, 0.0, (1.0 + friction) * force + 1e-4)) << degrees;
             EXPECT_GE(beyond, -1e-9);
             EXPECT_EQ(event.shear_mode, degrees < 137.0) << degrees;
@@ -95,7 +96,8 @@ TEST(CoulombBond, BreaksOnItsEnvelopeAtAnyAngleToFirstOrderInTheStep) {
 
 TEST(CoulombBond, OfTwoLimitsExceededInOneStepTheFirstOnTheWayDecides) {
     const BondStrength<double> strength{2.0, 3.0, 0.5};
-    // From rest the shear limit is met at (3 - 0.5 a)/b of the way to (-a, b), the tensile one at 2/a.
+    // Starting at zero force, the shear limit is reached at the fraction (3 - 0.5 a)/b of the path to (-a, b), the
+    // tensile limit at 2/a.
     EXPECT_TRUE(CoulombBond::shear_comes_first(strength, {0.0, 0.0}, {-4.0, 9.0}));   // 3/11 against 1/2
     EXPECT_FALSE(CoulombBond::shear_comes_first(strength, {0.0, 0.0}, {-9.0, 3.0}));  // 3/7.5 against 2/9
     EXPECT_TRUE(CoulombBond::shear_comes_first(strength, {0.0, 0.0}, {-4.0, -9.0}));
@@ -106,7 +108,7 @@ TEST(CoulombBond, OfTwoLimitsExceededInOneStepTheFirstOnTheWayDecides) {
 TEST(CoulombBond, InTensionTakesTheEnergyOfItsSpring) {
     World world = driven_pair(-1e-3, 0.0);
     const BreakEvent event = broken(world);
-    // Within a step of the strength; the account of a step takes x'x for x².
+    // The break is found within a step of the strength; the energy account of a step uses x'x instead of x².
     EXPECT_TRUE(agrees("energy, J", event.energy, 0.5 * tensile * tensile / stiffness, 2e-3));
     EXPECT_TRUE(agrees("strength, N", event.strength, tensile, 1e-7));
     for (int n = 0; n < 10; ++n) step(world);
@@ -121,7 +123,8 @@ TEST(CoulombBond, InShearTakesTheEnergyOfItsSpringLessWhatFrictionKeeps) {
     EXPECT_TRUE(agrees("strength, N", event.strength, cohesion, 1e-3));
 }
 
-/// A blow so hard that a force turns and reaches its limit in one step: what it had was given back on the way.
+/// In a strong impact, a force changes its sign and reaches its limit in one step; its energy before was returned on
+/// the way.
 TEST(CoulombBond, TakesNothingOfAForceThatTurnedInTheStepOfItsBreak) {
     const BondStrength<double> strength{tensile, cohesion, friction};
     Law<double> law{};
@@ -133,7 +136,8 @@ TEST(CoulombBond, TakesNothingOfAForceThatTurnedInTheStepOfItsBreak) {
         return CoulombBond::break_bond(law, strength, before, now, now.normal / stiffness, overlap).energy;
     };
     const double of_normal = 0.5 * 0.5 * 2.5 / stiffness, of_shear = 0.5 * 1.0 * 4.0 / law.shear_stiffness;
-    // Pulled at its break: nothing is left, and rubs; the account of a step takes x'x for x², f'f for f².
+    // The bond breaks in tension, so no force remains. The energy account of a step uses x'x instead of x², and f'f
+    // instead of f².
     EXPECT_TRUE(agrees("neither, J", energy({-0.5, 1.0}, {-2.5, 4.0}), of_normal + of_shear, 1e-12));
     EXPECT_TRUE(agrees("the normal one, J", energy({0.5, 1.0}, {-2.5, 4.0}), of_shear, 1e-12));
     EXPECT_TRUE(agrees("the shear one, J", energy({-0.5, -1.0}, {-2.5, 4.0}), of_normal, 1e-12));
@@ -154,7 +158,7 @@ TEST(CoulombBond, BrokenInShearUnderPressureGoesOnPushingAndRubsAtTheResidualFri
         agrees("energy, J", event.energy, 0.5 * (sticks * sticks - rubs * rubs) / (shear_share * stiffness), 2e-3));
     compute_forces(world);
     const PointView after = view_point(world, 0);
-    // The slip of 2.4e-6 m lengthens the way between the centres by 7e-11 m: 7e-4 N.
+    // The slip of 2.4e-6 m increases the distance of the centres by 7e-11 m, which is 7e-4 N.
     EXPECT_TRUE(agrees("pushes as before, N", after.normal_force, 5.0, 3e-4)) << "its rest overlap stays";
     EXPECT_TRUE(agrees("rubs, N", std::abs(after.shear_force), residual * after.normal_force, 1e-9));
     for (int n = 0; n < 100; ++n) step(world);
@@ -165,7 +169,8 @@ TEST(CoulombBond, BrokenInShearUnderPressureGoesOnPushingAndRubsAtTheResidualFri
 }
 
 TEST(CoulombBond, OfAGapFallsToWhatTheSurfacesPushWith) {
-    // Bonded at a gap of 1 N over k_n; squeezed by 0.5 N it still gapes, and lets go of all when it shears.
+    // Bonded at a gap of 1 N / k_n. Under a compression of 0.5 N the gap is still open, so no force remains after a
+    // break in shear.
     World world = driven_pair(5e-3, 0.0, overlap);
     for (int n = 0; n < 100; ++n) step(world);
     change_velocity(world, 1, 0, 0.0);
@@ -183,7 +188,7 @@ TEST(CoulombBond, CycleBelowTheEnvelopeLosesNothing) {
     World world = driven_pair(-1e-2, 1e-2);
     for (int n = 0; n < 80; ++n) step(world);
     for (const double back : {-1.0, 1.0, -1.0}) {
-        compute_forces(world);  // the slip so far is that of the velocity before
+        compute_forces(world);  // the slip so far is due to the previous velocity
         change_velocity(world, 1, 0, back * 1e-2 / stiffness / time_step);
         change_velocity(world, 1, 1, back * 1e-2 / (shear_share * stiffness) / time_step);
         for (int n = 0; n < 80; ++n) step(world);
@@ -192,12 +197,13 @@ TEST(CoulombBond, CycleBelowTheEnvelopeLosesNothing) {
     EXPECT_EQ(world.bonds.broken, 0);
     EXPECT_EQ(world.account.friction_loss, 0.0);
     EXPECT_EQ(world.account.fracture_loss, 0.0);
-    // The slip of 3e-7 m lengthens the way between the centres by 1e-12 m.
+    // The slip of 3e-7 m increases the distance of the centres by 1e-12 m.
     EXPECT_TRUE(within("normal force left, N", view_point(world, 0).normal_force, 0.0, 2e-5));
     EXPECT_TRUE(within("shear force left, N", view_point(world, 0).shear_force, 0.0, 2e-5));
 }
 
-/// With the strengths that a bond has by its overlap it is a back-tension bond, until something slips or breaks.
+/// If its strengths equal those due to its overlap, it behaves like a back-tension bond until something slips or
+/// breaks.
 TEST(CoulombBond, WithTheStrengthsOfItsOverlapIsABackTensionBondUntilTheFirstSlip) {
     constexpr double lattice_overlap = 8e-5;
     Scene scene = triangular_lattice(9, 9, 0.02, lattice_overlap, undamped_rock(1e7, 27.0));
@@ -208,7 +214,7 @@ TEST(CoulombBond, WithTheStrengthsOfItsOverlapIsABackTensionBondUntilTheFirstSli
     Scene strong = scene;
     strong.bond_law = BondLaw::coulomb;
     strong.materials[0].tensile_strength = 1e7 * lattice_overlap;
-    strong.materials[0].cohesion = mu * 1e7 * lattice_overlap * (1.0 + 1e-9);  // rounding of the overlaps
+    strong.materials[0].cohesion = mu * 1e7 * lattice_overlap * (1.0 + 1e-9);  // allows for round-off
     strong.materials[0].residual_friction_angle = 27.0;
     World by_overlap = build_world(scene), by_strength = build_world(strong);
     bond_all(by_overlap, 0.0);
@@ -225,7 +231,7 @@ TEST(CoulombBond, WithTheStrengthsOfItsOverlapIsABackTensionBondUntilTheFirstSli
         farthest = std::max(farthest, norm({one.x - other.x, one.y - other.y}));
         fastest = std::max(fastest, norm({one.vx, one.vy}));
     }
-    // Forces are rounded differently: k(δ - δ0), and kδ - kδ0, by 1e-16 of kδ0 each of 500 steps.
+    // k(δ - δ0) and kδ - kδ0 differ by 1e-16 of kδ0 in each of 500 steps.
     EXPECT_TRUE(within("apart, m", farthest, 0.0, 1e-10 * lattice_overlap));
     EXPECT_GT(fastest, 1e-4);
 }

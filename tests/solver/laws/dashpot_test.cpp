@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Dashpots by themselves: closed forms for one point, and the same bytes for points in lanes.
+// Tests dashpots alone: closed forms for one point, and identical bytes for points in lanes.
 
 #include "solver/laws/dashpot.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The friction law by itself: closed forms for one point, and the same bytes for points in lanes.
+// Tests the friction law alone: closed forms for one point, and identical bytes for points in lanes.
 
 #include "solver/laws/friction.hpp"
 
@@ -35,7 +35,8 @@ TEST(Friction, SticksBelowCoulombsLimitAndSlidesAtIt) {
 }
 
 TEST(Friction, SliderAndSpringTakeTheWorkOfTheMeanForce) {
-    // Closed form: ½(f0 + f1)·Δu on the body against it = ½f1²/k - ½f0²/k + loss, whatever part of the step slides.
+    // Closed form: the work ½(f0 + f1)·Δu done against the force equals ½f1²/k - ½f0²/k + loss, whatever part of the
+    // step slides.
     const Law<double> law(law_with(mu, k_s));
     const double before = -40.0, slip = 1e-5;
     const ShearTrial<double> trial = try_shear(law, before, slip, 1e-5);

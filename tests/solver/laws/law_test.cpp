@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How two materials act together at a contact, and how two unequal masses rebound. Where there is no Coulomb resistance
-// or no shear spring, the shear dashpot cannot drag without limit.
+// Tests how the properties of two materials combine at a contact, and how two unequal masses rebound. Without Coulomb
+// resistance or a shear spring, the force of the shear dashpot must be limited.
 
 #include <cmath>
 #include <numbers>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr double gravity = 9.81, speed = 0.1;
 
-/// A disc of radius 2 cm thrown along the floor on which it rests; another material in the scene has friction.
+/// A disc of radius 2 cm thrown along the floor on which it lies; another material in the scene has friction.
 World thrown_disc(double friction_angle, double shear_damping) {
     Scene scene;
     Material material;
@@ -70,7 +70,7 @@ Material material_of(double normal_stiffness, double shear_stiffness, double fri
     return material;
 }
 
-/// Discs of radii 1 and 3 cm and of different materials, overlapping by `overlap` and meeting at `speed` each.
+/// Discs of radii 1 and 3 cm and of different materials that overlap by `overlap` and approach with `speed_each`.
 World two_discs(const Material& a, const Material& b, double overlap, double speed_each, double time_step) {
     Scene scene;
     scene.materials = {a, b};
@@ -95,12 +95,12 @@ TEST(TwoMaterials, SpringsStandInSeriesAndTheLowerFrictionCounts) {
 }
 
 TEST(TwoMaterials, UnequalDiscsReboundByTheirEffectiveMassAndDashpotsInSeries) {
-    // Closed form of one spring and dashpot, contact until the overlap is 0: e = exp(-πh/sqrt(1 - h²)),
-    // h = c/(2 sqrt(k m)), m = m1 m2/(m1 + m2). The lagged dashpot converges to it at first order in the step.
+    // Closed form of one spring and dashpot, with contact until the overlap is 0: e = exp(-πh/sqrt(1 - h²)),
+    // h = c/(2 sqrt(k m)), m = m1 m2/(m1 + m2). The error of the lagged dashpot is of first order in the step.
     Material a = material_of(1e7, 2e6, 0.0), b = material_of(3e7, 8e6, 0.0);
     const double m1 = 2500.0 * std::numbers::pi * 1e-4, m2 = 9.0 * m1, mass = m1 * m2 / (m1 + m2), k = 1.5e7;
     const double half_dashpot = 0.2 * std::sqrt(k * mass);  // c/2 for h = 0.2
-    a.normal_damping = 2.0 * half_dashpot * 2.0 / 3.0;      // in series with twice as much: 2·c1·c2/(c1 + c2)
+    a.normal_damping = 2.0 * half_dashpot * 2.0 / 3.0;      // in series with twice that: 2·c1·c2/(c1 + c2)
     b.normal_damping = 2.0 * a.normal_damping;
     const double c = 2.0 * a.normal_damping * b.normal_damping / (a.normal_damping + b.normal_damping);
     const double h = c / (2.0 * std::sqrt(k * mass)),
@@ -111,7 +111,7 @@ TEST(TwoMaterials, UnequalDiscsReboundByTheirEffectiveMassAndDashpotsInSeries) {
         while (world.bodies.state[0].vx > world.bodies.state[1].vx ||
                world.bodies.state[1].x - world.bodies.state[0].x < 0.0401)
             step(world);
-        const double restitution = world.bodies.state[1].vx - world.bodies.state[0].vx;  // they met at 1 m/s
+        const double restitution = world.bodies.state[1].vx - world.bodies.state[0].vx;  // before: 1 m/s
         error[halving] = restitution - expected;
         EXPECT_TRUE(testing::agrees("restitution", restitution, expected, 5e-3));
         const double momentum = m1 * world.bodies.state[0].vx + m2 * world.bodies.state[1].vx;
@@ -126,7 +126,7 @@ TEST(TwoMaterials, DampedInDifferentWaysAreRefused) {
     by_dashpot.normal_damping = 100.0;
     try {
         two_discs(by_ratio, by_dashpot, 1e-5, 0.0, 1e-7);
-        ADD_FAILURE() << "accepted: they would not be damped at all";
+        ADD_FAILURE() << "expected an error: the discs would not be damped";
     } catch (const InputError& error) {
         fmt::print("  {}\n", error.what());
         EXPECT_NE(std::string(error.what()).find("found a damping ratio in one and dashpot coefficients in another"),

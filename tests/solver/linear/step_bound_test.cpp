@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bound on the stable step that is updated while a bonded world moves lies below the exact limit at every moment.
-// This holds whatever weights it starts from and however many points come to carry load at once.
+// Tests that the bound on the stable step, updated while a bonded world moves, is always below the exact limit. This
+// must hold for any initial weights and any number of points that begin to carry load at once.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace {
 
 using verification::rock;
 
-/// The bound over the exact limit of the points that touch now; at most 1.
+/// Ratio of the bound to the exact limit for the points that touch now; at most 1.
 double share_of_exact(World& world) {
     compute_forces(world);
     return world.stepping.step_bound / critical_step(world, ClosedPoints::touching).root;
@@ -58,8 +58,8 @@ TEST(StepBound, StaysBelowTheExactLimitWhileBondsBreakAndContactsCome) {
 }
 
 TEST(StepBound, CountsAHundredContactsThatCloseAtOnce) {
-    // Two bonded columns side by side, one of which is thrown at the other. Light discs, which limit the step, are at
-    // one end of it, and among the first or the last to be counted.
+    // Two bonded columns side by side, one of which is thrown at the other. It has light discs at one end, which limit
+    // the step; they are the first or the last to be counted.
     const double radius = 0.02, overlap = 8e-5, gap = 1e-5;
     const int rows = 100, light = 10;
     for (const bool at_top : {false, true}) {
@@ -86,7 +86,7 @@ TEST(StepBound, CountsAHundredContactsThatCloseAtOnce) {
             compute_forces(world);
         }
         const auto gained = touching() - bonded;
-        step(world);  // they are counted before the next force pass
+        step(world);  // new points are counted before the next force pass
         const double after = share_of_exact(world);
         fmt::print("  {} contacts at once: bound over exact limit {:.4f} before, {:.4f} after\n", gained, before,
                    after);
@@ -112,7 +112,7 @@ TEST(CriticalStep, WithDashpotsIsProvedBelowItsRootAndDisprovedAbove) {
     }
 }
 
-/// The limit by factorisation and what worlds too large for that go by, with and without dashpots.
+/// Compares the limit by factorisation with the method for worlds that are too large for it, with and without dashpots.
 TEST(LanczosBound, LiesWithinTwoPerCentBelowTheExactLimit) {
     for (const double ratio : {0.0, 0.2, 0.7}) {
         for (const bool polygons : {false, true}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whoever waits for a linear solve can end it between any two of its steps.
+// Tests that a linear solve can be ended by its caller between any two of its steps.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -27,7 +27,7 @@ class StoppedSolve : public ::testing::Test {
         bond_all(world_, 2.0 * testing::rock_overlap);
     }
 
-    /// Ends `solve` at each of its looks, as often as it has some.
+    /// Ends `solve` at each of its calls of while_solving, in separate runs.
     void expect_heard(const std::function<void()>& solve, int fewest) {
         int looks = 0;
         world_.workers.while_solving = [&] { ++looks; };
@@ -52,7 +52,7 @@ TEST_F(StoppedSolve, OfTheElasticSolution) {
 }
 
 TEST_F(StoppedSolve, OfFreeMotions) {
-    expect_heard([&] { find_free_motions(world_, {}); }, 5);  // the whole is free: probes follow
+    expect_heard([&] { find_free_motions(world_, {}); }, 5);  // the whole specimen is free, so probes follow
 }
 
 TEST_F(StoppedSolve, OfTheCriticalStep) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Processors are counted as they are lent: by affinity, and by the quota of control groups of both versions.
+// Tests that processors are counted as available to the process: by affinity, and by the quota of control groups of
+// both versions.
 #include "solver/machine/processors_lent.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,7 @@ TEST_F(ProcessorQuota, IsTheSmallestOfTheGroupsAbove) {
 }
 
 TEST_F(ProcessorQuota, IsNothingWhereNoneIsSet) {
-    EXPECT_EQ(processor_quota(root_), std::nullopt) << "no control groups at all";
+    EXPECT_EQ(processor_quota(root_), std::nullopt) << "without control groups";
     groups("0::/\n", unified);
     EXPECT_EQ(processor_quota(root_), std::nullopt) << "no file";
     write("sys/fs/cgroup/cpu.max", "max 100000\n");
@@ -69,7 +70,7 @@ TEST_F(ProcessorQuota, IsReadFromVersionOne) {
     EXPECT_EQ(processor_quota(root_), std::nullopt);
 }
 
-// A container sees its own group at the mount, while /proc names it as the machine does.
+// A container sees its own group at the mount, while /proc names it as seen from the machine.
 TEST_F(ProcessorQuota, OfAContainerIsAtItsMount) {
     groups("5:cpu,cpuacct:/docker/a1\n",
            "33 31 0:30 /docker/a1 /sys/fs/cgroup/cpu,cpuacct rw - cgroup cgroup rw,cpu,cpuacct\n");

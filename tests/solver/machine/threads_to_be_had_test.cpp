@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Threads are counted as the system gives them.
+// Tests that threads are counted as the system provides them.
 #include "solver/machine/threads_to_be_had.hpp"
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 namespace crackle {
 namespace {
 
-/// Counts in a process of a user who may have `limit` threads in all; a root user has no such limit, and becomes
-/// nobody.
+/// Counts threads in a process whose user may have `limit` threads in total. A root user has no such limit, so the
+/// process changes to the user nobody.
 int counted_below(rlim_t limit, int most) {
     constexpr uid_t nobody = 65534;
     const pid_t child = fork();

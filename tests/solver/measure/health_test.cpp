@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A run that goes wrong stops and names step, body and cause; a time step that cannot work is refused beforehand.
+// Tests that a failing run stops and names step, body and cause, and that an unusable time step is refused at the
+// start.
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,7 @@ Scene heap() {
     return scene;
 }
 
-/// Text of the UnstableRun that check_health() must throw; the body must be `id` (0: any).
+/// Message of the UnstableRun that check_health() must throw; the body must be `id` (0: any).
 std::string verdict(World& world, int id) {
     try {
         check_health(world);
@@ -103,7 +104,8 @@ TEST(Health, ABodyTooFastForTheListStopsTheRunAtOnce) {
     }
 }
 
-/// What stops a body that is shot at a held one, slow enough to be noticed by the list; 0.2 m behind it at the latest.
+/// Message that stops a body thrown at a held one, slow enough for the list to notice it; the run ends at the latest
+/// 0.2 m behind it.
 std::string stopped_by(Scene scene, bool allow_unstable) {
     const DofControl held{Drive::velocity, 0.0};
     scene.controls.push_back({1, held, held, held, 0});
@@ -136,7 +138,7 @@ TEST(Health, ACircleThroughASegmentStopsTheRun) {
     const std::string stopped = stopped_by(shot(60.0), false);
     EXPECT_NE(stopped.find("it went through segment 2 of body 2"), std::string::npos);
     EXPECT_NE(stopped.find("four segments that close to a box"), std::string::npos);
-    EXPECT_EQ(stopped_by(shot(60.0), true), "nothing") << "asked for with --allow-unstable";
+    EXPECT_EQ(stopped_by(shot(60.0), true), "nothing") << "requested with --allow-unstable";
 }
 
 TEST(Health, APolygonThroughAPolygonStopsTheRun) {
@@ -160,8 +162,7 @@ TEST(Health, RunawayEnergyStopsTheRun) {
     World world = build_world(heap());
     bond_all(world, 0.0);
     world.stepping.automatic_step = false;
-    world.stepping.time_step =
-        1.3 * world.stepping.step_bound;  // past what build_world would let through, and no point left to notice it
+    world.stepping.time_step = 1.3 * world.stepping.step_bound;  // above what build_world() accepts
     for (PointState& point : world.points.state) point.flags |= point_counted;
     verification::shake(world, 1e-4 * verification::breaking_energy(world), 2);
     std::string cause;
@@ -182,7 +183,7 @@ TEST(Health, RunawayEnergyStopsTheRun) {
 }
 
 TEST(Health, EnergyFromNowhereIsBorneUpToTheSupplyAndNamesTheBodyThatCarriesMost) {
-    // Two discs that never meet: the supply is the kinetic energy that they set out with.
+    // Two discs that never meet; the energy supplied is their initial kinetic energy.
     Scene scene;
     scene.materials = {rock()};
     scene.domain = {-10.0, 10.0, -10.0, 10.0, {true, true, true, true}};
@@ -247,7 +248,7 @@ std::string refusal(Scene scene) {
     return "accepted";
 }
 
-/// A disc and six more around it, `gap` away from its surface.
+/// A disc with six others around it at a distance of `gap` between surfaces.
 Scene ring(double gap) {
     Scene scene;
     scene.materials = {rock()};
@@ -319,7 +320,7 @@ TEST(TimeStep, ChosenByItselfTakesTheLooseShareUntilThereAreBonds) {
 TEST(StableStep, OfGroupsApartIsTheLeastForAnyThreadsAndNamesItsBody) {
     double least = 1.0;
     Scene both;
-    for (const double scale : {1.0, 0.3, 2.0}) {  // light discs between heavier ones set it
+    for (const double scale : {1.0, 0.3, 2.0}) {  // the step is determined by light discs between heavier ones
         Scene group = heap();
         for (CircleElement& circle : group.circles) {
             circle.centre = scale * circle.centre + Vec2{3.0 * scale, 0.0};
@@ -343,7 +344,7 @@ TEST(StableStep, OfGroupsApartIsTheLeastForAnyThreadsAndNamesItsBody) {
     EXPECT_EQ(stable_step_bound(three, &limiting), one.stepping.step_bound);
     EXPECT_TRUE(testing::within("body of the second group", one.bodies.info(limiting).id, 54.5, 18.0));
     EXPECT_TRUE(testing::agrees("bound", one.stepping.step_bound, least,
-                                1e-8));  // an eigenvalue loses half its digits at worst
+                                1e-8));  // an eigenvalue may lose half its digits
 }
 
 TEST(TimeStep, CannotBeDerivedWhereEveryBodyIsHeld) {
@@ -365,7 +366,7 @@ TEST(Health, RoundingAtRestIsNoRunaway) {
     World world = build_world(scene);
     bond_all(world, 0.0);
     for (double& overlap : world.points.bond_overlap)
-        overlap = std::nextafter(overlap, 1.0);  // as a text file may give it back
+        overlap = std::nextafter(overlap, 1.0);  // as a value may be after writing to a text file and reading
     double largest = 0.0;
     for (int n = 0; n < 20000; ++n) {
         compute_forces(world);
@@ -378,7 +379,7 @@ TEST(Health, RoundingAtRestIsNoRunaway) {
 
 TEST(Health, AHeldBodyMayLieBeyondAWallAFreeOneIsRefused) {
     Scene scene = heap();
-    // An L whose centroid lies outside although its foot reaches in.
+    // An L whose centroid is outside although its foot is inside.
     const auto wall = scene.add_chain_body(
         900, 0, {{-0.2, -0.04}, {-0.2, 0.3}, {-0.21, 0.3}, {-0.21, -0.05}, {0.3, -0.05}, {0.3, -0.04}}, true);
     const DofControl held{Drive::velocity, 0.0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces of points, looked at after the step: those of its force pass.
+// Tests that forces of points observed after a step are those of its force pass.
 
 #include "solver/measure/last_pass.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 
 using testing::within;
 
-/// Largest difference of forces, over the largest force.
+/// Largest difference of forces, relative to the largest force.
 double difference(const World& a, const World& b) {
     double worst = 0.0, largest = 0.0;
     for (PointIndex k = 0; k < a.points.size(); ++k) {
@@ -40,12 +40,12 @@ TEST(LastPass, IsTheSameBeforeAndAfterBodiesMove) {
         VirtualTest test = prepare_test(read_case(testing::write_small_case(scratch / "", wanted)));
         for (int n = 0; n < 300; ++n) step(test.world);
         World looked_at = test.world;
-        compute_forces(looked_at);  // places, turns and time of the pass itself
+        compute_forces(looked_at);  // positions, rotations and time of the force pass itself
         step(test.world);
         ASSERT_FALSE(test.world.stepping.forces_current);
         EXPECT_EQ(time_of_last_pass(looked_at), looked_at.stepping.time);
         EXPECT_TRUE(within("time, s", time_of_last_pass(test.world), looked_at.stepping.time, 1e-18));
-        // Overlaps of 1e-5 of the coordinates, taken back with some roundings of these.
+        // Overlaps are 1e-5 of the coordinates, and moving back adds a few rounding errors of the coordinates.
         EXPECT_TRUE(within("difference", difference(looked_at, test.world), 0.0, 1e-9));
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A membrane about bonded discs and cells only presses, its work is pressure times the area lost, and it follows what
-// comes off.
+// Tests a membrane around bonded discs and cells: it only presses, its work is pressure times lost area, and it adapts
+// when fragments break off.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ namespace {
 using testing::agrees;
 using testing::within;
 
-constexpr double pressure = 2e3;  // N/m: some 1e-3 of what the springs bear
+constexpr double pressure = 2e3;  // N/m, about 1e-3 of what the springs withstand
 
 Scene disc_square() {
     DisorderedDiscs request;
@@ -106,7 +106,7 @@ TEST(Membrane, AloneLeavesABondedSquareInItsPlaceHoweverItIsTurned) {
         lost.push_back((whole - membrane_area(world)) / whole);
         const Ledger ledger = measure_ledger(world);
         EXPECT_TRUE(within("kinetic energy over the membrane's work", ledger.kinetic / world.membrane.work, 0.0, 1e-9));
-        // The chain is the same each time that the neighbour list is built.
+        // The chain is the same after each rebuild of the neighbour list.
         EXPECT_TRUE(within("jumps of the area, of it", world.membrane.jumped / whole, 0.0, 1e-14));
     }
     EXPECT_GT(lost.front(), 1e-6);
@@ -131,7 +131,7 @@ TEST(Membrane, WorkIsPressureTimesTheAreaLost) {
     }
     compute_forces(world);
     const double by_area = -pressure * (membrane_area(world) - whole);
-    EXPECT_TRUE(agrees("work of the forces, J", by_forces, by_area, 1e-9));  // rounding of 3000 sums of 40 places
+    EXPECT_TRUE(agrees("work of the forces, J", by_forces, by_area, 1e-9));  // round-off of 3000 sums over 40 points
     EXPECT_TRUE(within("work accounted over that of the area", world.membrane.work / by_area, 1.0, 1e-12));
     const Ledger ledger = measure_ledger(world);
     EXPECT_EQ(ledger.force_work, world.membrane.work);
@@ -143,7 +143,7 @@ TEST(Membrane, EnergyClosesToTheSecondOrderOfTheStep) {
         Scene scene = disc_square();
         scene.step_scale = scale;
         World world = bonded(scene);
-        add_membrane(world, pressure, mean_radius(world));  // at once: everything rings
+        add_membrane(world, pressure, mean_radius(world));  // applied suddenly, so everything oscillates
         for (int n = 0; n < static_cast<int>(1000.0 / scale); ++n) step(world);
         compute_forces(world);
         const Ledger ledger = measure_ledger(world);
@@ -163,11 +163,11 @@ TEST(Membrane, FollowsWhatComesOff) {
     const double before = membrane_area(world);
     world.bodies.state[off].x -= 100.0;
     bodies_moved(world);
-    world.membrane.known = false;  // nothing has pushed it there
+    world.membrane.known = false;  // the change of position did no work
     compute_forces(world);
     EXPECT_EQ(world.membrane.wrapped, 2);
     EXPECT_EQ(norm(Vec2{membrane_force_on(world, off).fx, membrane_force_on(world, off).fy}), 0.0)
-        << "a particle that has left carries no load";
+        << "a particle that has left the specimen carries no load";
     for (const MembranePoint& point : world.membrane.points) EXPECT_NE(point.body, off);
     EXPECT_TRUE(agrees("area without one of a hundred discs, m2", membrane_area(world), before, 0.02));
     const BodyForce sum = resultant(world);
@@ -179,7 +179,7 @@ TEST(Membrane, JumpsOfTheAreaDoNoWork) {
     add_membrane(world, pressure, mean_radius(world));
     compute_forces(world);
     const double area = world.membrane.area;
-    // Wrapped with a smaller disc it reaches further in between the same bodies.
+    // Wrapped with a smaller disc, the membrane enters further between the same bodies.
     world.membrane.probe = 0.2 * mean_radius(world);
     world.membrane.parted = true;
     velocities_changed(world);
@@ -201,7 +201,8 @@ TEST(Membrane, OfPolygonsLiesOnTheirOutlinesAndTurnsThem) {
         World world = bonded(turned_by(scene, angle), 1.08e-3);
         const double size = std::sqrt(cells / static_cast<double>(scene.bodies.size()));
         add_membrane(world, pressure, 0.5 * size);
-        // Gaps of the mesh lie within it, a fortieth of a cell's width, and dents of the shaken sides, a fifth deep.
+        // The membrane also encloses the gaps of the mesh, a fortieth of a cell's width, and dents in the irregular
+        // sides, a fifth deep.
         EXPECT_GE(membrane_area(world), cells);
         EXPECT_LE(membrane_area(world), 1.1 * cells);
         const BodyForce sum = resultant(world);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The neighbour list against a plain search of everything against everything. No touching point is missed, for any
-// mixture of sizes, at rest and in motion, and what a point remembers survives a rebuild.
+// Compares the neighbour list with a search over all pairs. No touching point may be missed, for any mixture of sizes,
+// at rest and in motion, and the values of points must survive a rebuild.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ namespace {
 using testing::distance_to_outline;
 using verification::rock;
 
-/// (element's body id, element within the body, partner's id, partner's circle or -1); walls have ids -1 … -4.
+/// (id of the element's body, element within the body, id of the partner, its circle or -1); walls have ids -1 … -4.
 using Touch = std::tuple<int, std::uint32_t, int, std::int64_t>;
 
 std::set<Touch> listed(const World& world) {
@@ -89,7 +89,7 @@ std::set<Touch> searched(const World& world) {
     return touches;
 }
 
-/// Discs of very different sizes, clumps, polygons, chains and platens, thrown together at random.
+/// Discs of very different sizes, clumps, polygons, chains and platens at random positions.
 Scene mixture(std::uint64_t seed) {
     std::mt19937_64 generator(seed);
     Scene scene;
@@ -118,7 +118,7 @@ Scene mixture(std::uint64_t seed) {
     for (int k = 0; k < 5; ++k)  // an L
         scene.add_chain_body(++id, 0, turned({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}, place(), 0.4), true);
     for (int k = 0; k < 10; ++k) scene.add_chain_body(++id, 0, turned({{0, 0}, {1, 0}, {1, 1}}, place(), 0.5), false);
-    scene.add_chain_body(++id, 0, {{-0.9, -0.3}, {10.9, -0.2}}, false);  // platens far larger than anything else
+    scene.add_chain_body(++id, 0, {{-0.9, -0.3}, {10.9, -0.2}}, false);  // a platen, far larger than all other bodies
     scene.add_chain_body(++id, 0, {{-0.9, 10.2}, {10.9, 10.3}}, false);
     for (Body& body : scene.bodies) {
         body.velocity = {uniform_number(generator, -1.0, 1.0), uniform_number(generator, -1.0, 1.0)};
@@ -147,7 +147,7 @@ TEST(NeighbourList, MissesNoTouchingPointOfAnyMixtureOfSizes) {
     }
 }
 
-/// Squares far smaller than the thickness across which they touch.
+/// Squares much smaller than the thickness, across which they touch.
 TEST(NeighbourList, MissesNoTouchingPointAcrossAThicknessBeyondTheBodies) {
     std::mt19937_64 generator(3);
     Scene scene;
@@ -163,7 +163,8 @@ TEST(NeighbourList, MissesNoTouchingPointAcrossAThicknessBeyondTheBodies) {
     EXPECT_GT(searched(world).size(), 500U);
 }
 
-/// Bodies with many points (platens), few or none, by one thread and by several: smaller kinds first, then the largest.
+/// Bodies with many points (platens), few or none, on one and several threads; points of smaller kinds come first, then
+/// those of the largest kind.
 TEST(NeighbourList, EveryBodyAddsUpItsPointsInTheirOrder) {
     for (const int threads : {1, 3}) {
         World world = build_world(mixture(5));
@@ -209,11 +210,11 @@ TEST(NeighbourList, EveryBodyAddsUpItsPointsInTheirOrder) {
 TEST(NeighbourList, MissesNoTouchingPointInMotionBetweenRebuilds) {
     for (const double skin : {0.02, 0.1, 0.3}) {
         Scene scene = mixture(20);
-        scene.allow_unstable = true;  // the heap starts deeply overlapped: let it fly
+        scene.allow_unstable = true;  // the heap starts with deep overlaps and flies apart
         scene.skin = skin;
         scene.thick = 0.02;
         scene.time_step = 2e-3;
-        scene.materials[0].normal_stiffness = 10.0;  // soft, so that bodies pass through each other at their speeds
+        scene.materials[0].normal_stiffness = 10.0;  // soft, so that bodies pass through each other
         scene.materials[0].shear_stiffness = 5.0;
         scene.domain.wall_present = {false, false, false, false};
         World world = build_world(scene);
@@ -234,10 +235,11 @@ TEST(NeighbourList, MissesNoTouchingPointInMotionBetweenRebuilds) {
     }
 }
 
-/// The skin of a bonded scene at rest, then flying apart, against the same with its widest skin all the time.
+/// The skin of a bonded scene at rest and then flying apart, compared with the same scene with its widest skin
+/// throughout.
 struct SkinTrace {
-    double distance;     // largest of a body's surface from its place in the other run, over the mean reach
-    std::size_t spared;  // points not listed at rest
+    double distance;     // largest of a body's surface between the two runs, over the mean reach
+    std::size_t spared;  // number of points not listed at rest
 };
 
 SkinTrace trace_of_skin(Scene scene, double thick, double share) {
@@ -274,7 +276,7 @@ SkinTrace trace_of_skin(Scene scene, double thick, double share) {
     EXPECT_EQ(stays.list.skin, widest);
     const double own =
         follows.list.own_half_skins.empty() ? 0.0 : *std::ranges::max_element(follows.list.own_half_skins);
-    EXPECT_GT(own, 0.6 * widest) << "no fast body has a wider skin of its own";
+    EXPECT_GT(own, 0.6 * widest) << "no fast body has a larger skin";
     EXPECT_LT(follows.list.builds, stays.list.builds);
     fmt::print("  flying apart: skin {:.3g} m, {} bonds broken, {} rebuilds against {}\n", widest_again,
                follows.bonds.broken, follows.list.builds, stays.list.builds);
@@ -296,8 +298,8 @@ TEST(NeighbourList, SkinOfBondedDiscsFollowsTheMotionMissesNothingAndChangesNoth
     EXPECT_EQ(trace_of_skin(disordered_discs(request, rock()), 0.0, 20.0).distance, 0.0);
 }
 
-/// Which points are listed decides in which order the forces of a body are added up: 1700 steps times some 20 roundings
-/// of 1e-16 of a force, which collisions multiply.
+/// The list determines the order in which forces on a body are added. This causes about 20 rounding errors of 1e-16 per
+/// step in 1700 steps, which collisions amplify.
 TEST(NeighbourList, SkinOfBondedCellsFollowsTheMotionMissesNothingAndChangesRoundingAlone) {
     ShakenCells request;
     request.columns = 8, request.rows = 8;
@@ -324,7 +326,7 @@ TEST(NeighbourList, RebuildKeepsSpringsBondsAndFlags) {
         for (PointIndex k = 0; k < w.points.size(); ++k) {
             const ContactPoint p = w.points.contact[k];
             const auto flags =
-                static_cast<std::uint16_t>(w.points.state[k].flags & ~point_counted);  // a rebuild counts again
+                static_cast<std::uint16_t>(w.points.state[k].flags & ~point_counted);  // a rebuild counts points again
             if (w.points.shear_force[k] == 0.0 && flags == 0) continue;
             result[{w.bodies.info(p.body_i).id, w.bodies.info(p.body_j).id}] = {w.points.shear_force[k],
                                                                                 w.points.bond_overlap[k], flags};
@@ -335,7 +337,7 @@ TEST(NeighbourList, RebuildKeepsSpringsBondsAndFlags) {
     EXPECT_TRUE(memory(world) == memory(again));
 }
 
-/// Two bodies side by side, discs or squares, to be bonded at an overlap of 1e-4 m.
+/// Two bodies side by side, discs or squares, which can be bonded at an overlap of 1e-4 m.
 World bonded_pair(bool squares, const IntactOptions& intact, double speed = 0.0) {
     Scene scene;
     scene.materials = {rock()};
@@ -409,7 +411,7 @@ TEST(NeighbourList, IntactBondsOfAWholeSpecimenKeepTheirOrderWhenItIsBlownUp) {
         EXPECT_TRUE(bonds() == before) << "blown up by " << scale;
         double sum = 0.0, size = 0.0;
         for (const BodyForce& force : world.bodies.force) sum += force.fx, size += std::abs(force.fx);
-        EXPECT_LE(std::abs(sum), 1e-12 * size) << "action and reaction, blown up by " << scale;
+        EXPECT_LE(std::abs(sum), 1e-12 * size) << "action and reaction, scaled by " << scale;
         world.bodies.state = start;
     }
 }
@@ -417,7 +419,7 @@ TEST(NeighbourList, IntactBondsOfAWholeSpecimenKeepTheirOrderWhenItIsBlownUp) {
 TEST(NeighbourList, ABreakThatOpensBeyondTheSkinInOneStepGivesItsEvent) {
     for (const bool squares : {false, true}) {
         const double step_length = bonded_pair(squares, {}).stepping.time_step;
-        World world = bonded_pair(squares, {}, 0.3 * 0.02 / step_length);  // three skins of the discs a step
+        World world = bonded_pair(squares, {}, 0.3 * 0.02 / step_length);  // three times the skin per step
         step(world);
         compute_forces(world);
         EXPECT_EQ(static_cast<std::int64_t>(world.bonds.events.size()), world.bonds.initial)

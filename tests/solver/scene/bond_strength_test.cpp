@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Random factors of bonds: moments and distribution over 10,000 pairs, and that nothing but seed and pair enters.
+// Tests random strength factors: moments and distribution over 10,000 pairs, and dependence on seed and pair only.
 
 #include "solver/scene/bond_strength.hpp"
 
@@ -28,7 +28,8 @@ TEST_P(Factors, HaveTheirMeanVariationAndDistribution) {
     double mean = 0.0, square = 0.0;
     for (const double x : drawn) mean += x / count;
     for (const double x : drawn) square += (x - mean) * (x - mean) / (count - 1);
-    // Three standard errors: of a mean cv/√n; of a variation at most some 1.5 cv/√(2n).
+    // The tolerance is three standard errors: cv/√n for a mean, and at most about 1.5 cv/√(2n) for a coefficient of
+    // variation.
     EXPECT_TRUE(within("mean", mean, 1.0, 3.0 * cv / std::sqrt(count)));
     EXPECT_TRUE(agrees("coefficient of variation", std::sqrt(square) / mean, cv, 3.0 * 1.5 / std::sqrt(2.0 * count)));
     std::ranges::sort(drawn);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Outlines and materials that a scene cannot have.
+// Tests outlines and materials that a scene refuses.
 
 #include "solver/scene/scene.hpp"
 
@@ -44,15 +44,15 @@ TEST(Material, HasAFrictionAngleBelowNinetyDegrees) {
         return "accepted";
     };
     EXPECT_EQ(answer(89.9), "accepted");
-    for (const double angle : {90.0, -0.1, 135.0})  // a tangent of infinity, or of the wrong sign
+    for (const double angle : {90.0, -0.1, 135.0})  // the tangent is infinite or has the wrong sign
         EXPECT_NE(answer(angle).find("friction angle: found"), std::string::npos) << answer(angle);
 }
 
 TEST(Outline, IsRefusedWhereAnyTwoOfItsSegmentsCross) {
     const std::vector<Vec2> plain{{0.0, 0.0}, {3.0, 0.0}, {3.0, 2.0}, {2.0, 3.0}, {0.0, 2.0}};
     EXPECT_EQ(answer_to(plain), "accepted");
-    // Two neighbouring corners change places: the segments before and behind them cross. Each start of the list is
-    // tried, so that the crossing falls on every pair of its segments, the first and the last among them.
+    // If two neighbouring corners are exchanged, the segments before and after them cross. All starting corners are
+    // tried, so that the crossing occurs between any two segments, including the first and the last.
     for (std::size_t swapped = 0; swapped < plain.size(); ++swapped) {
         std::vector<Vec2> outline = plain;
         std::swap(outline[swapped], outline[(swapped + 1) % plain.size()]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A step allocates nothing: every request for memory of this executable is counted, in place
-// of glibc's malloc and its kin, which operator new calls. Also the sizes of the records that a step touches.
+// Tests that a step allocates no memory: malloc and similar functions, which operator new calls, are replaced by
+// counting versions. Also tests the sizes of the records that a step accesses.
 
 #include <gtest/gtest.h>
 
@@ -76,8 +76,8 @@ TEST(Step, AllocatesNothingInTenThousandStepsOfDiscs) {
     request.columns = 12, request.rows = 12;
     Scene scene = disordered_discs(request, damped_rock());
     scene.domain = {-0.021, 10.0, -0.021, 10.0, {true, true, true, true}};
-    scene.skin = 0.6;           // wide enough for all the way they go
-    scene.safety_factor = 0.5;  // new contacts ask for no new bound on the step
+    scene.skin = 0.6;           // wide enough for the whole displacement
+    scene.safety_factor = 0.5;  // small enough that new contacts require no new bound
     for (const int threads : {1, 2}) {
         World world = build_world(scene);
         bond_all(world, 0.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws and bonds that change while a world runs: two discs of which one is driven away from the other.
+// Tests changes of laws and bonds while a world runs, with two discs of which one is driven away from the other.
 
 #include "solver/stepping/change_law.hpp"
 
@@ -28,8 +28,8 @@ using testing::refusal;
 
 constexpr double radius = 0.02, overlap = 1e-5, stiffness = 1e7;
 
-/// Two discs, the one on the right driven away by 1e-4 of the overlap a step; unbonded. The one on the left is held, or
-/// free where the step is to be derived.
+/// Two unbonded discs; the right one is driven away by 1e-4 of the overlap per step. The left one is held, or free if
+/// the time step is to be automatic.
 World parting_pair(BondLaw law = BondLaw::back_tension, double gap = 0.0, bool free = false) {
     Scene scene;
     scene.materials = {undamped_rock(stiffness, 27.0)};
@@ -75,7 +75,7 @@ TEST(BondPairs, ABondAddedWhileAWorldRunsIsWithoutForceAndAsStrongAsItOverlaps) 
     ASSERT_EQ(world.bonds.broken, 1);
     EXPECT_TRUE(agrees("strength, N", world.bonds.events[0].strength, stiffness * left, 1e-9));
     EXPECT_EQ(world.bonds.interfaces_lost, 1);
-    // What the drive has done is what the bond had stored, ½ k δ0², to what the last step adds.
+    // The work of the drive equals the energy stored in the bond, ½ k δ0², up to the work of the last step.
     const Ledger ledger = measure_ledger(world);
     EXPECT_TRUE(agrees("fracture, J", world.account.fracture_loss, 0.5 * stiffness * left * left, 1e-3));
     EXPECT_TRUE(testing::within("closing error, J", ledger.closing_error, 0.0, 1e-3 * 0.5 * stiffness * left * left));
@@ -96,7 +96,7 @@ TEST(BondPairs, GapsAreBondedAsFarAsAsked) {
               std::string::npos);
 }
 
-/// Two squares face to face, of which one is held; a face has four points.
+/// Two squares face to face, one of them held; a face has four points.
 World two_squares() {
     Scene scene;
     scene.materials = {undamped_rock(stiffness, 27.0)};
@@ -119,11 +119,11 @@ TEST(BondPairs, OfAFaceShareItAndLeaveTheBondsThatItHasAlone) {
     ASSERT_EQ(bond_pairs(world, {&both, 1}, 0.0), 4);
     double shares = 0.0;
     for (const float share : world.points.strength_share) shares += share;
-    // Outset by half the gap of 1e-3 m at either end, as before a mesh is inset.
+    // Extended by half the gap of 1e-3 m at either end, as before the inset of a mesh.
     EXPECT_TRUE(agrees("length of the face, m", shares, 0.101, 1e-6));
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if ((world.points.state[k].flags & point_bonded) == 0) continue;
-        world.points.state[k].flags = point_touching;  // as if it had broken
+        world.points.state[k].flags = point_touching;  // as after a break
         break;
     }
     const Array<float> before = world.points.strength_share;
@@ -178,7 +178,7 @@ TEST(ChangeLaw, IsTheLawOfAWorldBuiltWithIt) {
         EXPECT_TRUE(agrees("damping term", got.normal_damping_ratio_term, expected.normal_damping_ratio_term, 1e-15));
         EXPECT_TRUE(agrees("damping term", got.shear_damping_ratio_term, expected.shear_damping_ratio_term, 1e-15));
     }
-    // All stiffnesses four times as large, at the same damping ratio: half the step.
+    // With four times the stiffness and the same damping ratio, the time step is halved.
     EXPECT_TRUE(agrees("time step, s", changed.stepping.time_step, 0.5 * before, 1e-6));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is recorded of a break (solver/MODEL.md 5), against two discs pulled apart at given speeds. With x the opening
-// over the bonded overlap, the normal force is -x of the strength, and the shear force r x k_s/k_n until it slides.
+// Tests the record of a break (solver/MODEL.md 5) with two discs pulled apart at given speeds. If x is the opening
+// relative to the overlap at bonding and r the ratio of slip to opening, the normal force is -x of the strength. The
+// shear force is r x k_s/k_n until the point slides.
 
 #include "solver/stepping/record_breaks.hpp"
 
@@ -21,11 +22,11 @@ using testing::agrees;
 
 constexpr double radius = 0.02, overlap = 1e-7, stiffness = 1e7, shear_share = 0.25, time_step = 1e-5;
 constexpr double strength = stiffness * overlap, energy = 0.5 * strength * overlap;
-// The normal turns by a slip over the distance of centres, at most 20 overlaps over 4 cm.
+// The normal rotates by the slip divided by the distance of the centres, at most 20 overlaps over 4 cm.
 constexpr double turn = 1e-4;
 
-/// Two bonded discs side by side, one held, the other driven away by `opening` and along the face by `slip` overlaps a
-/// step.
+/// Two bonded discs side by side. One is held, and the other is driven away by `opening`, and along the face by `slip`,
+/// in overlaps per step.
 World pulled_pair(double friction_angle, double opening, double slip) {
     Scene scene;
     Material material;
@@ -52,7 +53,7 @@ BreakEvent broken(World& world) {
     EXPECT_EQ(world.bonds.events.size(), 1U);
     const BreakEvent event = world.bonds.events.at(0);
     EXPECT_EQ((std::set{event.body_i, event.body_j}), (std::set{4, 9}));
-    EXPECT_TRUE(agrees("strength, N", event.strength, strength, 1e-7));  // places to 1e-16 of 4 cm over the overlap
+    EXPECT_TRUE(agrees("strength, N", event.strength, strength, 1e-7));  // positions are accurate to 1e-16 of 4 cm
     EXPECT_TRUE(event.last_of_interface);
     EXPECT_EQ(world.bonds.broken, 1);
     EXPECT_EQ(world.bonds.interfaces_lost, 1);
@@ -61,7 +62,7 @@ BreakEvent broken(World& world) {
 }
 
 TEST(BreakEvent, OfAPullTakesTheNormalSpringsEnergy) {
-    World world = pulled_pair(27.0, 0.07, 0.0);  // 0.98 after 14 steps, 1.05 after 15
+    World world = pulled_pair(27.0, 0.07, 0.0);  // opening 0.98 after 14 steps, 1.05 after 15
     const BreakEvent event = broken(world);
     EXPECT_EQ(event.step, 15);
     EXPECT_TRUE(agrees("normal force, N", event.normal_force, -0.98 * strength, 1e-6));
@@ -74,10 +75,11 @@ TEST(BreakEvent, OfAPullTakesTheNormalSpringsEnergy) {
 }
 
 TEST(BreakEvent, WithoutSlidingTakesTheShearSpringsEnergyToo) {
-    // At 89.9 degrees nothing slides before the last step: 573 times 0.02 of the strength.
+    // At 89.9 degrees the limit is 573 times the normal force, so the point does not slide before the last step at 0.02
+    // of the strength.
     World world = pulled_pair(89.9, 0.07, 0.42);
     const BreakEvent event = broken(world);
-    const double ratio = 6.0 * shear_share;  // shear over normal force
+    const double ratio = 6.0 * shear_share;  // ratio of shear to normal force
     EXPECT_FALSE(event.slid);
     EXPECT_FALSE(event.shear_mode) << "a point that never slid parts in tension";
     EXPECT_TRUE(agrees("normal force, N", event.normal_force, -0.98 * strength, turn));
@@ -89,8 +91,8 @@ TEST(BreakEvent, WithoutSlidingTakesTheShearSpringsEnergyToo) {
 TEST(BreakEvent, TakesNothingOfAForceThatTurnsInItsLastStep) {
     World world = pulled_pair(89.9, 0.07, 0.42);
     for (int n = 0; n < 14; ++n) step(world);
-    compute_forces(world);                                     // shear 14 x 0.42 of an overlap
-    change_velocity(world, 1, 1, -7.0 * overlap / time_step);  // -1.12 of one after the last
+    compute_forces(world);                                     // slip of 14 x 0.42 overlaps
+    change_velocity(world, 1, 1, -7.0 * overlap / time_step);  // slip of -1.12 overlaps after the last step
     const BreakEvent event = broken(world);
     EXPECT_EQ(event.step, 15);
     EXPECT_TRUE(agrees("energy, J", event.energy, 0.98 * 1.05 * energy, 2.0 * turn)) << "the normal spring's";

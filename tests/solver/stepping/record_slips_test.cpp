@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// First slips of bonds, of two discs of which one is driven along the other.
+// Tests the record of first slips of bonds, with two discs of which one is driven along the other.
 
 #include "solver/stepping/record_slips.hpp"
 
@@ -19,7 +19,7 @@ using testing::agrees;
 
 constexpr double radius = 0.02, overlap = 1e-7, stiffness = 1e7, time_step = 1e-5;
 
-/// Two bonded discs, the one on the right driven along the other by 0.01 of the overlap a step, and out by `opening`.
+/// Two bonded discs; the right one is driven along the other by 0.01 of the overlap per step, and away by `opening`.
 World rubbing_pair(bool watched, double opening) {
     Scene scene;
     scene.materials = {undamped_rock(stiffness, 27.0)};
@@ -39,7 +39,8 @@ World rubbing_pair(bool watched, double opening) {
 }
 
 TEST(RecordSlips, HoldsTheFirstArrivalAtTheLimitOfABondOnce) {
-    // k_s = k_n/4: a shear of 0.0025 of k_n δ0 a step meets the limit, tan 27° of it, after 204 steps.
+    // With k_s = k_n/4, the shear force grows by 0.0025 k_n δ0 per step and reaches the limit, tan 27° times k_n δ0,
+    // after 204 steps.
     World world = rubbing_pair(true, 0.0);
     for (int n = 0; n < 400; ++n) step(world);
     ASSERT_EQ(world.bonds.slips.size(), 1U);
@@ -48,7 +49,7 @@ TEST(RecordSlips, HoldsTheFirstArrivalAtTheLimitOfABondOnce) {
     EXPECT_EQ(slip.step, static_cast<std::int64_t>(std::ceil(friction / 0.0025)));
     EXPECT_EQ(std::min(slip.body_i, slip.body_j), 4);
     EXPECT_EQ(std::max(slip.body_i, slip.body_j), 9);
-    // The slip of two overlaps lengthens the way between the centres by 5e-6 of one.
+    // The slip of two overlaps increases the distance of the centres by 5e-6 of an overlap.
     EXPECT_TRUE(agrees("shear force, N", std::abs(slip.shear_force), friction * stiffness * overlap, 1e-5));
     EXPECT_TRUE(testing::within("normal force, N", slip.normal_force, 0.0, 1e-5 * stiffness * overlap));
     EXPECT_TRUE(agrees("place, m", slip.position.x, radius, 1e-4));

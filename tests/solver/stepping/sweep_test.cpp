@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// step() moves bodies while forces are still being found; compute_forces() and advance() do one after the other.
+// Tests that step(), which moves bodies while forces are still being computed, gives the same results as
+// compute_forces() followed by advance().
 
 #include "solver/stepping/sweep.hpp"
 
@@ -24,7 +25,7 @@ struct SweptScene {
     const char* name;
     Scene scene;
     double thick;
-    double share;  // of the energy that breaks every bond, as kinetic energy
+    double share;  // kinetic energy relative to the energy that breaks every bond
     bool breaks;
 };
 
@@ -34,7 +35,7 @@ Material lightly_damped_rock() {
     return material;
 }
 
-/// Discs in a box, many enough for several threads to have blocks of their own; one is driven, one pushed.
+/// Discs in a box, enough for several threads to have their own blocks; one is driven and one is pushed.
 Scene driven_discs(Integrator integrator) {
     DisorderedDiscs request;
     request.columns = 24, request.rows = 24;
@@ -94,7 +95,7 @@ TEST(Sweep, HasTheBytesOfForcesThenMotionOnAnyNumberOfThreads) {
     }
 }
 
-// OMP_THREAD_LIMIT and OMP_DYNAMIC are imitated: within a parallel region of ours a team is one thread.
+// OMP_THREAD_LIMIT and OMP_DYNAMIC are simulated: inside another parallel region, a team has only one thread.
 TEST(Sweep, HasTheSameBytesWhereFewerThreadsAreGivenThanAskedFor) {
     const SweptScene scenes[] = {{"discs", driven_discs(Integrator::leapfrog), 0.0, 1.0, true},
                                  {"cells", driven_cells(), 1.08e-3, 1.0, true}};

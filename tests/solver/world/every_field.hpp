@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every number in a value that is made of structs that list their fields, to be changed one at a time. Tests that walk
-// so need not know what is listed.
+// Changes one number at a time in a value made of structs that list their fields. Tests that use it need not know the
+// fields.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace crackle::testing {
 
-/// One element in every vector that has none, and something in every optional.
+/// Adds one element to every empty vector, and a value to every empty optional.
 struct Fill {
     template <class T>
     void add(T& value) {
@@ -43,20 +43,20 @@ void make_other(T& value) {
     } else if constexpr (std::is_enum_v<T>) {
         value = static_cast<T>(static_cast<std::underlying_type_t<T>>(value) ^ 1);
     } else if constexpr (std::is_floating_point_v<T>) {
-        value = value == T{1} ? T{2} : T{1};  // one that is not a number becomes 1
+        value = value == T{1} ? T{2} : T{1};  // NaN becomes 1
     } else {
         static_assert(std::is_integral_v<T>);
         value = static_cast<T>(value ^ 1);
     }
 }
 
-/// Changes one number, or the length of one vector or text, of what it walks through.
+/// Changes one number, or the length of one vector or text, among the fields visited.
 class Change {
   public:
-    /// @param which  of all in the order of the walk, from 0
+    /// @param which index of the item to change, in the order of visiting, from 0
     explicit Change(int which) : left_(which) {}
 
-    /// What was changed, as in "bodies.state[0].vx"; empty if there are not that many.
+    /// Name of the changed item, such as "bodies.state[0].vx"; empty if there are not that many items.
     const std::string& changed() const { return changed_; }
 
     template <class T>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The groups of a world, field by field: each is hashed on its own, survives a checkpoint, and, where points remember
-// it, is carried to the next neighbour list. What is listed is tested without being named here.
+// Tests the groups of a world field by field. Each field is hashed separately, survives a checkpoint and, if points
+// keep it, is carried to the next neighbour list. Fields are tested without being named here.
 
 #include "solver/world/world.hpp"
 
@@ -41,7 +41,7 @@ World world_with_something_everywhere() {
     return world;
 }
 
-/// Names of the fields whose hashes differ.
+/// Names of fields whose hashes differ between two worlds.
 std::vector<std::string> differing(const World& one, const World& other) {
     const std::vector<FieldHash> a = hash_fields(one), b = hash_fields(other);
     std::vector<std::string> names;
@@ -50,7 +50,7 @@ std::vector<std::string> differing(const World& one, const World& other) {
     return names;
 }
 
-/// "bodies.state" of "bodies.state[0].vx".
+/// Returns "bodies.state" for "bodies.state[0].vx".
 std::string field_of(const std::string& name) { return name.substr(0, name.find_first_of(".[", name.find('.') + 1)); }
 
 TEST(WorldGroups, EachFieldIsHashedOnItsOwnAndSurvivesACheckpoint) {
@@ -73,7 +73,7 @@ TEST(WorldGroups, EachFieldIsHashedOnItsOwnAndSurvivesACheckpoint) {
     EXPECT_EQ(fields.size(), hash_fields(start).size());
 }
 
-/// A checkpoint with one byte changed and its hash made right again, as whoever writes one by hand would leave it.
+/// A checkpoint with one byte changed and its hash corrected, as if it had been edited deliberately.
 std::string tampered(std::string bytes, std::size_t at, char value) {
     bytes[at] = value;
     const std::size_t end = bytes.size() - sizeof(XXH64_hash_t);
@@ -85,7 +85,7 @@ std::string tampered(std::string bytes, std::size_t at, char value) {
 TEST(Checkpoint, LengthsThatItCannotHoldAndFlagsThatAreNoneAreRefused) {
     const std::string bytes = save_world(world_with_something_everywhere());
     int refused = 0;
-    for (std::size_t at = 12; at + 8 < bytes.size(); ++at) {  // behind magic and version
+    for (std::size_t at = 12; at + 8 < bytes.size(); ++at) {  // after magic number and version
         try {
             load_world(tampered(bytes, at, '\x7f'), "memory");
         } catch (const InputError& error) {
@@ -102,8 +102,8 @@ TEST(WorldGroups, NamesOfFieldsAreTheirOwn) {
     for (const FieldHash& field : hash_fields(World{})) EXPECT_TRUE(names.insert(field.name).second) << field.name;
 }
 
-/// Discs that touch, bonded, and a lone one far to their left. Every array of points is remembered, except what faces
-/// have by their area, or these in place of what the guide's law remembers.
+/// Bonded touching discs, and a single one far to their left. All arrays of points are in use, except that arrays for
+/// faces in area units and those for the guide's law exclude each other.
 World bonded_discs_and_a_lone_one(bool area) {
     Scene scene = triangular_lattice(4, 3, 0.02, 1e-4, verification::rock());
     scene.add_circle_body(100, 0, {{-1.0, 0.02}, 0.02});
@@ -117,7 +117,8 @@ World bonded_discs_and_a_lone_one(bool area) {
     return world;
 }
 
-/// A number of its own for each member of each element; kinds of points and flags that mean something are left.
+/// Assigns a different number to each member of each element, except kinds of points and flags, whose values have
+/// meanings.
 struct Number {
     double next = 1.0;
 
@@ -146,7 +147,7 @@ void expect_all_carried(World world, int fewest) {
     EXPECT_GE(arrays, fewest);
     const World before = world;
 
-    // The lone one comes to touch another: new points, before or among those that there were.
+    // The single disc comes into contact with another: new points are inserted before or among the old ones.
     const auto id_is = [](int id) { return [id](const BodyName& name) { return name.id == id; }; };
     const auto lone = std::ranges::find_if(world.bodies.names, id_is(100)) - world.bodies.names.begin();
     const auto first = std::ranges::find_if(world.bodies.names, id_is(1)) - world.bodies.names.begin();
@@ -173,7 +174,7 @@ void expect_all_carried(World world, int fewest) {
     std::vector<std::vector<std::uint64_t>> hashes;
     Points then = before.points;
     visit_remembered(then, [&](auto& values, Remembered /*remembered*/) {
-        // What counts in the bound of the step is judged again with each list.
+        // Whether a point counts in the bound on the step is determined again for each list.
         if constexpr (requires { values[0].flags; })
             for (auto& value : values) value.flags = static_cast<std::uint16_t>(value.flags & ~point_counted);
         hashes.emplace_back();
@@ -191,7 +192,7 @@ void expect_all_carried(World world, int fewest) {
             for (auto& value : values) value.flags = static_cast<std::uint16_t>(value.flags & ~point_counted);
         ASSERT_EQ(values.size(), old.size());
         for (std::size_t k = 0; k < old.size(); ++k) {
-            if (is_new(old[k]) && std::is_same_v<T, float> && remembered == Remembered::own_shares) continue;  // found
+            if (is_new(old[k]) && std::is_same_v<T, float> && remembered == Remembered::own_shares) continue;  // set
             EXPECT_EQ(hash_of_field(values[k]), is_new(old[k]) ? hash_of_field(T{}) : hashes[array][old[k]])
                 << "array " << array << ", point " << k;
         }

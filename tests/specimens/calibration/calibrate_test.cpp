@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calibrations of rocks whose keys are known. recovered_rock_test.cpp recovers all of a rock,
-// tests/benchmarks/calibrations ten rocks.
+// Tests calibrations of rocks whose keys are known. recovered_rock_test.cpp recovers all keys of a rock,
+// tests/benchmarks/calibrations those of ten rocks.
 
 #include "specimens/calibration/calibrate.hpp"
 
@@ -38,17 +38,17 @@ TEST_F(CalibrationTest, ElasticKeysComeFromTheLinearSolveOfTheSamePackings) {
         rock_of(target_text("compression", "youngs_modulus", moduli[0], "tolerance = 0.01") +
                 target_text("compression", "poissons_ratio", moduli[1], "tolerance = 0.01") + testing::elastic_keys);
     const CalibrationOutcome outcome = calibrated(rock);
-    // Tests measure moduli beside the linear ones by their loading rate, 1e-3 at most here; a Poisson's ratio follows
-    // the stiffness ratio by half.
+    // Moduli measured in tests differ from linear ones because of the loading rate, by at most 1e-3 here. Poisson's
+    // ratio changes half as much as the stiffness ratio.
     EXPECT_TRUE(agrees("contact modulus", outcome.keys[0].value, true_modulus, 5e-3));
     EXPECT_TRUE(agrees("stiffness ratio", outcome.keys[1].value, true_ratio, 1e-2));
     EXPECT_TRUE(outcome.undetermined.empty());
     EXPECT_TRUE(outcome.frontier.empty());
-    EXPECT_EQ(outcome.tests, 2 * 2 * 4) << "of both tests, one point on fit and on fresh packings: "
+    EXPECT_EQ(outcome.tests, 2 * 2 * 4) << "both tests, one point with fit packings and with fresh ones: "
                                         << calibration_text(rock, outcome);
     const LedgerTable seeds = CampaignLedger::read(folder_ / "out" / "fresh" / "campaign.sqlite")
                                   .query("SELECT min(seed), max(seed) FROM plan");
-    EXPECT_EQ(std::get<double>(seeds.rows[0][0]), 5.0) << "fresh packings are none of those that it was fitted to";
+    EXPECT_EQ(std::get<double>(seeds.rows[0][0]), 5.0) << "fresh packings differ from those of the fit";
     EXPECT_EQ(std::get<double>(seeds.rows[0][1]), 8.0);
 }
 
@@ -57,7 +57,7 @@ TEST_F(CalibrationTest, ALinearSolveNamesAFolderWhoseNameIsNotUtf8) {
     const Rock any = rock_of(target_text("compression", "youngs_modulus", 1.0) + testing::elastic_keys);
     try {
         linear(any, {true_modulus, true_ratio}, "\xff");
-        ADD_FAILURE() << "packings were written into a file";
+        ADD_FAILURE() << "packings were written to a path that is a file";
     } catch (const OutputError& error) {
         EXPECT_NE(std::string_view(error.what()).find((folder_ / "\xff").string()), std::string_view::npos)
             << error.what();
@@ -65,7 +65,7 @@ TEST_F(CalibrationTest, ALinearSolveNamesAFolderWhoseNameIsNotUtf8) {
 }
 
 TEST_F(CalibrationTest, AllStressesAndModuliTimesALambdaAreTheSameTests) {
-    constexpr double lambda = 4.0;  // a power of two: speeds times sqrt(λ) exactly
+    constexpr double lambda = 4.0;  // a power of two, so that speeds are multiplied by exactly sqrt(λ)
     const Rock rock =
         rock_of(target_text("compression", "peak_stress", 1e7) + target_text("tension", "peak_stress", 1e6) +
                 testing::elastic_keys + testing::strength_keys);
@@ -100,8 +100,8 @@ TEST_F(CalibrationTest, RatiosAndLawsAreThoseOfEachPackingsTests) {
     }
 }
 
-/// Four packings whose results are altered in the ledger: the second lacks the strength under 3 MPa, and the third's
-/// compression did not fail.
+/// Four packings whose results are changed in the ledger: the second has no strength under 3 MPa, and the third did not
+/// fail in compression.
 TEST_F(CalibrationTest, APackingThatLacksAStrengthHasNeitherLawNorModulusAtHalfThePeak) {
     const Rock rock = rock_of(
         std::string(testing::pressed_tests) +
@@ -142,16 +142,17 @@ TEST_F(CalibrationTest, APackingThatLacksAStrengthHasNeitherLawNorModulusAtHalfT
     const Eigen::MatrixXd after = measured();
     for (Eigen::Index k = 0; k < 4; ++k) {
         EXPECT_EQ(std::isnan(after(k, 0)), k == 2) << "no window at half the peak: " << k;
-        EXPECT_EQ(after(k, 1), before(k, 1)) << "the largest stress needs no failure: " << k;
-        EXPECT_EQ(std::isnan(after(k, 2)), k == 1 || k == 2) << "a law of three strengths is another's: " << k;
+        EXPECT_EQ(after(k, 1), before(k, 1)) << "the largest stress does not require failure: " << k;
+        EXPECT_EQ(std::isnan(after(k, 2)), k == 1 || k == 2)
+            << "a fit to three strengths would be a different law: " << k;
         if (k == 0 || k == 3) {
             EXPECT_EQ(after(k, 2), before(k, 2)) << k;
         }
     }
 }
 
-/// Variances of independent errors add up. So twice the laboratory's error adds four times as much to the square of
-/// the interval's half width, whatever the scatter of the packings and the slope.
+/// Variances of independent errors add up. Doubling the laboratory's error therefore adds four times as much to the
+/// square of the interval's half width, whatever the scatter of the packings and the slope.
 TEST_F(CalibrationTest, TheLaboratorysErrorWidensTheIntervalAsItsSquare) {
     const Rock any = rock_of(target_text("compression", "poissons_ratio", 1.0) + testing::elastic_keys);
     const double aim = linear(any, {true_modulus, 2.5})[1];
@@ -172,7 +173,7 @@ TEST_F(CalibrationTest, TheLaboratorysErrorWidensTheIntervalAsItsSquare) {
 TEST_F(CalibrationTest, ANarrowRangeIsSearchedToItsRightEnd) {
     const Rock any = rock_of(target_text("compression", "poissons_ratio", 1.0) + testing::elastic_keys);
     const double aim = linear(any, {true_modulus, 2.68})[1];
-    // Narrower than the first step of the search, and begun at the wrong end.
+    // Bounds narrower than the first step of the search, which starts at the wrong end.
     const Rock rock = rock_of(target_text("compression", "poissons_ratio", aim, "tolerance = 0.002") +
                               "[[free]]\nkey = \"material.stiffness_ratio\"\nfrom = 2.60\nto = 2.70\nstart = 2.60\n");
     EXPECT_TRUE(agrees("stiffness ratio", calibrated(rock).keys[0].value, 2.68, 3e-3));
@@ -183,9 +184,9 @@ TEST_F(CalibrationTest, WhatTargetsDoNotDetermineIsNamed) {
     const CalibrationOutcome outcome = calibrated(rock);
     const std::string text = calibration_text(rock, outcome);
     fmt::print("{}", text);
-    ASSERT_EQ(outcome.undetermined.size(), 1U) << "a tensile strength says nothing of the cohesion";
+    ASSERT_EQ(outcome.undetermined.size(), 1U) << "a tensile strength does not determine the cohesion";
     EXPECT_FALSE(outcome.keys[1].determined);
-    EXPECT_EQ(outcome.keys[1].high, 6.0) << "its interval is that of its bounds";
+    EXPECT_EQ(outcome.keys[1].high, 6.0) << "its interval equals its bounds";
     EXPECT_NE(text.find("not determined by the targets: "), std::string::npos);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which combinations of keys targets leave open, and how sure the others are.
+// Tests which combinations of keys the targets leave undetermined, and the errors of the others.
 
 #include "specimens/calibration/determination.hpp"
 
@@ -31,7 +31,7 @@ TEST(Determination, OfAsManyTargetsAsKeysHasTheCovarianceOfTheInverse) {
         EXPECT_TRUE(agrees("standard error", found.standard_errors[k], std::sqrt(of_keys(k, k)), 1e-12));
 }
 
-/// Solutions of 4,000 noisy targets scatter as is stated.
+/// Solutions for 4,000 noisy targets have the stated scatter.
 TEST(Determination, StandardErrorsAreTheScatterOfSolutions) {
     MatrixXd slopes(3, 2);
     slopes << 20.0, 5.0, -3.0, 12.0, 6.0, 6.0;
@@ -47,13 +47,13 @@ TEST(Determination, StandardErrorsAreTheScatterOfSolutions) {
         for (int t = 0; t < 3; ++t) noise[t] = std::sqrt(covariance(t, t)) * draw(random);
         squares += (normal * slopes.transpose() * noise).cwiseAbs2();
     }
-    // A mean of 4,000 squares is known to 1/sqrt(2000), at four deviations.
+    // The relative error of a mean of 4,000 squares is 1/sqrt(2000); four standard deviations are allowed.
     for (int k = 0; k < 2; ++k)
         EXPECT_TRUE(agrees("variance", squares[k] / repeats, std::pow(found.standard_errors[k], 2.0), 0.09));
 }
 
 TEST(Determination, NamesTheCombinationThatNoTargetFeels) {
-    // Both targets feel the sum of the first two keys; the third is felt by itself.
+    // Both targets depend on the sum of the first two keys; the third key is determined separately.
     MatrixXd slopes(2, 3);
     slopes << 10.0, 10.0, 0.0, 0.0, 0.0, 8.0;
     const Determination found = determine(slopes, Matrix2d::Identity(), 0.3);
@@ -68,7 +68,8 @@ TEST(Determination, NamesTheCombinationThatNoTargetFeels) {
 
 TEST(Determination, NamesKeysThatMoveByATenthOfTheStep) {
     for (const auto& [part, determined] : {std::pair{0.3, false}, {0.05, true}}) {
-        // Felt across (1, part): along it the first key moves by the whole step, the second by this part of it.
+        // The target depends only on the direction perpendicular to (1, part). Along (1, part) the first key moves by
+        // the whole step, the second by `part` of it.
         MatrixXd slopes(1, 2);
         slopes << -10.0 * part, 10.0;
         const Determination found = determine(slopes, MatrixXd::Identity(1, 1), 0.3);
@@ -80,26 +81,26 @@ TEST(Determination, NamesKeysThatMoveByATenthOfTheStep) {
 }
 
 TEST(Determination, StatesTheLargestChangeOfATargetAlongTheStep) {
-    // Along (1, 1) the step of both is 0.3: the target changes by 0.3 times 0.8 and as much again.
+    // Along (1, 1) the step of both keys is 0.3, so the target changes by 0.3 times the sum of both slopes.
     MatrixXd slopes(1, 2);
     slopes << 0.8, 0.8;
     const Determination found = determine(slopes, MatrixXd::Identity(1, 1), 0.3);
     ASSERT_EQ(found.open.size(), 2U);
     EXPECT_TRUE(agrees("change along the sum", std::max(found.open[0].change, found.open[1].change), 0.48, 1e-12));
-    // A little steeper and it is determined.
+    // With slightly larger slopes it is determined.
     EXPECT_EQ(determine(1.1 * slopes, MatrixXd::Identity(1, 1), 0.3).open.size(), 1U);
 }
 
 TEST(Determination, AnIntervalThatIsItsBoundsSaysNothing) {
     EXPECT_TRUE(fills(-1.0, 9.0, 0.0, 8.0)) << "beyond both";
-    EXPECT_TRUE(fills(0.3, 9.0, 0.0, 8.0)) << "all but a hundredth";
+    EXPECT_TRUE(fills(0.3, 9.0, 0.0, 8.0)) << "all except a hundredth";
     EXPECT_FALSE(fills(2.0, 9.0, 0.0, 8.0)) << "a quarter is ruled out";
     EXPECT_FALSE(fills(3.0, 5.0, 0.0, 8.0));
 }
 
 TEST(Determination, ASlopeThatIsTooFlatLeavesItsKeyOpen) {
     Matrix2d slopes = Matrix2d::Identity() * 10.0;
-    slopes(1, 1) = 1.0;  // 0.3 of a tolerance along a step
+    slopes(1, 1) = 1.0;  // a step changes it by 0.3 of a tolerance
     const Determination found = determine(slopes, Matrix2d::Identity(), 0.3);
     ASSERT_EQ(found.open.size(), 1U);
     EXPECT_TRUE(agrees("change", found.open[0].change, 0.3, 1e-12));

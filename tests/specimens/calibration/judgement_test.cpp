@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A target is judged by the error of the difference of two means, both of which scatter.
+// Tests that a target is judged by the error of the difference of two means, both of which have scatter.
 
 #include "specimens/calibration/judgement.hpp"
 
@@ -29,15 +29,15 @@ ReachedTarget target_of(std::span<const double> fresh, std::span<const double> p
 }
 
 TEST(Judgement, TheDifferenceOfTwoMeansHasBothErrors) {
-    // Alike in number and scatter: freedom 2 (n - 1) = 6, t = 2.446912.
+    // With equal numbers and scatter, there are 2 (n - 1) = 6 degrees of freedom: t = 2.446912.
     const std::array a{9.0, 10.0, 10.0, 11.0}, b{99.0, 100.0, 100.0, 101.0};
     const double error = std::sqrt(2.0 / 3.0 / 4.0);
     EXPECT_TRUE(
         agrees("half width", difference_half_width(mean_of(a), mean_of(b)), 2.446912 * std::sqrt(2.0) * error, 1e-6));
-    // Where one does not scatter, the freedom is the other's own: 3, t = 3.182446.
+    // If one sample has no scatter, the degrees of freedom are those of the other, 3: t = 3.182446.
     const std::array exact{5.0, 5.0, 5.0, 5.0};
     EXPECT_TRUE(agrees("half width", difference_half_width(mean_of(a), mean_of(exact)), 3.182446 * error, 1e-6));
-    // Three and seven values whose means are known alike, to 1: freedom 4/(1/2 + 1/6) = 6.
+    // Three and seven values whose means both have an error of 1: 4/(1/2 + 1/6) = 6 degrees of freedom.
     const double root = std::sqrt(3.0);
     const std::array three{-root, 0.0, root};
     const std::array seven{-3.0, 3.0, -3.0, 3.0, -root, root, 0.0};
@@ -47,7 +47,8 @@ TEST(Judgement, TheDifferenceOfTwoMeansHasBothErrors) {
     EXPECT_EQ(difference_half_width(mean_of(exact), mean_of(exact)), 0.0);
 }
 
-/// The key is right: corrected packings and fresh ones are draws of one rock. One in twenty may be missed.
+/// The key is correct: corrected and fresh packings are samples of the same rock. One in twenty may be judged as
+/// missed.
 TEST(Judgement, ScatterOfEightPackingsIsNoMiss) {
     std::mt19937_64 generator(3);
     constexpr int tries = 400;
@@ -62,7 +63,7 @@ TEST(Judgement, ScatterOfEightPackingsIsNoMiss) {
             return all;
         };
         std::vector<double> polish = draw(8), fresh = draw(8);
-        // What the correction does: the mean of its packings becomes the target.
+        // The effect of the correction: the mean of its packings becomes the target.
         const double shift = value - mean_of(polish).mean;
         for (double& one : polish) one += shift;
         for (double& one : fresh) one += shift;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A rock of circles whose keys are known, and what a laboratory would find of it.
+// A rock of circles whose keys are known, and its simulated laboratory results.
 #pragma once
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ namespace crackle::testing {
 
 inline constexpr double true_modulus = 20e9, true_ratio = 2.5, true_tensile = 10e6, true_cohesion = 2.0;
 
-/// Base of calibrations: the rock is in compression.toml and tension.toml.
+/// Base class for tests of calibrations; the rock is in compression.toml and tension.toml.
 class KnownRock : public ::testing::Test {
   protected:
     KnownRock() { write_circles_rock(folder_, true_modulus, true_ratio, true_tensile, true_cohesion); }
@@ -35,7 +35,7 @@ class KnownRock : public ::testing::Test {
     CalibrationOutcome calibrated(const Rock& rock, const char* folder = "out") const {
         return calibrate(rock, {.folder = folder_ / folder, .workers = 2});
     }
-    /// What the fit packings of a rock give at given keys, by the linear solve.
+    /// Linear results of a rock's fitted packings for given keys.
     std::vector<double> linear(const Rock& rock, const std::vector<double>& values,
                                const char* packings = "packings") const {
         LinearRequest request;
@@ -45,7 +45,7 @@ class KnownRock : public ::testing::Test {
         request.workers = 2;
         return mean_linear_figures(request, values)[0];
     }
-    /// Means and standard errors that a laboratory would find, on packings of its own.
+    /// Targets with means and standard errors as found by a laboratory, on packings of their own.
     std::string measured_targets(int packings) const {
         const std::vector<std::pair<const char*, const char*>> figures{{"compression", "youngs_modulus"},
                                                                        {"compression", "poissons_ratio"},

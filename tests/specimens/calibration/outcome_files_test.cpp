@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a calibration prints and writes, of an outcome put in by hand.
+// Tests what a calibration prints and writes, for an outcome set by hand.
 
 #include "specimens/calibration/outcome_files.hpp"
 
@@ -17,14 +17,14 @@ using testing::target_text;
 
 class OutcomeFiles : public testing::KnownRock {
   protected:
-    /// One target, one key in ratios and one in differences, neither of which is determined.
+    /// One target, one key varied by ratios and one by differences; neither key is determined.
     Rock rock() const {
         return rock_of(target_text("compression", "peak_stress", 100.0, "tolerance = 0.02\nerror = 0.01") +
                            "[[free]]\nkey = \"material.tensile_strength\"\nfrom = 1e6\nto = 10e6\n"
                            "[[free]]\nkey = \"material.residual_friction_angle\"\nfrom = 0\nto = 20\n",
                        4, 4, 8);
     }
-    /// Five of eight fresh packings: mean 104, deviation 10, standard error 10/sqrt(5).
+    /// Five of eight fresh packings gave a result: mean 104, deviation 10, standard error 10/sqrt(5).
     static CalibrationOutcome outcome() {
         CalibrationOutcome all;
         const std::array fresh{94.0, 94.0, 104.0, 114.0, 114.0};
@@ -50,11 +50,12 @@ TEST_F(OutcomeFiles, TableHasMeanErrorScatterAndWhatIsAllowed) {
     std::istringstream cells(text.substr(line + std::string("peak_stress of compression, Pa").size()));
     std::vector<std::string> words;
     for (std::string word; words.size() < 9 && cells >> word;) words.push_back(word);
-    // value, mean, ± error, scatter, off, allowed
+    // columns: value, mean, ± error, scatter, difference, tolerance
     const std::vector<std::string> expected{"100", "104", "4.5", "10", "+4.0", "%", "12.3", "%", "reached"};
     EXPECT_EQ(words, expected) << text;
     EXPECT_NE(text.find("5 of 8 fresh packings have all targets' figures"), std::string::npos) << text;
-    // As many on either side: (10/1)² of each mean known to half the tolerance, and the error of a difference of two.
+    // 200 packings in each group: (10/1)² for each mean to be known to half the tolerance, times 2 for the error of a
+    // difference.
     EXPECT_NE(text.find("leaves an error of ±12.30 %, more than the tolerance of 2.00 %; 200 of each"),
               std::string::npos)
         << text;
@@ -77,7 +78,7 @@ TEST_F(OutcomeFiles, JsonHasTheSameNumbersByTheirNames) {
     EXPECT_TRUE(agrees("mean", target["fresh"]["mean"], 104.0, 1e-12));
     EXPECT_TRUE(agrees("deviation", target["fresh"]["deviation"], 10.0, 1e-12));
     EXPECT_TRUE(agrees("its error", target["fresh"]["standard_error"], 10.0 / std::sqrt(5.0), 1e-12));
-    const double half = 2.776445 * 10.0 / std::sqrt(5.0);  // t of four degrees of freedom
+    const double half = 2.776445 * 10.0 / std::sqrt(5.0);  // t for four degrees of freedom
     EXPECT_TRUE(agrees("lower end", target["fresh"]["interval"][0], 104.0 - half, 1e-6));
     EXPECT_TRUE(agrees("upper end", target["fresh"]["interval"][1], 104.0 + half, 1e-6));
     EXPECT_TRUE(agrees("polish", target["polish"]["mean"], 100.0, 1e-12));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A rock with known keys, measured on packings of its own and calibrated from these numbers alone; what is out of
-// reach; calibrations that are stopped. Some hundred tests each.
+// Tests a rock with known keys that is measured on its own packings and calibrated only from these results. Also tests
+// targets that cannot be reached, and calibrations that are stopped. Each takes several hundred tests.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ TEST_F(RecoveredRock, HasItsKeysWithinTheStatedIntervals) {
     const Rock rock = rock_of(measured_targets(16) + testing::elastic_keys + testing::strength_keys, 8, 24, 12);
     const CalibrationOutcome outcome = calibrated(rock);
     fmt::print("{}", calibration_text(rock, outcome));
-    // Fresh, fitted and measured packings each know a mean to their standard error.
+    // The means over fresh, fitted and measured packings all have a standard error.
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const ReachedTarget& t = outcome.targets[k];
         const double error = std::hypot(t.fresh.standard_error / t.fresh.mean, t.polish.standard_error / t.polish.mean,
@@ -45,7 +45,7 @@ TEST_F(RecoveredRock, HasItsKeysWithinTheStatedIntervals) {
         EXPECT_LE(outcome.keys[k].low, truth[k]) << rock.free[k].name();
         EXPECT_GE(outcome.keys[k].high, truth[k]) << rock.free[k].name();
     }
-    // The cases that it leaves are read back as what it found.
+    // The cases that it writes must be read back with the values found.
     write_calibration(rock, outcome, folder_ / "out");
     const TestCase back = read_case(folder_ / "out" / "cases" / "tension.toml");
     EXPECT_TRUE(agrees("tensile strength of the case", *back.material.tensile_strength, outcome.keys[2].value, 1e-12));
@@ -80,7 +80,7 @@ TEST_F(RecoveredRock, StoppedAtAnyTestItGoesOnToTheSameBytes) {
 }
 
 TEST_F(RecoveredRock, WhatIsOutOfReachIsToldWithItsFrontier) {
-    // Circles under these bounds have nothing like a strength of 60 in compression over that in tension.
+    // Within these bounds, circles cannot reach a ratio of 60 between compressive and tensile strength.
     const Rock rock = rock_of(target_text("compression", "peak_stress", 3e8) +
                               target_text("tension", "peak_stress", 5e6) + testing::strength_keys);
     const CalibrationOutcome outcome = calibrated(rock);
@@ -92,7 +92,7 @@ TEST_F(RecoveredRock, WhatIsOutOfReachIsToldWithItsFrontier) {
     ASSERT_GE(outcome.frontier.size(), 3U);
     const auto& first = outcome.frontier.front();
     const auto& last = outcome.frontier.back();
-    // The more the missed one weighs, the nearer it comes and the further off the other is.
+    // The larger the weight of the missed target, the closer it is approached, and the larger the error of the other.
     const std::size_t missed = outcome.frontier_of, other = 1 - missed;
     const auto off = [&](const FrontierPoint& point, std::size_t t) {
         return std::abs(std::log(point.figures[t].mean / rock.targets[t].value));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of rocks: what is read, and what is refused before anything is run.
+// Tests rock files: their contents, and what is refused before any test runs.
 
 #include "specimens/calibration/rock.hpp"
 
@@ -48,7 +48,7 @@ TEST_F(RockFile, IsReadWithItsDefaults) {
     const TestCase test = rock.case_of(1, std::vector<double>{4e6, 2.5});
     EXPECT_EQ(test.loading.kind, LoadingKind::tension);
     EXPECT_EQ(test.material.tensile_strength, 4e6);
-    EXPECT_EQ(test.material.cohesion, 2.5 * 4e6) << "the search is for the ratio";
+    EXPECT_EQ(test.material.cohesion, 2.5 * 4e6) << "the search varies the ratio";
 }
 
 TEST_F(RockFile, VariablesGoBothWaysAndStayWithinTheBounds) {
@@ -114,13 +114,13 @@ TEST_F(RockFile, KeysAndTargetsGoToTheSearchThatFindsThem) {
     EXPECT_EQ(space.other_keys, (std::vector<Eigen::Index>{2, 3}));
     EXPECT_EQ(space.level_key, 2);
     EXPECT_TRUE(space.goes_with_level(1));
-    // Without an elastic key a modulus is a target like others, and no strength changes it in proportion.
+    // Without an elastic key, a modulus is a target like any other, and strengths do not change in proportion to it.
     const Rock strengths = rock_of(tests_ + modulus + target_ + strengths_);
     const SearchSpace other(strengths);
     EXPECT_TRUE(other.linear_targets.empty());
     EXPECT_FALSE(other.goes_with_level(0));
     EXPECT_TRUE(other.goes_with_level(1));
-    // Cohesion by itself does not go with the tensile strength.
+    // Cohesion as a key of its own does not follow the tensile strength.
     const Rock apart = rock_of(tests_ + target_ +
                                "[[free]]\nkey = \"material.tensile_strength\"\nfrom = 1e6\nto = 1e7\n"
                                "[[free]]\nkey = \"material.cohesion\"\nfrom = 6e6\nto = 9e7\n");
@@ -142,7 +142,7 @@ TEST_F(RockFile, TargetsAreRatiosAndLawsOfSeveralTests) {
     EXPECT_EQ(rock.targets[4].unit(true), "deg");
     EXPECT_EQ(rock.targets[0].unit(true), "Pa");
     const SearchSpace space(rock);
-    EXPECT_TRUE(space.linear_targets.empty()) << "a modulus over a strength is no modulus";
+    EXPECT_TRUE(space.linear_targets.empty()) << "the ratio of a modulus and a strength is not a linear target";
     ASSERT_GE(space.level_key, 0);
     EXPECT_TRUE(space.goes_with_level(0));
     EXPECT_FALSE(space.goes_with_level(1)) << "the pressure stays as it is";
@@ -178,7 +178,7 @@ TEST_F(RockFile, RefusesRatiosAndLawsThatAreNone) {
 }
 
 TEST_F(RockFile, CornersOfTheBoundsAreJudgedBeforeAnyTest) {
-    // At the lower corner cohesion is less than friction times tensile strength.
+    // At the lower corner of the bounds, cohesion is less than friction times tensile strength.
     expect_refused(
         tests_ + target_ +
             "[[free]]\nkey = \"material.tensile_strength\"\nfrom = 1e6\nto = 1e8\n"

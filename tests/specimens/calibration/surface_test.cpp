@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces through points of known functions, and smallest squares within bounds.
+// Tests surfaces fitted to points of known functions, and least squares within bounds.
 
 #include "specimens/calibration/surface.hpp"
 
@@ -46,7 +46,7 @@ TEST(Surface, GivesBackALinearFunction) {
     const Surface surface(Vector2d(1.0, -2.0), points,
                           values_of(points, [](double x, double y) { return 3.0 + 0.5 * x - 2.0 * y; }),
                           VectorXd::Constant(2, unknown));
-    EXPECT_FALSE(surface.quadratic()) << "five points do not pay for six terms";
+    EXPECT_FALSE(surface.quadratic()) << "five points cannot determine six terms";
     const Vector2d far(1.7, -1.0);
     EXPECT_TRUE(agrees("value", surface.value(far), 3.0 + 0.85 + 2.0, 1e-12));
     EXPECT_TRUE(agrees("slope", surface.gradient(far)[1], -2.0, 1e-12));
@@ -92,7 +92,7 @@ TEST(Surface, TooFewPointsAreRefused) {
     line << 0, 1, 2, 3, 0, 1, 2, 3;
     EXPECT_THROW(Surface(Vector2d::Zero(), line, VectorXd::Zero(4), VectorXd::Constant(2, unknown)),
                  std::invalid_argument)
-        << "they lie on a line";
+        << "the points lie on a line";
 }
 
 TEST(CompleteRows, AreThoseOfPackingsThatHaveAllFigures) {
@@ -108,10 +108,10 @@ TEST(CompleteRows, AreEnoughWhereHalfOfThePackingsAndThreeHaveAll) {
     EXPECT_TRUE(are_enough(5, 10));
     EXPECT_FALSE(are_enough(4, 10));
     EXPECT_TRUE(are_enough(3, 4));
-    EXPECT_FALSE(are_enough(2, 4)) << "two have no scatter to speak of";
+    EXPECT_FALSE(are_enough(2, 4)) << "two values give no usable scatter";
 }
 
-/// r = (x + 2y − 4, x − y), its minimum at (4/3, 4/3).
+/// r = (x + 2y − 4, x − y) has its minimum at (4/3, 4/3).
 const Residuals two_lines = [](const VectorXd& x, VectorXd& r, MatrixXd& jacobian) {
     r = Vector2d(x[0] + 2.0 * x[1] - 4.0, x[0] - x[1]);
     jacobian.resize(2, 2);
@@ -122,7 +122,7 @@ TEST(BoxMinimum, IsWhereTheResidualsVanishOrOnTheBound) {
     const VectorXd inside = box_minimum(two_lines, Vector2d(0.1, 0.2), Vector2d(-9, -9), Vector2d(9, 9));
     EXPECT_TRUE(agrees("x inside", inside[0], 4.0 / 3.0, 1e-7));
     EXPECT_TRUE(agrees("y inside", inside[1], 4.0 / 3.0, 1e-7));
-    // With y ≤ 1 the least squares in x are at (2 + 1)/2.
+    // For y ≤ 1, the least squares in x are at (2 + 1)/2.
     const VectorXd bound = box_minimum(two_lines, Vector2d(0.1, 0.2), Vector2d(-9, -9), Vector2d(9, 1));
     EXPECT_TRUE(agrees("x on the bound", bound[0], 1.5, 1e-7));
     EXPECT_TRUE(agrees("y on the bound", bound[1], 1.0, 1e-7));
@@ -145,7 +145,7 @@ TEST(BoxMinimum, OfOneVariableIsFoundAtAnyScale) {
     }
 }
 
-/// Targets of any tolerance, far off: residuals of up to 1e5.
+/// Targets with any tolerance, far from being reached: residuals are up to 1e5.
 TEST(BoxMinimum, DoesNotDependOnTheScaleOfTheResiduals) {
     for (const double weight : {1e-3, 0.03, 1.0, 25.0, 30.0, 100.0, 1e3, 1e5}) {
         const Residuals scaled = [&](const VectorXd& x, VectorXd& r, MatrixXd& jacobian) {

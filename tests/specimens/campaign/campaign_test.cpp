@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A campaign from its plan to its table: each test once, the figures of the same test run alone, whatever happens.
+// Tests a campaign from its plan to its table: each test runs once and gives the same results as when it runs alone,
+// whatever happens.
 
 #include "specimens/campaign/campaign.hpp"
 
@@ -79,13 +80,13 @@ TEST_F(CampaignTest, AnotherRunFindsNothingLeftAndAnotherAxisReusesWhatThereIs) 
     EXPECT_EQ(table("out"), before);
     write_small_plan(folder_, 3);
     const CampaignOutcome more = run("out");
-    EXPECT_EQ(more.run, 4) << "the third packing alone";
+    EXPECT_EQ(more.run, 4) << "only the third packing";
     EXPECT_EQ(more.progress.done, 12);
     write_text(folder_ / "plan.toml", "title = \"A small rock\"\n[[test]]\ncase = \"tension.toml\"\n");
-    EXPECT_EQ(run("out").run, 1) << "an angle of 27 degrees was not among them";
+    EXPECT_EQ(run("out").run, 1) << "an angle of 27 degrees was not tried";
     write_small_plan(folder_, 2);
     EXPECT_EQ(run("out").run, 0);
-    EXPECT_EQ(table("out"), before) << "to the byte, whatever was run between";
+    EXPECT_EQ(table("out"), before) << "equal bytes, regardless of what ran in between";
 }
 
 TEST_F(CampaignTest, NumberOfWorkersChangesNothing) {
@@ -102,9 +103,9 @@ TEST_F(CampaignTest, SharesGatherToTheSameTableInAnyOrder) {
     EXPECT_EQ(gather_shards(folder_ / "shared").counts.done, 8) << "two of three packings";
     run("shared", 1, {2, 3});
     EXPECT_EQ(gather_shards(folder_ / "shared").tests, 4);
-    EXPECT_EQ(gather_shards(folder_ / "shared").tests, 0) << "any number of times";
+    EXPECT_EQ(gather_shards(folder_ / "shared").tests, 0) << "gathering can be repeated";
     EXPECT_EQ(table("shared"), table("whole"));
-    EXPECT_EQ(run("shared").run, 0) << "and gone on with";
+    EXPECT_EQ(run("shared").run, 0) << "the campaign can be continued";
 }
 
 TEST_F(CampaignTest, OneShareHasItsOwnLedgerAndIsGathered) {
@@ -121,8 +122,7 @@ TEST_F(CampaignTest, RefusesSharesOfDifferentPlans) {
     write_small_plan(folder_, 3);
     run("shared", 1, {2, 2});
     EXPECT_THROW(gather_shards(folder_ / "shared"), InputError);
-    EXPECT_EQ(run("shared").run, 4)
-        << "the tests of both are gathered: those of the third packing's first share are left";
+    EXPECT_EQ(run("shared").run, 4) << "tests of both are gathered; those of the third packing's first share remain";
 }
 
 TEST_F(CampaignTest, MoreSharesThanPackingsShareOutSingleTests) {
@@ -148,7 +148,7 @@ TEST_F(CampaignTest, WithoutPackingsACaseHasItsOwnSeedAndAnAxisMayHaveIt) {
     EXPECT_THROW(read_plan(folder_ / "plan.toml"), InputError) << "which of the two is it?";
 }
 
-// The parent is killed at moments spread over the campaign; the same command then goes on.
+// The parent process is killed at several moments during the campaign; the same command then resumes it.
 TEST_F(CampaignTest, KilledAtAnyMomentItGoesOnToTheSameTable) {
     write_small_plan(folder_, 3);
     run("undisturbed", 1);
@@ -171,7 +171,7 @@ TEST_F(CampaignTest, KilledAtAnyMomentItGoesOnToTheSameTable) {
     EXPECT_EQ(outcome.progress.done, 12);
     EXPECT_EQ(table("disturbed"), table("undisturbed"));
     const LedgerTable tries = CampaignLedger::read(outcome.ledger).query("SELECT max(tries), count(*) FROM test");
-    EXPECT_EQ(std::get<double>(tries.rows[0][0]), 1.0) << "no test has ended twice";
+    EXPECT_EQ(std::get<double>(tries.rows[0][0]), 1.0) << "no test is recorded twice";
     EXPECT_EQ(std::get<double>(tries.rows[0][1]), 12.0);
 }
 
@@ -244,7 +244,7 @@ TEST_F(CampaignTest, PointsHaveTheMeansOfTheirPackings) {
     for (std::size_t k = 0; k < 4; ++k) sum += std::get<double>(results.rows[4 * k][column]);
     EXPECT_TRUE(testing::agrees("mean modulus", points[0].figures.at("youngs_modulus").mean, sum / 4.0, 1e-15));
     EXPECT_EQ(points[0].figures.at("youngs_modulus").mean, points[1].figures.at("youngs_modulus").mean)
-        << "friction is no part of it";
+        << "the result does not depend on friction";
     EXPECT_THROW(summarise(results, {"beauty"}), InputError);
     EXPECT_TRUE(points[0].biases.empty());
 }
@@ -256,11 +256,11 @@ TEST_F(CampaignTest, CompanionsGiveEveryMeanItsBias) {
     const auto points =
         summarise(CampaignLedger::read(ledger_file(folder_ / "out")).results(), {"peak_stress", "youngs_modulus"});
     ASSERT_EQ(points.size(), 1U);
-    EXPECT_EQ(points[0].planned, 3) << "companions are no packings of their own";
+    EXPECT_EQ(points[0].planned, 3) << "companions do not count as packings";
     EXPECT_EQ(points[0].figures.at("peak_stress").count, 3U);
     const MeanBias& solved = points[0].biases.at("youngs_modulus");
     EXPECT_EQ(solved.packings, 3U);
-    EXPECT_EQ(solved.value, 0.0) << "a solve knows neither step nor rate";
+    EXPECT_EQ(solved.value, 0.0) << "a linear solution has neither a step nor a rate";
     const MeanBias& strength = points[0].biases.at("peak_stress");
     fmt::print("  strength: bias {:.3g} +- {:.3g} of {:.4g}: {}\n", strength.value, strength.standard_error,
                points[0].figures.at("peak_stress").mean, verdict_on(points[0].figures.at("peak_stress"), strength));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Workers: every piece ends once, whatever its process does.
+// Tests workers: every piece ends exactly once, whatever happens to its process.
 
 #include "specimens/campaign/crew.hpp"
 
@@ -19,7 +19,7 @@
 namespace crackle {
 namespace {
 
-/// Pieces 0, 1, … in turn.
+/// Hands out pieces 0, 1, … in order.
 CrewWork counting(std::size_t pieces, std::size_t& next, std::map<std::size_t, std::vector<PieceEnd>>& ends) {
     CrewWork crew;
     crew.work = [](std::size_t piece) { return "piece " + std::to_string(piece); };

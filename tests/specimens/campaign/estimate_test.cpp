@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The estimate of a plan before it has begun, and the script for a cluster.
+// Tests the time estimate of a plan before it has begun, and the script for a cluster.
 
 #include "specimens/campaign/estimate.hpp"
 
@@ -35,7 +35,7 @@ TEST(Estimate, IsOfTheRightSizeBeforeAndOfTheMeasuredTestsAfterwards) {
     EXPECT_LT(before.seconds, outcome.processor_seconds * 20.0);
 }
 
-/// At half the step, and at half the rate, a test takes twice as long.
+/// A test takes twice as long at half the time step, and at half the rate.
 TEST(Estimate, CompanionsTakeTwiceAsLong) {
     const testing::ScratchFolder scratch;
     testing::write_packed_case(scratch / "tension.toml");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two tests are the same where, and only where, no figure can differ.
+// Tests that two tests have the same identity if and only if all their results must be equal.
 
 #include "specimens/campaign/identity.hpp"
 
@@ -92,7 +92,7 @@ TEST(KeysOfRock, LeaveOutSeedsLoadingAndWhatIsWritten) {
         EXPECT_NE(keys_of_rock(with(files, key, value), hashes), asked) << key;
 }
 
-/// A particle file has the material of what the case does not state.
+/// A particle file defines the material unless the case states it.
 TEST(KeysOfRock, OfParticleFilesCountThemUnlessTheCaseStatesTheMaterial) {
     const testing::ScratchFolder scratch;
     const auto keys = [&](const char* contents, const char* material) {
@@ -124,8 +124,8 @@ TEST(Identity, OfThePackingAloneLeavesTheRestOut) {
     EXPECT_NE(packing_identity(with(files, "packing.mean_overlap", 8e-5), hashes), asked);
 }
 
-// What the version stands for: curves, events and summaries of the small scenes. A change of these without another
-// version would have a campaign mix old figures with new ones.
+// The results version covers curves, events and summaries of the small scenes. If they changed without a new version, a
+// campaign would mix old and new results.
 TEST(Identity, ResultsVersionGoesUpWhenResultsChange) {
     std::string curves;
     const std::string pinned =
@@ -134,7 +134,7 @@ TEST(Identity, ResultsVersionGoesUpWhenResultsChange) {
         const std::size_t end = std::min(pinned.find('\n', at), pinned.size());
         const std::string line = pinned.substr(at, end - at);
         at = end + 1;
-        if (line.starts_with("deck_")) continue;  // no test of a rock
+        if (line.starts_with("deck_")) continue;  // decks are not tests of a rock
         if (line.find("curve.csv") != std::string::npos || line.find("events.csv") != std::string::npos ||
             line.find("summary.json") != std::string::npos)
             curves += line + '\n';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is kept of tests beside the ledger: its names, and that it is what the tests wrote.
+// Tests the files kept of tests beside the ledger: their names, and that they are what the tests wrote.
 
 #include "specimens/campaign/kept_tests.hpp"
 
@@ -57,7 +57,7 @@ TEST_F(KeptTestsTest, WhatIsKeptIsNamedByTestPointAndPackingAndFoundByIdentity) 
         points.insert(name.substr(0, name.rfind('-')));
     }
     EXPECT_EQ(points.size(), 4U);
-    // Earlier versions named them by all digits of the identity: they are found, and nothing is run again.
+    // Earlier versions used all digits of the identity as the name. Such files are found, and nothing is run again.
     const LedgerTable tests = ledger("out").query("SELECT identity FROM test");
     ASSERT_EQ(tests.rows.size(), 4U);
     for (const auto& row : tests.rows) {
@@ -86,7 +86,7 @@ TEST_F(KeptTestsTest, APointOfManyAxesIsNamedByItsNumber) {
     EXPECT_NE(odd.find("-mineral1.cohesion="), std::string::npos) << odd;
 }
 
-/// Identities of the done tests of a ledger.
+/// Identities of the completed tests of a ledger.
 std::vector<std::string> identities_of(const CampaignLedger& ledger) {
     std::vector<std::string> all;
     for (const auto& row : ledger.query("SELECT identity FROM test WHERE state = 'done' ORDER BY identity").rows)
@@ -94,7 +94,7 @@ std::vector<std::string> identities_of(const CampaignLedger& ledger) {
     return all;
 }
 
-/// A digit of the last number of a file becomes another.
+/// Changes a digit of the last number in a file.
 void change_last_digit(const fs::path& file) {
     std::string text = read_file(file);
     const std::size_t at = text.find_last_of("0123456789");
@@ -131,7 +131,7 @@ TEST_F(KeptTestsTest, ACurveThatWasChangedIsNamedAndItsTestRunAgain) {
     }
 }
 
-// A test that was run for its figures has kept nothing, whatever lies there.
+// A test run only for its summary keeps no files, whatever files exist there.
 TEST_F(KeptTestsTest, ACurveThatNoTestOfTheLedgerWroteIsNotRead) {
     write_small_plan(folder_, 1);
     run("out");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The ledger: what it holds is what was recorded, or is named.
+// Tests that the contents of the ledger are either what was recorded, or reported as changed.
 
 #include "specimens/campaign/ledger.hpp"
 
@@ -31,7 +31,7 @@ TEST_F(LedgerTest, AnAxisOfAKeyThatIsAFigureTooKeepsBothApart) {
         EXPECT_EQ(std::count(results.columns.begin(), results.columns.end(), column), 1) << column;
 }
 
-/// Changes a ledger behind the program's back.
+/// Changes a ledger with SQL, without the program.
 void change(const fs::path& file, const std::string& sql) {
     SQLite::Database database(file.string(), SQLite::OPEN_READWRITE);
     EXPECT_GE(database.exec(sql), 0);
@@ -83,7 +83,7 @@ TEST_F(LedgerTest, APlanThatWasChangedIsNamedAndPutRight) {
     }
 }
 
-// No hash is of views, nor of the kinds of cells that tables promise.
+// Hashes cover neither views nor declared column types.
 TEST_F(LedgerTest, WhatNoHashIsOfIsNotBelieved) {
     write_small_plan(folder_, 1);
     run("out");
@@ -139,12 +139,12 @@ TEST_F(LedgerTest, OfAnEarlierVersionIsReadAsItIsAndGoneOnWith) {
     EXPECT_EQ(run("out").run, 0);
     EXPECT_EQ(table("out"), before) << "gone on with";
     write_small_plan(folder_, 2, "[run]\nkeep = \"curves\"\n");
-    EXPECT_EQ(run("out").run, 4) << "the second packing alone";
+    EXPECT_EQ(run("out").run, 4) << "only the second packing";
     change(file, "UPDATE figures SET peak_stress = 9e9 WHERE identity = (SELECT identity FROM plan WHERE row = 7)");
     EXPECT_NE(refusal_of(ledger("out")).find("row 7"), std::string::npos) << "new rows have hashes";
 }
 
-// A verdict that a share found when it was run again takes the place of a failure that was gathered before.
+// A result found by a share when it was run again replaces a failure gathered earlier.
 TEST_F(LedgerTest, WhatIsKnownBetterTakesThePlaceOfWhatIsKnown) {
     const auto with = [&](const char* name, const char* state, const std::string& curve) {
         CampaignLedger ledger = CampaignLedger::open(folder_ / name);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How tests end that give no result: by a verdict on their case, or by the system.
+// Tests that end without a result, because of their case or because of the system.
 
 #include "specimens/campaign/campaign.hpp"
 
@@ -47,7 +47,7 @@ TEST_F(OutcomesTest, ATestThatGoesWrongIsARowAndIsRunAgainWhereAskedFor) {
 }
 
 TEST_F(OutcomesTest, ARefusedCaseIsARowWithItsReason) {
-    // A grip that holds everything leaves nothing to pull apart: only the bonded specimen shows it.
+    // If the grips hold all bodies, nothing can be pulled; this is found only once the specimen is bonded.
     testing::write_packed_case(folder_ / "tension.toml", "tension", "[numerics]\ntime_step = 1.0\n");
     write_text(folder_ / "plan.toml", "[[test]]\ncase = \"tension.toml\"\n");
     const CampaignOutcome outcome = run("out");
@@ -60,7 +60,7 @@ TEST_F(OutcomesTest, ARefusedCaseIsARowWithItsReason) {
     EXPECT_EQ(std::get<double>(wrong.rows[0][2]), 2.0);
 }
 
-// Any later test would fail in the same way: no test has gone wrong.
+// Any later test would fail in the same way, so the failure is not attributed to a test.
 TEST_F(OutcomesTest, AFolderThatCannotBeWrittenStopsItAndMarksNoTest) {
     for (const auto& [keep, place] :
          {std::pair("curves", "curves"), std::pair("all", "tests"), std::pair("figures", "packings")}) {
@@ -83,7 +83,7 @@ TEST_F(OutcomesTest, AFolderThatCannotBeWrittenStopsItAndMarksNoTest) {
     }
 }
 
-// Others may end a worker: its test is run again, by whichever worker, and counted once.
+// If a worker is killed by another process, its test is run again by any worker and counted once.
 TEST_F(OutcomesTest, AKilledWorkersTestIsRunAgain) {
     write_small_plan(folder_, 6);
     run("undisturbed");
@@ -93,7 +93,8 @@ TEST_F(OutcomesTest, AKilledWorkersTestIsRunAgain) {
         std::_Exit(0);
     }
     int killed = 0, status = 0;
-    // Always the older of the two, soon after the other: no test three times, and the campaign cannot end before.
+    // Always kills the older of the two workers, soon after the other was killed. No test is then killed three times,
+    // and the campaign cannot end before.
     while (killed < 4 && ::waitpid(process, &status, WNOHANG) == 0) {
         std::this_thread::sleep_for(std::chrono::milliseconds(15));
         const std::string children = read_file(fmt::format("/proc/{0}/task/{0}/children", process));
@@ -108,7 +109,7 @@ TEST_F(OutcomesTest, AKilledWorkersTestIsRunAgain) {
     EXPECT_EQ(table("out"), table("undisturbed"));
 }
 
-// The system does not say tomorrow what it says today: nothing of it may stand as a judgement on the case.
+// A system error may not occur again, so it must not be recorded as a judgement on the case.
 TEST_F(OutcomesTest, AKilledTestIsRunAgainByTheSameCommand) {
     write_small_plan(folder_, 1);
     run("undisturbed");
@@ -135,11 +136,11 @@ TEST_F(OutcomesTest, AKilledTestIsRunAgainByTheSameCommand) {
     EXPECT_EQ(table("out"), table("undisturbed"));
 }
 
-// Once it may have been by chance; twice it would end so each time, and nobody would wait for it.
+// A single crash may be chance. After two crashes, the test would presumably always crash, so it is not tried again.
 TEST_F(OutcomesTest, ATestThatCrashesTwiceIsNamedAndOneThatCrashesOnceIsDone) {
     write_small_plan(folder_, 1);
     run("undisturbed");
-    for (const int crashes : {2, 3}) {  // the first one as it makes the packing
+    for (const int crashes : {2, 3}) {  // the first crash occurs while the packing is made
         const std::string name = fmt::format("out-{}", crashes);
         const pid_t process = ::fork();
         if (process == 0) {
@@ -170,14 +171,14 @@ TEST_F(OutcomesTest, ThatAllTestsFailIsNoInterrupt) {
         const CampaignOutcome outcome = run("out", 1);
         std::_Exit(outcome.interrupted ? 2 : outcome.progress.failures == 4 ? 0 : 1);
     }
-    ASSERT_EQ(testing::kill_workers(process, 9, SIGABRT), 9);  // the packing, and each of four tests twice
+    ASSERT_EQ(testing::kill_workers(process, 9, SIGABRT), 9);  // one in the packing, two in each test
     int status = 0;
     ::waitpid(process, &status, 0);
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << WEXITSTATUS(status);
     EXPECT_EQ(run("out").progress.done, 4);
 }
 
-/// While this lives the process can open no further file.
+/// During its lifetime, the process cannot open further files.
 class NoFurtherFile {
   public:
     NoFurtherFile() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What comes out of a plan, and what is refused.
+// Tests the rows made from a plan, and what is refused.
 
 #include "specimens/campaign/plan_file.hpp"
 #include "specimens/kinds/test_kind.hpp"
@@ -98,7 +98,7 @@ TEST_F(PlanTest, EachValueOfAnAxisMeetsEachOfTheOther) {
                        {20.0, 40}, {20.0, 50}, {20.0, 60}, {35.0, 40}, {35.0, 50}, {35.0, 60}}));
 }
 
-/// Largest difference of the share of points in a box from its size, over boxes from the corner 0.
+/// Largest difference between a box's fraction of the points and its area, over all boxes with one corner at 0.
 double star_discrepancy(const std::vector<std::vector<double>>& points) {
     double worst = 0.0;
     for (double a = 0.1; a <= 1.0; a += 0.1) {
@@ -175,7 +175,7 @@ TEST_F(PlanTest, ThoseThatAreShippedArePossible) {
     for (const auto& entry :
          std::filesystem::directory_iterator(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/plans")) {
         const Plan plan = read_plan(entry.path());
-        // An ensemble, except the one that has a test of each kind.
+        // All shipped plans are ensembles, except the one with a test of each kind.
         const bool one_of_each = entry.path().stem() == "granite_laboratory";
         EXPECT_GE(plan.rows.size(), one_of_each ? table_of_names<LoadingKind>.size() : 20U) << entry.path();
         ++count;

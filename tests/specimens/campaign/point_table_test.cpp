@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Means, biases and their errors of results put in by hand, column by column of the table that is printed.
+// Tests means, biases and their errors for results set by hand, column by column of the printed table.
 
 #include "specimens/campaign/point_table.hpp"
 
@@ -20,8 +20,9 @@ namespace {
 
 using testing::agrees;
 
-/// The results of one point: three packings as asked, at half the step and at half the rate; the last did not fail.
-/// Strengths: twice the changes are 1, 2, 3 by the step, 4, 1, 4 by the rate, and their sums 5, 3, 7.
+/// The results of one point: three packings as requested, at half the step and at half the rate; the last packing did
+/// not fail. Twice the changes of the strengths are 1, 2, 3 for the step and 4, 1, 4 for the rate; their sums are 5, 3,
+/// 7.
 LedgerTable three_packings(const std::string& units) {
     LedgerTable results;
     results.columns = {"row",
@@ -58,7 +59,7 @@ std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
-/// The row of each figure, by column.
+/// The row of each result, as values by column name.
 std::map<std::string, std::map<std::string, std::string>> rows_of(const std::string& csv) {
     std::istringstream lines(csv);
     std::string line;
@@ -86,7 +87,7 @@ TEST(PointTable, EachColumnIsWhatItsNameSays) {
     EXPECT_EQ(number("peak_stress", "done"), 3.0);
     EXPECT_EQ(number("peak_stress", "not_failed"), 1.0);
     EXPECT_EQ(number("peak_stress", "gone_wrong"), 0.0);
-    // 4, 5, 9: squares of 14 about 6, and t of two degrees of freedom.
+    // For 4, 5, 9 the sum of squares about the mean of 6 is 14; t is for two degrees of freedom.
     const double error = std::sqrt(7.0 / 3.0), t = 4.302653;
     EXPECT_TRUE(agrees("mean", number("peak_stress", "mean"), 6.0, 1e-12));
     EXPECT_TRUE(agrees("deviation", number("peak_stress", "standard_deviation"), std::sqrt(7.0), 1e-12));
@@ -98,11 +99,11 @@ TEST(PointTable, EachColumnIsWhatItsNameSays) {
     EXPECT_TRUE(agrees("by the step", number("peak_stress", "bias_step"), 2.0, 1e-12));
     EXPECT_TRUE(agrees("by the rate", number("peak_stress", "bias_rate"), 3.0, 1e-12));
     EXPECT_EQ(number("peak_stress", "bias_packings"), 3.0);
-    // The packing that did not fail has no window at half the peak.
+    // The packing that did not fail has no tangent modulus at half the peak.
     EXPECT_EQ(number("tangent_modulus_50", "packings"), 2.0);
     EXPECT_TRUE(agrees("mean of those that failed", number("tangent_modulus_50", "mean"), 11.5, 1e-12));
-    EXPECT_EQ(points[0].values.at("tangent_modulus_50"), (std::vector{10.0, 13.0})) << "what a figure draws";
-    EXPECT_EQ(number("youngs_modulus", "packings"), 3.0) << "which needs no peak";
+    EXPECT_EQ(points[0].values.at("tangent_modulus_50"), (std::vector{10.0, 13.0})) << "values of a drawn figure";
+    EXPECT_EQ(number("youngs_modulus", "packings"), 3.0) << "Young's modulus needs no peak";
     EXPECT_EQ(rows_of(points_csv(summarise(three_packings("point"), figures), figures)).at("peak_stress").at("unit"),
               "N/m");
 }
@@ -119,11 +120,11 @@ TEST(Verdict, NamesWhatDominatesAndWhatWouldChangeIt) {
     EXPECT_NE(verdict_on(mean, by_rate).find("a lower rate or rate_tolerance"), std::string::npos);
     EXPECT_NE(verdict_on(mean, by_rate).find("(step +1 ± 0.1 %, rate +5 ± 0.1 %; 4 packings)"), std::string::npos)
         << verdict_on(mean, by_rate);
-    // Nine packings know it to 2 %, each to 6: 1 % takes 36.
+    // Nine packings give an error of 2 %, so one gives 6 %, and 36 give 1 %.
     const MeanBias unseen{9, 0.1, 2.0, 0.1, 2.0, 0.2, 2.0};
     EXPECT_NE(verdict_on(mean, unseen).find("not significant; 36 packings would reveal 1 %"), std::string::npos)
         << verdict_on(mean, unseen);
-    // 0.5 of bias, 2 of scatter: level with 16.
+    // The bias is 0.5 and the scatter 2, so their effects are equal for 16 packings.
     const MeanBias small{4, 0.4, 0.01, 0.1, 0.01, 0.5, 0.01};
     EXPECT_NE(verdict_on(mean, small)
                   .find("the scatter of the packings is larger, ± 1 %; with 16 packings both would be equal"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A campaign of a second, run in a scratch folder, and its table.
+// A campaign that takes a second, run in a temporary folder, and its table.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ class SmallCampaign : public ::testing::Test {
 
     ScratchFolder scratch_;
     std::filesystem::path folder_ = scratch_ / "";
-    std::vector<std::string> told_;  ///< by the last run
+    std::vector<std::string> told_;  ///< messages of the last run
 };
 
 }  // namespace crackle::testing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cases are read whole or refused with file, line, key, what was found and what was expected.
+// Tests that cases are read completely, or refused with file, line, key, what was found and what was expected.
 
 #include "specimens/case/case_file.hpp"
 
@@ -67,7 +67,7 @@ TEST_F(CaseFile, ReadsWhatIsWrittenAndFillsInDefaults) {
     EXPECT_EQ(test.packing.count, 50);
     EXPECT_EQ(test.material.density, 2500.0) << "a whole number is a number";
     EXPECT_EQ(test.loading.kind, LoadingKind::tension);
-    EXPECT_EQ(test.loading.platens, PlatenKind::glued) << "what pulls is stronger than the rock";
+    EXPECT_EQ(test.loading.platens, PlatenKind::glued) << "glued platens are stronger than the rock";
     EXPECT_EQ(test.loading.grip, default_grip);
     EXPECT_EQ(test.loading.strength_drop, 0.1);
     EXPECT_EQ(test.loading.stop_at_share_of_peak, 0.5);
@@ -305,7 +305,7 @@ std::string repeated(const std::string& text, int times) {
     return all;
 }
 
-// toml++ takes tables apart by recursion: some 50,000 levels use up the stack of the main thread.
+// toml++ parses tables recursively: about 50,000 levels use up the stack of the main thread.
 TEST_F(CaseFile, OfManyLevelsIsRefusedBeforeItIsParsed) {
     EXPECT_NE(refusal("\n" + repeated("a.", 50'000) + "a = 1\n").find("case.toml:2: found a line of 100005 bytes"),
               std::string::npos);

@@ -21,7 +21,7 @@ TEST(Choices, OfACaseAndItsResultsHaveNamesThatLeadThereAndBack) {
                              TargetVerdict>();
 }
 
-/// Every word that a key accepts comes back as it was written.
+/// Tests that every word accepted by a key is written back unchanged.
 TEST(Choices, OfEveryKeyAreSetAndReadByTheirNames) {
     std::size_t keys = 0;
     for (const Parameter& p : case_parameters()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Minerals that a case cannot have: each refusal names file, line, key, what was found and what was expected.
+// Tests minerals that a case refuses; each message names file, line, key, what was found and what was expected.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ struct Refusal {
     const char* says;
 };
 
-/// Message on a small case with the minerals at its end.
+/// Message for a small case with the minerals appended.
 std::string refusal(const std::string& minerals) {
     const testing::ScratchFolder scratch;
     const auto path = testing::write_small_case(scratch / "", {});
@@ -44,7 +44,7 @@ TEST_P(MineralRefusal, NamesFileLineKeyFindingAndExpectation) {
     EXPECT_NE(message.find(GetParam().says), std::string::npos) << message << "\nexpected: " << GetParam().says;
 }
 
-// The small case has 14 lines.
+// The small case has 14 lines, so the minerals begin at line 15.
 INSTANTIATE_TEST_SUITE_P(
     Cases, MineralRefusal,
     ::testing::Values(

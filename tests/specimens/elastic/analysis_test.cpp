@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The linear analysis of a specimen between its platens: first events against the linear solution itself and against a
+// Tests the linear analysis of a specimen between its platens: first events against the linear solution and against a
 // run, free motions, vibration modes.
 
 #include "specimens/elastic/analysis.hpp"
@@ -55,7 +55,8 @@ TEST_F(ElasticAnalysisOf, BondForcesOfAllPointsHoldThePlatens) {
             const PointView view = view_point(test.world, p);
             if (!view.bonded) continue;
             const LinearBond& bond = a.bonds.at(k++);
-            // Tension: what the upper platen's points carry across, normal parts alone where they are vertical.
+            // Tension: the force transmitted by the upper platen's points, only the normal components where they are
+            // vertical.
             if (view.body_i == test.setup.apparatus.top || view.body_j == test.setup.apparatus.top)
                 pull -= bond.normal_force * std::abs(view.normal.y);
         }
@@ -65,7 +66,7 @@ TEST_F(ElasticAnalysisOf, BondForcesOfAllPointsHoldThePlatens) {
     }
 }
 
-/// Normal and shear forces, with their signs, are those of the world once its bodies lie as the solution says.
+/// Normal and shear forces, including signs, must equal those of the world after moving its bodies by the solution.
 TEST_F(ElasticAnalysisOf, BondForcesAreThoseOfTheBodiesMoved) {
     for (const char* kind : {"tension", "compression"}) {
         SmallCase wanted;
@@ -89,7 +90,8 @@ TEST_F(ElasticAnalysisOf, BondForcesAreThoseOfTheBodiesMoved) {
             worst_normal = std::max(worst_normal, std::abs(view.normal_force - bond.normal_force));
             worst_shear = std::max(worst_shear, std::abs(view.shear_force - bond.shear_force));
         }
-        // Second order in the turns: strain times the forces, and rounding of overlaps of 1e-5 m to 1e-16.
+        // The error is of second order in the rotations, strain times the forces, plus round-off of overlaps of 1e-5 m
+        // to 1e-16.
         EXPECT_TRUE(testing::within(fmt::format("normal forces in {}, over the largest shear", kind),
                                     worst_normal / largest, 0.0, 1e-3));
         EXPECT_TRUE(testing::within(fmt::format("shear forces in {}, over the largest", kind), worst_shear / largest,
@@ -99,13 +101,13 @@ TEST_F(ElasticAnalysisOf, BondForcesAreThoseOfTheBodiesMoved) {
 
 TEST_F(ElasticAnalysisOf, EnergyOfTheSolutionIsHalfStressTimesStrain) {
     const VirtualTest test = prepared({});
-    const Moduli moduli = moduli_of(test);  // of a strain of 1
+    const Moduli moduli = moduli_of(test);  // at a strain of 1
     const double area = test.setup.specimen.width * test.setup.specimen.height;
     EXPECT_TRUE(agrees("stored energy", moduli.solution.energy, 0.5 * moduli.youngs_modulus * area, 1e-9));
 }
 
 TEST_F(ElasticAnalysisOf, FirstSlipAndBreakAreWhereARunHasThem) {
-    // Discs pulled so slowly that the run follows the linear solution until the first point slides.
+    // Discs are pulled so slowly that the run follows the linear solution until the first point slides.
     SmallCase wanted;
     wanted.rate = 2e-4;
     VirtualTest test = prepared(wanted);
@@ -122,7 +124,8 @@ TEST_F(ElasticAnalysisOf, FirstSlipAndBreakAreWhereARunHasThem) {
         if (found < test.world.points.size()) break;
     }
     ASSERT_LT(found, test.world.points.size());
-    // The run's own rate error: the wave still rings by rate·height/c over the strain, below a per cent here.
+    // The rate error of the run: the initial wave still oscillates by rate·height/c relative to the strain, less than a
+    // per cent here.
     EXPECT_TRUE(
         agrees("strain at the first slip", test.setup.apparatus.axial_strain(test.world), a.first_slip->strain, 0.02));
     const ContactPoint point = test.world.points.contact[found];
@@ -145,7 +148,7 @@ TEST_F(ElasticAnalysisOf, FirstBreakIsTheLeastOfAllBondsAndNoneBreaksBeforeItSli
     EXPECT_TRUE(agrees("stress at the first break", a.first_break->stress, a.youngs_modulus * least, 1e-12));
 }
 
-/// A square lattice of discs between walls, in place of the small rock, written with this number of digits.
+/// A square lattice of discs between walls instead of the small rock, written with the given number of digits.
 TestCase square_lattice_case(const testing::ScratchFolder& folder, const SmallCase& wanted, const char* digits) {
     const std::filesystem::path file = testing::write_small_case(folder / "", wanted);
     constexpr double radius = 0.5, overlap = 1e-4;
@@ -176,7 +179,8 @@ TEST_F(ElasticAnalysisOf, ALatticeSqueezedAlongItsAxisHasNoFirstEventAndNoRateOf
         const ElasticAnalysis a = analysed(test, 1e-5);
         EXPECT_FALSE(a.first_break) << digits << ": at " << a.first_break->strain;
         EXPECT_FALSE(a.first_slip) << digits << ": at " << a.first_slip->strain;
-        // 19 contacts and two with the platens in a column, 1e7 N/m each; 10 columns over 9.999 m, 19.998 m high.
+        // A column has 19 contacts and two with the platens, 1e7 N/m each; there are 10 columns in a width of 9.999 m
+        // and a height of 19.998 m.
         const double modulus = 10 * 1e7 / 21.0 / 9.999 * 19.998;
         EXPECT_TRUE(agrees(fmt::format("{}: modulus, N/m", digits), a.youngs_modulus, modulus, 1e-3));
         EXPECT_EQ(test.setup.rate_rule.first_strain, 0.002) << digits;
@@ -184,7 +188,7 @@ TEST_F(ElasticAnalysisOf, ALatticeSqueezedAlongItsAxisHasNoFirstEventAndNoRateOf
 }
 
 TEST(FreeMotions, AreCountedAndNamedAndDoNotSpoilTheSolution) {
-    // A held chain of three discs, one hanging on its end by one contact, one floating, two floating together.
+    // A held chain of three discs, a disc attached to its end by one contact, a floating disc, and a floating pair.
     const Material material = verification::rock();
     Scene scene = disc_chain(4, 0.02, 0.0399, material);
     scene.add_circle_body(10, 0, {{0.5, 0.5}, 0.02, 0.0});
@@ -194,7 +198,8 @@ TEST(FreeMotions, AreCountedAndNamedAndDoNotSpoilTheSolution) {
     bond_all(world, 0.0);
     const BodyIndex low = body_of_id(world, 1), high = body_of_id(world, 3);
     const FreeMotions free = find_free_motions(world, {low, high});
-    // The pendant disc rolls about its contact: 1. The floating one: 3. The pair: 3 as a whole, and it hinges: 1.
+    // Free motions: 1 for the attached disc, which rolls about its contact, 3 for the floating disc, and for the pair 3
+    // as a whole and 1 hinge motion.
     EXPECT_EQ(free.count, 8);
     std::vector<int> ids;
     for (const BodyIndex b : free.bodies) ids.push_back(world.bodies.info(b).id);
@@ -206,7 +211,7 @@ TEST(FreeMotions, AreCountedAndNamedAndDoNotSpoilTheSolution) {
         testing::within("the pendant disc goes along", solution.displacement[body_of_id(world, 4)].x, 1e-6, 1e-14));
 }
 
-/// Discs without shear springs roll on one another: 584 contacts do not hold 3 x 304 motions.
+/// Discs without shear springs roll on each other: 584 contacts do not constrain all of the 3 x 304 motions.
 TEST(ElasticAnalysis, NamesAMechanismWhichHasNoModulus) {
     const TestCase rock =
         read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/guide_rock/circles_tension.toml");
@@ -223,7 +228,7 @@ TEST(ElasticAnalysis, NamesAMechanismWhichHasNoModulus) {
         test.loading.rate_tolerance = 0.01;
         try {
             prepare_test(test);
-            ADD_FAILURE() << "a rate came of it";
+            ADD_FAILURE() << "expected an error, got a rate";
         } catch (const InputError& error) {
             fmt::print("  {}\n", error.what());
             EXPECT_NE(std::string(error.what()).find("found a mechanism"), std::string::npos) << error.what();
@@ -233,8 +238,7 @@ TEST(ElasticAnalysis, NamesAMechanismWhichHasNoModulus) {
 
 TEST(VibrationModes, OfAHeldChainAreTheClosedForm) {
     constexpr int count = 17;
-    Scene scene =
-        disc_chain(count, 0.02, 0.0399, verification::rock(45.0, 0.0));  // no shear: the discs move along alone
+    Scene scene = disc_chain(count, 0.02, 0.0399, verification::rock(45.0, 0.0));  // no shear springs
     const DofControl held{Drive::velocity, 0.0}, loose{};
     for (int k = 0; k < count; ++k)
         scene.controls.push_back({k, k == 0 || k == count - 1 ? held : loose, held, held, 0});

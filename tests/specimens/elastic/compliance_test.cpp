@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compliance under uniform tractions: of square cells, whose faces are columns, and of sets by their closed form.
+// Tests the compliance under uniform tractions: for square cells, whose faces form columns, and for joint sets by their
+// closed form.
 
 #include "specimens/elastic/compliance.hpp"
 
@@ -27,7 +28,7 @@ Domain box_of(const testing::JointedCells& cells) {
 TEST(ComplianceOfCells, IsThatOfTheirColumns) {
     const testing::JointedCells cells = grid();
     const Compliance s = compliance_of(jointed_world(cells), box_of(cells), 0.5 * cells.thick);
-    // The outer cells are rigid out to the sides: a face less than there are cells gives way.
+    // The outer cells are rigid up to the sides, so there is one face less than cells.
     EXPECT_TRUE(agrees("S_xx, 1/Pa", s[0][0], 4.0 / 5.0 / cells.modulus, 1e-6));
     EXPECT_TRUE(agrees("S_yy, 1/Pa", s[1][1], 7.0 / 8.0 / cells.modulus, 1e-6));
     EXPECT_NEAR(s[0][1], 0.0, 1e-6 / cells.modulus);
@@ -65,7 +66,7 @@ TEST(ComplianceOfASet, AgreesWithItsClosedFormAlongAnyLoad) {
     constexpr double spacing = 0.1, normal = 3e11, shear = 5e10;
     for (const double angle : {0.0, 25.0, 90.0, 140.0}) {
         const Compliance s = compliance_of_set(angle * std::numbers::pi / 180.0, spacing, normal, shear);
-        // Along y: t between the joints' normal and y is the traces' angle.
+        // Load along y: the angle t between the joints' normal and y equals the angle of the traces.
         const double c = std::cos(angle * std::numbers::pi / 180.0), t = std::sin(angle * std::numbers::pi / 180.0);
         EXPECT_NEAR(s[1][1], c * c * c * c / (normal * spacing) + t * t * c * c / (shear * spacing), 1e-24) << angle;
         for (std::size_t a = 0; a < 3; ++a)

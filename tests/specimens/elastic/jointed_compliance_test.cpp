@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The compliance of a case's jointed specimen is there where it means something, with the theory of persistent sets
-// where all traces are persistent.
+// Tests that the compliance of a jointed specimen is given if it is meaningful, together with the theory for persistent
+// sets if all traces are persistent.
 
 #include "specimens/elastic/jointed_compliance.hpp"
 
@@ -32,18 +32,18 @@ TEST(JointedCompliance, OfPersistentTracesIsThatOfTheTheory) {
     EXPECT_NEAR((*found->expected)[1][1] - found->welded[1][1], 1.0 / (2e11 * 0.125), 1e-9 / (2e11 * 0.125));
 }
 
-// The twin has the flat faces of the jointed specimen: what its joint adds is the joint's alone.
+// The specimen for comparison has the same flat faces, so the difference is due to the joint alone.
 TEST(JointedCompliance, OfCirclesIsThatOfTheTheory) {
     TestCase asked = read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/jointed/softrock_welded.toml");
     TestCase::JointSet& set = asked.joint_set[0];
     set.angle = 0.0;
-    set.spacing = 0.083;  // m: one, in the middle
+    set.spacing = 0.083;  // m, so that there is one joint, in the middle
     set.through = {0.02, 0.0415};
     set.own.normal_stiffness = 4e11;
     set.own.shear_stiffness = 1.6e11;
     const auto found = jointed_compliance(asked, {});
     ASSERT_TRUE(found && found->expected) << (found ? found->why_not : "nothing");
-    const double ragged = 2.66e-3 / 0.083;  // of rows: a diameter over the spacing
+    const double ragged = 2.66e-3 / 0.083;  // error due to rows: a diameter divided by the spacing
     for (std::size_t k = 0; k < 3; ++k) {
         const double got = found->jointed[k][k], wanted = (*found->expected)[k][k];
         fmt::print("  S{0}{0}: expected {1:.6g} 1/Pa, got {2:.6g}, error {3:.2g}; welded {4:.6g}\n", k + 1, wanted, got,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Synthetic catalogues of a known b give it back, as often inside the stated error as it states.
+// Tests that a known b is recovered from synthetic catalogues, within the stated error as often as stated.
 
 #include "specimens/emission/b_value.hpp"
 
@@ -21,10 +21,11 @@ using testing::agrees;
 using testing::within;
 
 constexpr int catalogues = 200;
-// Out of 200 tries, each right with probability 0.95, fewer than 182 are right in 1 of 100 cases.
+// If each of 200 tries is correct with probability 0.95, fewer than 182 are correct in 1 of 100 cases.
 constexpr int fewest_right = 182;
 
-/// Above `least` all are recorded; with a roll-off of width s those of magnitude M in Φ((M - least)/s) of all cases.
+/// All events above `least` are recorded. With a roll-off of width s, an event of magnitude M is recorded with
+/// probability Φ((M - least)/s).
 std::vector<double> catalogue(double b, double least, double roll_off, int events, std::mt19937_64& generator) {
     std::vector<double> magnitudes;
     const double lowest = least - 5.0 * roll_off;
@@ -79,11 +80,11 @@ TEST(BValue, OfAKnownCompletenessIsRecoveredInsideItsErrors) {
                 recover(b, 0.0, events, [](const auto& magnitudes) { return b_value_above(magnitudes, -6.0); });
             EXPECT_EQ(all.known, catalogues);
             EXPECT_GE(all.in_interval, fewest_right);
-            // Shi & Bolt's own error scatters: of 60 events by some tenth.
+            // Shi & Bolt's error has scatter itself: about a tenth for 60 events.
             EXPECT_GE(all.in_two_errors, events < 200 ? fewest_right - 6 : fewest_right);
             EXPECT_GE(all.straight, fewest_right);
             EXPECT_TRUE(agrees("mean b", all.mean, b, 3.0 * all.deviation / std::sqrt(catalogues) / b));
-            EXPECT_TRUE(agrees("stated error", all.mean_error, all.deviation, 0.15));  // of 200: 3/sqrt(400)
+            EXPECT_TRUE(agrees("stated error", all.mean_error, all.deviation, 0.15));  // for 200 events: 3/sqrt(400)
             EXPECT_TRUE(agrees("b/sqrt(N)", all.mean_error, b / std::sqrt(events), 0.06));
         }
     }
@@ -96,7 +97,7 @@ TEST(BValue, AboveMaximumCurvatureIsRecoveredInsideItsErrors) {
                 return fit_b_value(magnitudes, Completeness::maximum_curvature);
             });
             EXPECT_GE(all.in_interval, fewest_right * all.known / catalogues);
-            // With few events the roll-off reaches beyond Mc, and catalogues whose Mc came out high have no b.
+            // With few events the roll-off extends beyond Mc, and catalogues with too high an Mc have no b.
             EXPECT_TRUE(agrees("mean b", all.mean, b, events < 400 ? 0.05 : 0.025));
             EXPECT_TRUE(agrees("stated error", all.mean_error, all.deviation, 0.15));
         }
@@ -122,9 +123,9 @@ TEST(BValue, IsNotStraightWhereMagnitudesFollowNoSuchLaw) {
     EXPECT_FALSE(value.straight);
 }
 
-/// Quantiles of the law at the middles of a hundred equal shares, but none below the share `cut`. There the distance is
-/// that share, and the mean is 1.002 to 1.004 in place of 1. Stephens' 5 % point is 1.094, his 1 % point 1.308, of
-/// (D - 0.2/N) (sqrt N + 0.26 + 0.5/sqrt N) = 10.31 D - 0.02 here.
+/// Quantiles of the law at the centres of a hundred equal probability intervals, without those below the fraction
+/// `cut`. The distance from the law is then this fraction, and the mean is 1.002 to 1.004 instead of 1. Stephens' 5 %
+/// point is 1.094 and his 1 % point 1.308, for (D - 0.2/N) (sqrt N + 0.26 + 0.5/sqrt N) = 10.31 D - 0.02 here.
 TEST(BValue, IsStraightUpToTheFivePercentPointOfItsDistance) {
     for (const auto& [cut, straight] : {std::pair{0.10, true}, {0.12, false}}) {
         std::vector<double> magnitudes;
@@ -136,7 +137,7 @@ TEST(BValue, IsStraightUpToTheFivePercentPointOfItsDistance) {
 }
 
 TEST(BValue, IsThatOfTheFormulas) {
-    // Two magnitudes over, 25 times: the mean excess is 0.3, and each lies 0.2 from it.
+    // Two magnitudes, 25 events each: the mean excess is 0.3, and each differs from it by 0.2.
     std::vector<double> magnitudes(10, -8.0);
     for (int k = 0; k < 25; ++k) magnitudes.insert(magnitudes.end(), {-5.9, -5.5});
     const BValue value = b_value_above(magnitudes, -6.0);

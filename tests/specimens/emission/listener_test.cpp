@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Breaks that belong together, and the moment of a bond that parts in a chain, where it is known.
+// Tests which breaks belong to one event, and the moment of a bond that breaks in a chain, for which it is known.
 
 #include "specimens/emission/listener.hpp"
 
@@ -30,7 +30,7 @@ using testing::within;
 
 constexpr double radius = 0.02, stiffness = 1e7, overlap = 1e-7, weak_overlap = 0.5e-7;
 
-/// Four discs in a line at an angle; the last is pulled, the first held, and the bond in the middle is half as strong.
+/// Four discs in a line at an angle; the last is pulled and the first held, and the middle bond has half the strength.
 World chain(double angle, double damping_ratio) {
     const Vec2 along{std::cos(angle), std::sin(angle)};
     Scene scene;
@@ -38,14 +38,14 @@ World chain(double angle, double damping_ratio) {
     scene.materials[0].damping_ratio = damping_ratio;
     scene.materials[0].density = 2500.0;
     scene.domain = {-1.0, 1.0, -1.0, 1.0, {true, true, true, true}};
-    scene.time_step = 2e-5;  // a hundred and more of a period
+    scene.time_step = 2e-5;  // more than a hundred per period
     double at = -3.0 * radius;
     for (int k = 0; k < 4; ++k) {
         scene.add_circle_body(k + 1, 0, {at * along, radius, 0.0});
         at += 2.0 * radius - (k == 1 ? weak_overlap : overlap);
     }
     const DofControl still{Drive::velocity, 0.0};
-    const double speed = 2e-8;  // m/s: of T the dashpots bear a thousandth where they are strongest
+    const double speed = 2e-8;  // m/s, so that dashpots carry at most a thousandth of T
     scene.controls = {{0, still, still, still, 0},
                       {3, {Drive::velocity, speed * along.x}, {Drive::velocity, speed * along.y}, still, 0}};
     World world = build_world(scene);
@@ -64,7 +64,7 @@ TestSetup ends_of(const World& world) {
 
 EmissionRule slow_rule() { return {.diameter = 2.0 * radius, .shear_wave_speed = 1.0, .density = 1.0}; }
 
-/// Pulls until the event of the one break has ended.
+/// Pulls until the event of the single break has ended.
 AcousticEvent pulled_apart(double angle, double damping_ratio) {
     World world = chain(angle, damping_ratio);
     const TestSetup setup = ends_of(world);
@@ -86,8 +86,8 @@ AcousticEvent pulled_apart(double angle, double damping_ratio) {
 }
 
 TEST(EmissionOfAChain, IsAnOpeningWithTheMomentOfWhatItBore) {
-    // The source pulled its neighbours, a diameter away on either side, with T = k δ0, and lets go: M = 2 T 2r along
-    // the chain. Damped beyond its own oscillation it comes to rest there.
+    // The source pulled its neighbours, a diameter away on either side, with T = k δ0, and releases them: M = 2 T 2r
+    // along the chain. With overcritical damping it comes to rest there.
     const double moment = 2.0 * stiffness * weak_overlap * 2.0 * radius;
     for (const double angle : {0.0, 0.4, 2.0}) {
         const AcousticEvent event = pulled_apart(angle, 2.0);
@@ -104,18 +104,18 @@ TEST(EmissionOfAChain, IsAnOpeningWithTheMomentOfWhatItBore) {
 }
 
 TEST(EmissionOfAChain, SwingsToTwiceTheMomentWithoutDamping) {
-    // Two equal oscillators, each let go at T from where it comes to rest: it swings to -T.
+    // Two equal oscillators, each released at a distance of T/k from its equilibrium, so the force swings to -T.
     const double moment = 2.0 * stiffness * weak_overlap * 2.0 * radius;
     const AcousticEvent event = pulled_apart(0.7, 0.0);
     EXPECT_TRUE(agrees("moment along the chain, N m", principal_moments(event.moment).largest, 2.0 * moment, 5e-3));
     EXPECT_GT(event.rise_time, 0.0);
 }
 
-/// Breaks as if they had been found in a world at rest.
+/// Passes breaks to the listener as if they had been found in a world at rest.
 class Clustering : public ::testing::Test {
   protected:
     Clustering() : world_(chain(0.0, 0.1)), setup_(ends_of(world_)), listener_(world_, setup_, emission_) {
-        emission_.rule = {.diameter = 1.0, .shear_wave_speed = 4.0, .density = 1.0};  // a window of half the radius
+        emission_.rule = {.diameter = 1.0, .shear_wave_speed = 4.0, .density = 1.0};  // the window is 0.5 s
         compute_forces(world_);
     }
     std::size_t hear(double time, std::initializer_list<Vec2> places) {
@@ -144,14 +144,14 @@ TEST_F(Clustering, JoinsWhatIsNearInPlaceAndTime) {
     EXPECT_FALSE(listener_.hears(false));
     hear(10.0, {{0.0, 0.0}});
     EXPECT_TRUE(listener_.hears(false));
-    hear(10.4, {{0.8, 0.0}});  // within 1 m and 0.5 s
+    hear(10.4, {{0.8, 0.0}});  // within 1 m and 0.5 s of the first
     ASSERT_EQ(emission_.open.size(), 1U);
     const AcousticEvent& event = emission_.open[0].event;
     EXPECT_EQ(event.breaks, 2);
     EXPECT_TRUE(agrees("centre, m", event.centre.x, 0.4, 1e-12));
     EXPECT_TRUE(agrees("radius, m", event.radius, 1.4, 1e-12));
     EXPECT_TRUE(agrees("duration, s", event.duration, 0.4 + 0.7, 1e-12));
-    hear(11.05, {{-0.9, 0.0}});  // beyond the first disc and window, within the enlarged ones
+    hear(11.05, {{-0.9, 0.0}});  // outside the initial radius and window, inside the enlarged ones
     EXPECT_EQ(emission_.open.size(), 1U);
     EXPECT_EQ(event.breaks, 3);
     EXPECT_EQ(event.energy, 6.0);
@@ -162,7 +162,7 @@ TEST_F(Clustering, JoinsWhatIsNearInPlaceAndTime) {
 TEST_F(Clustering, PartsWhatIsFarInPlaceOrTime) {
     hear(10.0, {{0.0, 0.0}, {1.01, 0.0}});
     EXPECT_EQ(emission_.open.size(), 2U) << "beyond the disc";
-    EXPECT_EQ(hear(10.51, {{0.0, 0.3}}), 2U) << "both windows are over";
+    EXPECT_EQ(hear(10.51, {{0.0, 0.3}}), 2U) << "both windows have ended";
     ASSERT_EQ(emission_.events.size(), 2U);
     EXPECT_EQ(emission_.events[1].centre.x, 1.01);
     EXPECT_EQ(emission_.open.size(), 1U);
@@ -179,7 +179,7 @@ TEST(EmissionRule, TakesTheSpeedFromModuliAndMassesInEitherUnits) {
     const VirtualTest area = prepare_test(wanted);
     const EmissionRule& rule = area.state.emission.rule;
     ASSERT_TRUE(rule.on());
-    // By hand: circles of 2600 kg/m3 with a sixth of pores, 1 m thick.
+    // Results by hand, for circles of 2600 kg/m3 with a porosity of one sixth and a thickness of 1 m.
     double mass = 0.0, diameters = 0.0;
     for (std::size_t b = 0; b < area.world.bodies.size(); ++b) {
         if (area.setup.apparatus.is_platen(static_cast<BodyIndex>(b))) continue;
@@ -193,7 +193,7 @@ TEST(EmissionRule, TakesTheSpeedFromModuliAndMassesInEitherUnits) {
     EXPECT_LT(rule.density, 2400.0);
     EXPECT_TRUE(
         agrees("diameter, m", rule.diameter, diameters / static_cast<double>(area.setup.specimen.particles), 1e-12));
-    EXPECT_TRUE(agrees("damping ratio", rule.damping_ratio, 0.2, 1e-6));  // shares are floats
+    EXPECT_TRUE(agrees("damping ratio", rule.damping_ratio, 0.2, 1e-6));  // factors have single precision
     const double shear_modulus = area.state.youngs_modulus / 2.0 / (1.0 + area.state.poissons_ratio);
     EXPECT_TRUE(agrees("speed, m/s", rule.shear_wave_speed, std::sqrt(shear_modulus / density), 1e-12));
     EXPECT_GT(rule.shear_wave_speed, 1000.0);
@@ -202,7 +202,8 @@ TEST(EmissionRule, TakesTheSpeedFromModuliAndMassesInEitherUnits) {
 }
 
 TEST(EmissionRule, GoesByAMeanFieldWhereModuliAreNotKnown) {
-    // A bond of length l along the axes shears by l/2 under a shear strain of 1, one across them stretches by as much.
+    // For a shear strain of 1, a bond of length l along an axis is sheared by l/2, and a diagonal one is stretched by
+    // l/2.
     const World level = chain(0.0, 0.1), slanted = chain(0.25 * std::numbers::pi, 0.1);
     TestSetup setup = ends_of(level);
     setup.specimen.area = 0.01;
@@ -224,13 +225,13 @@ TEST(EmissionRule, OfADiscHasItsDensityAndTheDashpotsThatAreGiven) {
     TestSetup setup = ends_of(world);
     setup.apparatus.uniaxial = false;
     setup.specimen.width = setup.specimen.height = 0.1;
-    setup.specimen.area = 0.25 * std::numbers::pi * 0.01;  // of the disc in that box
+    setup.specimen.area = 0.25 * std::numbers::pi * 0.01;  // area of the disc in that box
     const double mass = 2500.0 * std::numbers::pi * radius * radius;
     const auto rule = [&] { return emission_rule(world, setup, std::nan(""), std::nan(""), 1.0); };
     EXPECT_TRUE(agrees("density, kg/m2", rule().density, 4.0 * mass / setup.specimen.area, 1e-12));
     EXPECT_TRUE(agrees("damping ratio", rule().damping_ratio, 0.1, 1e-12));
-    // Two equal masses on a spring are damped critically at 2 sqrt(k m/2), one that hangs on a held body at 2 sqrt(k
-    // m). The chain has one spring of the first kind and two of the second.
+    // Critical damping is 2 sqrt(k m/2) for two equal masses on a spring, and 2 sqrt(k m) for one mass on a held body.
+    // The chain has one spring of the first kind and two of the second.
     const double critical = 2.0 * std::sqrt(stiffness * 0.5 * mass);
     for (ContactLaw& law : world.settings.laws) {
         law.normal_damping = 0.3 * critical;

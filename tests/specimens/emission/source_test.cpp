@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sources whose moments are known: openings, slips and closings, in any direction.
+// Tests sources whose moments are known: opening, slip and closing in any direction.
 
 #include "specimens/emission/source.hpp"
 
@@ -22,8 +22,8 @@ Vec2 turned(Vec2 v, double angle) {
     return {std::cos(angle) * v.x - std::sin(angle) * v.y, std::sin(angle) * v.x + std::cos(angle) * v.y};
 }
 
-/// Forces of 3 N at arms of 0.1 m either side, `sense` (1: away from each other) turned by `force_turn` from the arms,
-/// the whole turned by `angle`; M has 2·3·0.1 N m along the line.
+/// Two forces of 3 N at arms of 0.1 m on either side. With `sense` 1 they point away from each other; `force_turn`
+/// rotates them relative to the arms, and `angle` rotates everything. M has 2·3·0.1 N m along the line.
 MomentTensor dipole(double sense, double force_turn, double angle) {
     MomentTensor moment;
     for (const double side : {-1.0, 1.0}) {
@@ -42,7 +42,7 @@ constexpr double right_angle = 0.5 * std::numbers::pi;
 TEST(MomentTensorOfASource, IsTheSameInAnyDirection) {
     for (const double angle : {0.0, 0.3, 1.2, 2.5}) {
         const MomentTensor line = dipole(1.0, 0.0, angle), all_round = sum(line, dipole(1.0, 0.0, angle + right_angle));
-        // A couple and the one that balances its torque.
+        // A couple, and a second couple that balances its torque.
         const MomentTensor slip = sum(dipole(1.0, right_angle, angle), dipole(1.0, -right_angle, angle + right_angle));
         EXPECT_TRUE(agrees("opening along a line, N m", scalar_moment(line), 0.6 / std::numbers::sqrt2, 1e-12));
         EXPECT_TRUE(agrees("R", isotropic_percent(line), 50.0, 1e-12));
@@ -63,12 +63,12 @@ TEST(MomentTensorOfASource, IsTheSameInAnyDirection) {
 }
 
 TEST(MomentTensorOfASource, HasNoPartInItsTorque) {
-    // A couple alone: half of it is the torque.
+    // For a single couple, half of the tensor is torque.
     EXPECT_TRUE(agrees("N m", scalar_moment(dipole(1.0, right_angle, 0.7)), 0.3, 1e-12));
 }
 
 TEST(SourceType, ChangesAtThirtyPercent) {
-    // Moments m and q m: R = 100 (1 + q)/((1 + q) + (1 - q)) = 50 (1 + q).
+    // For moments m and q m, R = 100 (1 + q)/((1 + q) + (1 - q)) = 50 (1 + q).
     for (const double q : {-0.41, -0.39}) {
         const MomentTensor moment = sum(dipole(1.0, 0.0, 0.4), dipole(q, 0.0, 0.4 + right_angle));
         EXPECT_TRUE(agrees("R", isotropic_percent(moment), 50.0 * (1.0 + q), 1e-12));
@@ -78,7 +78,7 @@ TEST(SourceType, ChangesAtThirtyPercent) {
     }
 }
 
-/// What a column of ae.csv has of an event.
+/// Value of an event in a column of ae.csv.
 std::string column_of(const AcousticEvent& event, double thickness, const std::string& name) {
     for (const AcousticColumn& column : acoustic_columns())
         if (column.what.name == name) return column.text(event, thickness);
@@ -100,7 +100,7 @@ TEST(AcousticColumns, HaveTheSymmetricPartOfTheMoment) {
     EXPECT_EQ(column_of(event, 1.0, "moment_xx"), "2");
     EXPECT_EQ(column_of(event, 1.0, "moment_xy"), "4");
     EXPECT_EQ(column_of(event, 1.0, "moment_yy"), "-6");
-    // tr M = -4, and a deviator of 2 sqrt(4² + 4²): R = -100 4/(4 + 11.31).
+    // With tr M = -4 and a deviator of 2 sqrt(4² + 4²), R = -100 4/(4 + 11.31).
     EXPECT_TRUE(
         agrees("R", std::stod(column_of(event, 1.0, "isotropic")), -400.0 / (4.0 + 8.0 * std::sqrt(2.0)), 1e-12));
     EXPECT_EQ(column_of(event, 1.0, "type"), "shear");

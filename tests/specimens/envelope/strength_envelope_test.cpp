@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Envelopes of strengths made by a known law, with the scatter of packings.
+// Tests envelopes of strengths that follow a known law with the scatter of packings.
 
 #include "specimens/envelope/strength_envelope.hpp"
 
@@ -21,7 +21,7 @@ using testing::agrees;
 using testing::within;
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr int tries_of_coverage = 10;  // each takes a second there
+constexpr int tries_of_coverage = 10;  // with sanitizers, each takes a second
 #else
 constexpr int tries_of_coverage = 100;
 #endif
@@ -30,7 +30,7 @@ constexpr double unconfined = 150e6, slope = 5.0, m = 18.0;
 double line(double s3) { return unconfined + slope * s3; }
 double hoek_brown(double s3) { return s3 + std::sqrt(m * unconfined * s3 + unconfined * unconfined); }
 
-/// Ten packings at six confinements; packings scatter as a whole and each test by itself, by shares of the strength.
+/// Ten packings at six confinements. Strengths scatter by packing and by test, in proportion to the strength.
 template <class Law>
 std::vector<StrengthPoint> tests_of(Law&& law, double of_packing, double of_test, std::mt19937_64* generator,
                                     int packings = 10) {
@@ -81,7 +81,7 @@ TEST(StrengthEnvelope, OfScatteredStrengthsLiesInItsIntervalsAsOftenAsStated) {
         of_curved_strength += covers(curved.hoek_brown_strength, unconfined);
         of_m += covers(curved.hoek_brown_m, m);
     }
-    // Three standard deviations of such a count.
+    // Three standard deviations of a binomial count.
     const double expected = 0.95 * tries, spread = 3.0 * std::sqrt(0.95 * 0.05 * tries);
     EXPECT_TRUE(within("of all lines C in its interval", of_strength, expected, spread));
     EXPECT_TRUE(within("of all lines the angle in its interval", of_angle, expected, spread));
@@ -89,11 +89,12 @@ TEST(StrengthEnvelope, OfScatteredStrengthsLiesInItsIntervalsAsOftenAsStated) {
     EXPECT_TRUE(within("of all curves m in its interval", of_m, expected, spread));
 }
 
-/// Two packings are tried, too: 12.7 standard errors to either side. Bootstrap would never leave their range.
+/// Two packings are included: the interval then extends 12.7 standard errors to either side. A bootstrap would never
+/// leave the range of the two.
 TEST(StrengthEnvelope, OfFewPackingsLiesInItsIntervalsAsOftenAsStated) {
     for (const int packings : {2, 3, 6}) {
         std::mt19937_64 generator(40 + static_cast<unsigned>(packings));
-        constexpr int tries = 40 * tries_of_coverage;  // without bootstrap they take no time
+        constexpr int tries = 40 * tries_of_coverage;  // fast, since there is no bootstrap
         int of_strength = 0, of_angle = 0, of_m = 0;
         for (int k = 0; k < tries; ++k) {
             const auto covers = [](const FittedNumber& number, double truth) {
@@ -119,7 +120,7 @@ TEST(StrengthEnvelope, OfTwoPackingsHasTheIntervalOfStudentsT) {
         tests.push_back({"2", s3, 110e6 + 4.4 * s3});
     }
     const StrengthEnvelope envelope = fit_envelope(tests);
-    // Each packing by itself lies on a line; half their difference in logarithms is the standard error, t = 12.7062.
+    // Each packing alone lies on a line; half the difference of their logarithms is the standard error, t = 12.7062.
     const double half = 12.7062 * 0.5 * std::log(1.1);
     EXPECT_TRUE(agrees("slope", envelope.slope.value, 4.2, 1e-12));
     EXPECT_TRUE(agrees("its lower end", envelope.slope.low, 4.2 * std::exp(-half), 1e-5));
@@ -129,8 +130,7 @@ TEST(StrengthEnvelope, OfTwoPackingsHasTheIntervalOfStudentsT) {
                        std::asin((upper - 1.0) / (upper + 1.0)) * 180.0 / 3.14159265358979323846, 1e-5));
 }
 
-/// Each circle of the law touches the curve, from within: nowhere is a point of it closer to the centre than the
-/// radius.
+/// Each circle of the law touches the curve from inside: no point of the curve is closer to the centre than the radius.
 TEST(StrengthEnvelope, OnThePlaneOfFailureTouchesEachCircleOfTheLaw) {
     const StrengthEnvelope envelope = fit_envelope(tests_of(hoek_brown, 0.0, 0.0, nullptr));
     const double c = unconfined;
@@ -140,7 +140,7 @@ TEST(StrengthEnvelope, OnThePlaneOfFailureTouchesEachCircleOfTheLaw) {
     for (const double s3 : {envelope.hoek_brown_tension(), 0.0, 0.1 * c, 0.5 * c}) {
         const double s1 = envelope.hoek_brown(s3), centre = 0.5 * (s1 + s3), radius = 0.5 * (s1 - s3);
         double nearest = 2.0 * radius;
-        constexpr int steps = 20'000;  // of the deviator: a quadratic minimum is met to the square of a step
+        constexpr int steps = 20'000;  // in deviatoric stress; the error of a quadratic minimum is the square of a step
         for (int k = 0; k <= steps; ++k) {
             const PlaneStress on = envelope.hoek_brown_on_plane(3.0 * (s1 - s3) * k / steps);
             nearest = std::min(nearest, std::hypot(on.normal - centre, on.shear));
@@ -189,19 +189,19 @@ TEST(StrengthEnvelope, OfTooLittleIsRefusedWithWhatThereIs) {
     }
 }
 
-/// Two, three and one tests: by hand means 100, 200, 320, squares of the relative deviations 0.02 with one degree of
-/// freedom and 0.0025 with two.
+/// For two, three and one tests, results by hand: means 100, 200, 320; squared relative deviations 0.02 with one degree
+/// of freedom and 0.0025 with two.
 TEST(StrengthEnvelope, OfUnequalNumbersWeighsByThem) {
     const std::vector<StrengthPoint> tests{{"1", 0.0, 90.0},   {"2", 0.0, 110.0},  {"1", 10.0, 190.0},
                                            {"2", 10.0, 200.0}, {"3", 10.0, 210.0}, {"3", 20.0, 320.0}};
     const StrengthEnvelope envelope = fit_envelope(tests);
     EXPECT_TRUE(agrees("pooled scatter", envelope.variation, std::sqrt((0.02 + 2.0 * 0.0025) / 3.0), 1e-12));
-    // t of one degree of freedom 12.7062, of two 4.302653; deviations sqrt(200) and 10.
+    // t is 12.7062 for one degree of freedom and 4.302653 for two; deviations are sqrt(200) and 10.
     EXPECT_TRUE(agrees("upper end of the first mean", envelope.strengths[0].high, 100.0 + 12.7062 * 10.0, 1e-5));
     EXPECT_TRUE(
         agrees("lower end of the second", envelope.strengths[1].low, 200.0 - 4.302653 * 10.0 / std::sqrt(3.0), 1e-6));
     EXPECT_TRUE(std::isnan(envelope.strengths[2].high)) << "of one test";
-    // Weights n/mean²: the line through their centre of gravity.
+    // With weights n/mean², the line passes through the weighted centre.
     const double x[] = {0.0, 10.0, 20.0}, y[] = {100.0, 200.0, 320.0}, n[] = {2.0, 3.0, 1.0};
     double w = 0.0, mx = 0.0, my = 0.0, xx = 0.0, xy = 0.0;
     for (int k = 0; k < 3; ++k) {

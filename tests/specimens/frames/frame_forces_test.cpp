@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What frames derive from the forces and bonds of a moment: the mean stress of each particle, and the fragments.
+// Tests values that frames derive from the forces and bonds at one time: the mean stress of each particle, and the
+// fragments.
 
 #include "specimens/frames/frame_forces.hpp"
 
@@ -62,11 +63,11 @@ class FrameForcesOfRock : public ::testing::Test {
     ScratchFolder scratch_;
 };
 
-/// Σ ½(r⊗f + f⊗r) over the six contacts of a disc of radius R at the spacing s ≈ 2R, area A, for a strain ε along y
-/// and no turning: each bond along n has N = -k_n s ε n_y² and T = k_s s ε n_x n_y.
+/// Σ ½(r⊗f + f⊗r) over the six contacts of a disc of radius R and area A, with spacing s ≈ 2R. For a strain ε along y
+/// without rotation, each bond along n has N = -k_n s ε n_y² and T = k_s s ε n_x n_y.
 TEST_F(FrameForcesOfRock, OfADiscInATriangularLatticeUnderUniaxialStrainAreTheClosedForm) {
     VirtualTest test = prepared();
-    // The rock's lattice is slightly shaken: put its discs where they belong, and bond them there.
+    // The rock's lattice is slightly irregular, so its discs are moved to the exact positions and bonded there.
     const double strain = -1e-6, spacing = 2.0 * testing::rock_radius - testing::rock_overlap;
     for (StartPlace& start : test.setup.bonds.start) {
         const double row_height = spacing * std::sqrt(0.75), first = testing::rock_radius - testing::rock_overlap;
@@ -166,13 +167,14 @@ TEST_F(FrameForcesOfRock, OfASpecimenUnderPressureAreThoseOfItsPoints) {
             worst = std::max(worst, std::abs(forces.normal[bond] - view.normal_force));
             largest = std::max(largest, std::abs(view.normal_force));
         });
-        // Overlaps are differences of places: rounding of these by the stiffness, 1e-16 m by 1e7 N/m, of some 100 N.
+        // Overlaps are differences of positions, so the round-off of forces is 1e-16 m times 1e7 N/m, for forces of
+        // about 100 N.
         EXPECT_TRUE(
             within(fmt::format("{}: largest difference over the largest force", mesh), worst / largest, 0.0, 1e-9));
     }
 }
 
-// Between flat faces the overlap without force follows the circles' turning.
+// Between flat faces, the overlap at zero force depends on the rotation of the circles.
 TEST_F(FrameForcesOfRock, OfFlatFacesAreThoseOfTheirPoints) {
     TestCase asked = read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/jointed/softrock_welded.toml");
     asked.loading.max_axial_strain = 0.004;  // shortly before the peak
@@ -192,7 +194,7 @@ TEST_F(FrameForcesOfRock, OfFlatFacesAreThoseOfTheirPoints) {
     });
     fmt::print("  {} flat faces; turning has taken up to {:.3g} of the largest force\n", flat, turned / largest);
     EXPECT_GT(flat, 50U);
-    EXPECT_GT(turned, 0.01 * largest) << "else the test cannot fail";
+    EXPECT_GT(turned, 0.01 * largest) << "otherwise the test cannot fail";
     EXPECT_TRUE(within("largest difference over the largest force", worst / largest, 0.0, 1e-9));
 }
 
@@ -202,7 +204,8 @@ TEST_F(FrameForcesOfRock, FragmentsOfASpecimenSplitAcrossAreItsTwoParts) {
         Frame frame = taken(test);
         const std::vector<std::int32_t> whole = find_fragments(test.world, test.setup, frame);
         for (BodyIndex b = 0; b < whole.size(); ++b) EXPECT_EQ(whole[b], test.setup.apparatus.is_platen(b) ? -1 : 0);
-        // Above the cut is less than below it. One bond across it would be enough to hold the two together.
+        // The part above the cut is smaller than the part below it. A single bond across the cut would hold them
+        // together.
         const double cut = 0.7 * test.setup.specimen.height;
         const auto above = [&](BodyIndex b) { return frame.bodies[b].y > cut; };
         std::size_t last = 0;
@@ -241,7 +244,7 @@ TEST_F(FrameForcesOfRock, FragmentsAreNumberedByAreaThenById) {
         if (!test.setup.apparatus.is_platen(b)) by_id.emplace_back(test.world.bodies.info(b).id, dust[b]);
     std::sort(by_id.begin(), by_id.end());
     for (std::size_t k = 0; k < by_id.size(); ++k)
-        EXPECT_EQ(by_id[k].second, static_cast<std::int32_t>(k)) << "equal discs, all alone, go by their ids";
+        EXPECT_EQ(by_id[k].second, static_cast<std::int32_t>(k)) << "fragments of equal size are ordered by ids";
 }
 
 TEST_F(FrameForcesOfRock, FragmentsAreWhatSpreadingAlongIntactBondsReaches) {
@@ -249,7 +252,7 @@ TEST_F(FrameForcesOfRock, FragmentsAreWhatSpreadingAlongIntactBondsReaches) {
         VirtualTest test = prepared(mesh);
         load_specimen(test);
         const Frame frame = taken(test);
-        // Each body takes the lowest number of what it is bonded to until nothing changes.
+        // Each body gets the lowest index among the bodies bonded to it, until nothing changes.
         std::vector<BodyIndex> lowest(frame.bodies.size());
         for (BodyIndex b = 0; b < lowest.size(); ++b) lowest[b] = b;
         for (bool changed = true; changed;) {
@@ -277,7 +280,7 @@ TEST_F(FrameForcesOfRock, FragmentsAreWhatSpreadingAlongIntactBondsReaches) {
         fmt::print("  {}: {} fragments\n", *mesh == '\0' ? "circles" : mesh, groups.size());
         EXPECT_GT(groups.size(), *mesh == '\0' ? 0U : 1U);
         EXPECT_EQ(numbers.size(), groups.size());
-        EXPECT_EQ(pairs.size(), groups.size()) << "a fragment for a group";
+        EXPECT_EQ(pairs.size(), groups.size()) << "one fragment per group";
         EXPECT_EQ(*numbers.rbegin(), static_cast<std::int32_t>(groups.size()) - 1);
     }
 }

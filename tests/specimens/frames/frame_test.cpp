@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A frame shows the moment of its taking: places, forces and losses of the world itself. It depends neither on the list
-// of points nor on the frames that the painter has written before.
+// Tests that a frame shows the state at its time: positions, forces and losses of the world. It must not depend on the
+// list of points or on frames written earlier.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ using testing::write_small_case;
 
 class Frames : public ::testing::Test {
   protected:
-    /// Loaded until it has failed: turned bodies, broken bonds, a list built again.
+    /// A specimen loaded until failure, so that bodies have rotated, bonds are broken, and lists were rebuilt.
     VirtualTest broken_test(const std::string& mesh, const std::string& law = "rounded") const {
         SmallCase wanted;
         wanted.mesh = mesh;
@@ -105,7 +105,7 @@ TEST_F(Frames, ContactsHaveTheForcesAndStatesOfTheirPoints) {
             bonded += view.bonded;
         }
         EXPECT_LT(bonded, bonds.size());
-        // Places are known to a rounding of the specimen's size, turns to one of a whole turn.
+        // The tolerance for positions is round-off of the specimen's size, and for rotations that of a full turn.
         const double rounding = 1e7 * 1e-15 * test.setup.specimen.height;
         double largest = 0.0;
         std::array<int, 5> counts{};
@@ -129,13 +129,13 @@ TEST_F(Frames, ContactsHaveTheForcesAndStatesOfTheirPoints) {
             EXPECT_EQ(data.cell_data.at("body_j")[k], test.world.bodies.info(point.body_j).id);
             if (touches) touching.erase(held);
         }
-        ASSERT_EQ(data.cells.size(), bonds.size() + touching.size()) << "what is left was never bonded";
+        ASSERT_EQ(data.cells.size(), bonds.size() + touching.size()) << "the remaining points were never bonded";
         std::size_t cell = bonds.size();
-        for (const auto& [name, view] : touching) {  // by kind and key, as they are written
+        for (const auto& [name, view] : touching) {  // sorted by kind and key, in the order of writing
             EXPECT_EQ(data.cell_data.at("state")[cell], 4.0);
             EXPECT_EQ(data.cell_data.at("body_i")[cell], test.world.bodies.info(view.body_i).id);
             EXPECT_EQ(data.cell_data.at("body_j")[cell], test.world.bodies.info(view.body_j).id);
-            Vec2 middle;  // of the line's inner or only points
+            Vec2 middle;  // mean of the line's inner points, or of its only point
             const auto& line = data.cells[cell].points;
             for (const std::size_t point : line)
                 middle = middle + (1.0 / static_cast<double>(line.size())) * data.points[point];
@@ -180,7 +180,7 @@ TEST_F(Frames, OutlinesAndBondsLieWhereTheBodiesAre) {
             EXPECT_EQ(particles.cell_data.at("rotation_rate")[c], test.world.bodies.state[b].omega);
             turned = std::max(turned, std::abs(particles.cell_data.at("angle")[c]));
         }
-        // A bond that holds runs from body to body without a leap.
+        // An intact bond is drawn from body to body without a gap.
         double longest = 0.0;
         for (std::size_t k = 0; k < bonds.cells.size(); ++k) {
             const auto& line = bonds.cells[k].points;
@@ -192,7 +192,8 @@ TEST_F(Frames, OutlinesAndBondsLieWhereTheBodiesAre) {
                    mesh.empty() ? "circles" : mesh, farthest, turned, longest);
         EXPECT_LT(farthest, rounding);
         EXPECT_GT(turned, 1e-4);
-        EXPECT_LT(longest, mesh.empty() ? 1.01 * testing::rock_radius : 1.2e-3) << "a radius; the gap";
+        EXPECT_LT(longest, mesh.empty() ? 1.01 * testing::rock_radius : 1.2e-3)
+            << "largest distance: a radius, or the gap of the mesh";
     }
 }
 
@@ -236,7 +237,7 @@ TEST(CircleOutline, CoversTheCircleAndNothingElse) {
         double area = 0.0;
         for (std::size_t k = 0; k < outline.size(); ++k)
             area += 0.5 * cross(outline[k], outline[(k + 1) % outline.size()]);
-        // What of the circle lies beyond the sides: segments of half-angle a.
+        // Parts of the circle beyond the sides: circular segments of half-angle a.
         const double a = std::acos(norm(0.5 * (outline[0] + outline[1])));
         const double beyond = n * (a - std::sin(a) * std::cos(a)), pi = std::numbers::pi;
         const double overlap = (pi - beyond) / (area + beyond);
@@ -255,8 +256,8 @@ TEST(DefaultFrames, FallWithTheNumberOfBodies) {
     EXPECT_EQ(default_frames(77, 10), 10) << "frames are taken at rows";
 }
 
-/// Noise, zeros and repeats, of sizes about the blocks in which arrays are packed, and so large that they are written
-/// block by block.
+/// Noise, zeros and repeated values, with sizes around the block size in which arrays are compressed, and sizes large
+/// enough to be written block by block.
 TEST(PackedArrays, ComeBackWhateverTheirSize) {
     const ScratchFolder folder;
     std::mt19937_64 generator(1);

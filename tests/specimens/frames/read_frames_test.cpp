@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames whose numbers cannot be what they stand for are refused before any is taken for a place in memory.
+// Tests that frames with impossible numbers are refused before any number is used as an index.
 #include "specimens/frames/read_frames.hpp"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ class Triangles : public ::testing::Test {
         write(arrays);
         try {
             read();
-            ADD_FAILURE() << "went through, expected: " << says;
+            ADD_FAILURE() << "accepted, expected: " << says;
         } catch (const InputError& error) {
             EXPECT_NE(std::string(error.what()).find(file_.string() + ": " + says), std::string::npos) << error.what();
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Joints of a text as a case has them, in a box.
+// A case with the joints of a text, in a box.
 #pragma once
 
 #include <fstream>
@@ -17,7 +17,7 @@ inline TestCase joints_of(const std::string& text) {
     return CaseFiles(folder / "joints.toml").joints();
 }
 
-/// A case of triangles that joints are added to.
+/// A case of triangles to which joints can be added.
 inline const std::string rock = R"([packing]
 width = 0.5
 height = 1.0
@@ -39,7 +39,7 @@ kind = "compression"
 max_axial_strain = 0.01
 )";
 
-/// Another in area units, without a mesh.
+/// A case in area units without a mesh.
 inline const std::string area_rock = R"([packing]
 width = 0.3
 height = 0.5

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nodes of a survey that nearly coincide become one. Nothing moves farther than snap, other points keep their bytes,
-// and the mesher has no gap left that no grain can see.
+// Tests that nearly coincident nodes of a survey are merged. Nothing may move farther than snap, other points must stay
+// identical, and no gap smaller than a grain may remain for the mesher.
 
 #include "specimens/joints/clean_traces.hpp"
 
@@ -45,7 +45,7 @@ double distance_from_walls(const Domain& domain, Vec2 p) {
         {std::abs(p.x - domain.x1), std::abs(p.x - domain.x2), std::abs(p.y - domain.y1), std::abs(p.y - domain.y2)});
 }
 
-/// Largest distance of places along the first from the second, and from walls where these count as well.
+/// Largest distance of positions along the first traces from the second traces, or from the walls if given.
 double farthest(const std::vector<JointTrace>& of, const std::vector<JointTrace>& from, const Domain* walls) {
     double largest = 0.0;
     for (const JointTrace& trace : of) {
@@ -60,7 +60,7 @@ double farthest(const std::vector<JointTrace>& of, const std::vector<JointTrace>
     return largest;
 }
 
-/// The smallest distance of a node from an edge of which it is no end, and from other nodes.
+/// The smallest distance of a node from an edge that does not end at it, or from another node.
 double narrowest_gap(const std::vector<JointTrace>& traces, const Domain& domain) {
     std::vector<std::vector<Point>> lines;
     for (const JointTrace& trace : traces) {
@@ -78,7 +78,7 @@ double narrowest_gap(const std::vector<JointTrace>& traces, const Domain& domain
     return least;
 }
 
-/// Traces in a box of 1 m by 1 m with nodes that nearly coincide: by 1e-9 to 1e-1 of a grain of 0.05 m.
+/// Traces in a box of 1 m by 1 m with nearly coincident nodes: distances are 1e-9 to 1e-1 of a grain of 0.05 m.
 Lines window(std::uint64_t seed) {
     std::mt19937_64 generator(seed);
     const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
@@ -143,11 +143,11 @@ TEST(CleanTraces, NothingMovesFurtherThanSnap) {
     }
     fmt::print("  largest displacement {:.3f} snap, narrowest gap {:.3g} snap; {} windows with one below 0.2\n",
                most_moved, narrowest, narrow);
-    EXPECT_GT(most_moved, 0.3) << "windows in which something moves";
+    EXPECT_GT(most_moved, 0.3) << "in some windows, points must move";
     EXPECT_LE(narrow, 2) << "a fiftieth";
 }
 
-// Each is near the next; to the last it is a long way.
+// Each node is near the next one, but the first is far from the last.
 TEST(CleanTraces, AChainOfNearNodesGoesNoFurtherThanSnap) {
     for (const double step : {0.1, 0.3, 0.45, 0.49, 0.51, 0.7}) {
         Lines lines;
@@ -190,7 +190,8 @@ TEST(CleanTraces, ANodeOffAnotherTraceIsOnIt) {
     }
 }
 
-// The second trace has a node 1e-12 m off the first, which counts as unmoved. The third crosses both near that node.
+// The second trace has a node 1e-12 m from the first trace; this node counts as unmoved. The third trace crosses both
+// near it.
 TEST(CleanTraces, ANodeOffAnUnmovedTraceLeavesNoGapWhereAThirdCrosses) {
     const Lines lines{
         {{1.648294312902, 0.666818864450}, {0.372899834964, 0.581710215315}},
@@ -206,7 +207,7 @@ TEST(CleanTraces, ANodeOffAnUnmovedTraceLeavesNoGapWhereAThirdCrosses) {
 TEST(CleanTraces, TracesOnEachOtherAreTheFirst) {
     std::vector<JointTrace> traces = traces_of({{{0.1, 0.5}, {0.9, 0.5}}, {{0.0, 0.501}, {0.8, 0.5}, {0.8, 0.9}}});
     const Cleaning report = clean_traces(traces, box(1.0, 1.0), 0.005, 0.0);
-    ASSERT_EQ(traces.size(), 3U) << "beside the first two, the part before it and the one that leaves it";
+    ASSERT_EQ(traces.size(), 3U) << "the first two, and the parts of the second before and after the shared line";
     double length = 0.0;
     for (const JointTrace& trace : traces) length += trace.length();
     EXPECT_TRUE(testing::agrees("coincident", report.coincident, 0.7, 1e-3));
@@ -243,7 +244,7 @@ TEST(CleanTraces, AFineCurveHasAsManyPointsAsItTakes) {
     EXPECT_TRUE(testing::within("length", traces[0].length() / before, 1.0, 5e-3));
 }
 
-// Shipped cases, of 20 to 100 grains across: nothing of them nearly coincides.
+// Shipped cases are 20 to 100 grains wide; none of their nodes nearly coincide.
 TEST(CleanTraces, ShippedCasesKeepTheirTraces) {
     for (const char* name : {"survey", "granite_plane", "granite_slipping", "granite_bridges", "granite_set",
                              "softrock_slipping", "granite_welded", "softrock_welded"}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows that are segments of one fault: joined in whatever order and direction they are listed, and no others.
+// Tests that rows which are segments of one fault are joined, in any order and direction, and no others.
 
 #include "specimens/joints/faults.hpp"
 

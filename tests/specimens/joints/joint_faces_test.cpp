@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The joints of a case on the faces of its mesh.
+// Tests the joints of a case on the faces of its mesh.
 
 #include "specimens/joints/joint_faces.hpp"
 
@@ -38,7 +38,7 @@ TEST(JointFaces, EveryFaceOnATraceHasOneBodyOnEitherSide) {
         const Specimen specimen = make_specimen(test, {});
         const Scene& scene = specimen.scene;
         ASSERT_EQ(scene.edge_sides.size(), scene.vertices.size());
-        ASSERT_EQ(scene.joints.size(), 1u) << "the second trace is as the rock";
+        ASSERT_EQ(scene.joints.size(), 1u) << "the second trace has the rock's properties";
         EXPECT_EQ(scene.trace_joints, (std::vector<std::int32_t>{0, -1}));
         const std::vector<Vec2> bent{{0.0, 0.1}, {0.15, 0.2}, {0.3, 0.42}};
         std::map<TraceSide, double> length;
@@ -68,7 +68,7 @@ TEST(JointFaces, EveryFaceOnATraceHasOneBodyOnEitherSide) {
     }
 }
 
-/// Points of every pair that has bonds across the joint and not: no bond leads past an open one.
+/// Counts points of pairs with and without bonds across the joint: no bond may bypass an open joint.
 TEST(JointFaces, AnOpenTraceThroughTheSpecimenLeavesNoBondAcrossIt) {
     for (const char* kind : {"voronoi", "delaunay"}) {
         const TestCase test = case_of(meshed(kind) + "[[trace]]\npoints = [0.0, 0.15, 0.3, 0.35]\nbonded = false\n");
@@ -139,20 +139,20 @@ TEST(JointFaces, OfCirclesLieOnTheTracesThatHaveMechanics) {
     Scene scene = specimen.scene;
     scene.bond_law = BondLaw::coulomb;
     scene.units = StiffnessUnits::area;
-    scene.time_step = 0.0;  // of a rock by the packing's stiffness; to be chosen
+    scene.time_step = 0.0;  // derived for the packing's stiffness; an automatic step is used instead
     const World world = build_world(scene);
     for (std::uint32_t part = 0; part < 2; ++part) {
         const TracePiece& piece = scene.trace_pieces[part];
         const double length = norm(piece.to - piece.from);
         for (const int right : {0, 1}) {
-            std::vector<std::pair<double, double>> faces;  // along the part, of circles that lie at it
-            std::vector<std::pair<double, double>> feet;   // of these, with the power of the circle there, m2
+            std::vector<std::pair<double, double>> faces;  // extents of faces along the part
+            std::vector<std::pair<double, double>> feet;   // of these circles: position along the part, and power, m2
             double least_radius = 1.0;
             for (const FlatFace& face : world.bodies.flat_faces) {
                 ASSERT_EQ(trace_of(face.side), 0) << "the other has none";
                 const BodyState& body = world.bodies.state[face.body];
                 const Vec2 from_begin = Vec2{body.x, body.y} - piece.from, along{face.along_x, face.along_y};
-                const double above = cross(along, from_begin);  // below 0 of those that are held by the other side
+                const double above = cross(along, from_begin);  // negative for circles assigned to the other side
                 if (face.piece != part || (face.side & 1) != right || face.height != (right == 1 ? -above : above))
                     continue;
                 faces.emplace_back(dot(along, from_begin) + face.from, dot(along, from_begin) + face.to);
@@ -161,7 +161,7 @@ TEST(JointFaces, OfCirclesLieOnTheTracesThatHaveMechanics) {
                     feet.emplace_back(dot(along, from_begin), above * above - body.shape[0] * body.shape[0]);
             }
             std::sort(faces.begin(), faces.end());
-            double covered = 0.0;  // up to here without a gap
+            double covered = 0.0;  // end of the part covered without a gap
             for (const auto& [begin, end] : faces)
                 if (begin <= covered + 1e-12) covered = std::max(covered, end);
             fmt::print("  faces of part {}, side {}: {} from its begin to {} m of {}\n", part, right, faces.size(),
@@ -169,8 +169,9 @@ TEST(JointFaces, OfCirclesLieOnTheTracesThatHaveMechanics) {
             if (part == 0 || right == 0) {
                 EXPECT_GE(covered, length - 1e-12);
             }
-            // In the wedge between the second part and the wall to its right circles are few, and reach three radii r.
-            // The owner of a bare place has there a power of at least 9 r² - r², and all others have more.
+            // In the wedge between the second part and the wall to its right there are few circles, whose faces reach
+            // up to three radii r. At an uncovered position, the nearest circle has a power of at least 9 r² - r², and
+            // all others have a larger one.
             for (double p = 0.0; p < length; p += 1e-4) {
                 if (std::ranges::any_of(faces,
                                         [&](const auto& f) { return f.first <= p + 1e-12 && p <= f.second + 1e-12; }))

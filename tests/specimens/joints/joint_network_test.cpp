@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Networks of traces: amounts are reached, and traces lie in the box and end on its faces. Draws follow the laws
-// whatever the box, and the same seed gives the same traces.
+// Tests networks of traces: requested amounts are reached, and traces lie in the box and end on its sides. Random draws
+// follow their laws for any box, and the same seed gives the same traces.
 
 #include "specimens/joints/joint_network.hpp"
 
@@ -106,7 +106,7 @@ TEST(JointNetwork, LinesAtAFixedSpacingLieThroughThePoint) {
     std::vector<double> places;
     for (const JointTrace& t : network.traces) places.push_back(t.points.front().x);
     std::sort(places.begin(), places.end());
-    // Lines on the side walls, at 0 and 1, are there or not, by rounding.
+    // Lines on the side walls, at 0 and 1, may or may not be included because of round-off.
     for (int k = 1; k < 8; ++k) {
         EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&](double x) {
             return std::abs(x - 0.125 * k) < 1e-12;
@@ -115,8 +115,8 @@ TEST(JointNetwork, LinesAtAFixedSpacingLieThroughThePoint) {
     EXPECT_LE(places.size(), 9U);
 }
 
-// The beginnings of lines, and of joints along each, are drawn: over many seeds all places of a cycle are as likely. A
-// mean of n phases, uniform in [0, 1), errs by 1/sqrt(12 n).
+// The starting points of lines, and of joints along lines, are random: over many seeds all phases of a cycle are
+// equally likely. The standard error of a mean of n phases, uniform in [0, 1), is 1/sqrt(12 n).
 TEST(JointNetwork, LinesAndTheJointsAlongThemBeginAnywhere) {
     constexpr int seeds = 400;
     double across = 0.0, along = 0.0, lines = 0.0, squares_across = 0.0, squares_along = 0.0;
@@ -128,7 +128,7 @@ TEST(JointNetwork, LinesAndTheJointsAlongThemBeginAnywhere) {
         double last = -1.0;
         for (const JointTrace& t : network.traces) {
             const Vec2 end = t.points.back();
-            if (end.y == last || end.x == 2.0) continue;  // the first end in the box, of each line
+            if (end.y == last || end.x == 2.0) continue;  // counts only the first end in the box of each line
             const double phase = end.x / 0.4 - std::floor(end.x / 0.4);
             along += phase;
             squares_along += phase * phase;
@@ -143,7 +143,7 @@ TEST(JointNetwork, LinesAndTheJointsAlongThemBeginAnywhere) {
     }
     EXPECT_TRUE(within("mean place of lines", across / seeds, 0.5, 4.0 / std::sqrt(12.0 * seeds)));
     EXPECT_TRUE(within("mean place of joints", along / lines, 0.5, 4.0 / std::sqrt(12.0 * lines)));
-    // The mean of squares is 1/3, their variance 1/5 - 1/9.
+    // The expected mean square is 1/3, and its variance is 1/5 - 1/9.
     EXPECT_TRUE(within("mean square, lines", squares_across / seeds, 1.0 / 3.0, 4.0 * std::sqrt(4.0 / 45.0 / seeds)));
     EXPECT_TRUE(within("mean square, joints", squares_along / lines, 1.0 / 3.0, 4.0 * std::sqrt(4.0 / 45.0 / lines)));
 }
@@ -164,13 +164,13 @@ TEST(JointNetwork, DistancesBetweenLinesFollowTheirLaw) {
             squares += (d - 0.02) * (d - 0.02);
         }
         EXPECT_TRUE(within("mean", sum / n, 0.02, 4.0 * std::sqrt(mean_square / n)));
-        EXPECT_TRUE(agrees("variance", squares / n, mean_square, 0.15));  // 5000 of them: 3 errors of a heavy tail's
+        EXPECT_TRUE(agrees("variance", squares / n, mean_square, 0.15));  // 3 standard errors of 5000
     }
 }
 
-// Σ l cos d over the area, d from the mean direction: of lines through equal offsets it is 1/spacing, whatever their
-// scatter, if none that meets the box is left out. Each adds x <= sqrt(2) m, so that the sum's variance is at most
-// sqrt(2) times the sum.
+// Σ l cos d divided by the area, with d relative to the mean direction. For lines at equal offsets this is 1/spacing
+// for any scatter, if no line that meets the box is omitted. Each line adds x <= sqrt(2) m, so the variance of the sum
+// is at most sqrt(2) times the sum.
 TEST(JointNetwork, LinesAtASpacingThatScatterHaveItsFrequencyAcrossTheirMean) {
     const double spacing = 5e-5;
     for (const double deviation : {60.0, 85.0}) {
@@ -191,12 +191,12 @@ TEST(JointNetwork, GapsLeaveThePersistence) {
         joints_of(set_of("angle = 0.0\nlength = \"gaps\"\nlength_mean = 0.3\nlength_deviation = 0.1\ngap_mean = 0.1\n"
                          "gap_deviation = 0.05\nspacing = 0.05\n")),
         box(10.0, 10.0));
-    // 200 lines of 25 cycles each: the share's deviation is below 0.1/sqrt(5000) of the mean.
+    // 200 lines of 25 cycles each: the relative standard deviation is below 0.1/sqrt(5000).
     EXPECT_TRUE(within("persistence", total_length(network) / (200.0 * 10.0), 0.75, 0.005));
 }
 
-// Traces of a line of their own have the lengths and places of those of an unbounded plane. Lengths of midpoints in the
-// box follow the law, and the density is the same at the rim and in the middle.
+// Traces that are independent of lines have the lengths and positions of traces in an unbounded plane. Lengths of
+// traces with midpoints in the box follow the law, and the density is the same near the boundary and in the middle.
 TEST(JointNetwork, TheRimIsNoDifferentFromTheMiddle) {
     for (const char* length : {lengths[3], lengths[4]}) {
         const std::string text = set_of(std::string(directions[1]) + length + "number = 30000\n");
@@ -213,7 +213,8 @@ TEST(JointNetwork, TheRimIsNoDifferentFromTheMiddle) {
             rim += t.length();
             for (const auto& piece : clipped(t.points, core)) rim -= norm(piece.back() - piece.front());
         }
-        // A quarter of the area holds a quarter of the length. The error: 30,000 traces, most of the length in few.
+        // A quarter of the area contains a quarter of the length. The tolerance is for 30,000 traces, few of which make
+        // up most of the length.
         EXPECT_TRUE(within("share of the length in the core", 1.0 - rim / all, 0.25, 0.01));
         std::sort(whole.begin(), whole.end());
         double furthest = 0.0;
@@ -226,7 +227,8 @@ TEST(JointNetwork, TheRimIsNoDifferentFromTheMiddle) {
 }
 
 TEST(JointNetwork, LinesMeetTheBoxAsOftenAsTheirWidthSays) {
-    // Directions of lines all round through a box of 4 by 1 have the density of its width across them, |4 sin| + |cos|.
+    // Directions of lines through a box of 4 by 1, drawn from all directions, have a density proportional to the box's
+    // width across them, |4 sin| + |cos|.
     const JointNetwork network =
         make_joints(joints_of(set_of(std::string(directions[1]) + "number = 20000\n")), box(4.0, 1.0));
     double steep = 0.0;
@@ -268,7 +270,7 @@ TEST(JointNetwork, ShortTracesAreLeftOutAndSaidSo) {
 
 TEST(JointNetwork, ForAMeshTracesShorterThanItsSpacingAreLeftOut) {
     const std::string traces = "[[trace]]\npoints = [0.5, 0.5, 0.62, 0.5]\n[[trace]]\npoints = [0.5, 0.2, 0.58, 0.2]\n";
-    // A spacing of 0.1.
+    // The spacing is 0.1.
     const JointNetwork network = make_joints(joints_of(traces), box(1.0, 1.0), 100);
     ASSERT_EQ(network.traces.size(), 1U);
     EXPECT_EQ(network.traces[0].source, 0U);
@@ -291,7 +293,7 @@ TEST(JointNetwork, ATraceInPiecesIsCountedOnceWithTheLongest) {
     }
 }
 
-// 1 m of the trace lies left of the box, 0.2 m below it; halfway along is at x = 0.1.
+// 1 m of the trace is to the left of the box and 0.2 m below it; its midpoint is at x = 0.1.
 TEST(JointNetwork, TheMidpointOfATraceLiesHalfwayAlongIt) {
     for (const auto& [points, centred] : {std::pair{"[-1.0, 0.5, 1.0, 0.5, 1.0, 0.3]", true},
                                           {"[-1.0, 0.5, 0.9, 0.5]", false},
@@ -332,7 +334,7 @@ TEST(JointNetwork, LengthsThatWouldBeDrawnWithoutEndAreRefused) {
     EXPECT_NE(refused(gaps + "1e-20\ngap_mean = 0.1\n").find("joint_set[1].length_mean: found 1e-20 m"),
               std::string::npos);
     EXPECT_NE(refused(gaps + "0.1\ngap_mean = 1e9\n").find("joint_set[1].gap_mean: found"), std::string::npos);
-    // A hundred times the box is drawn.
+    // Traces are drawn in an area a hundred times that of the box.
     EXPECT_EQ(
         make_joints(joints_of(set_of("angle = 30.0\n" + fixed + "100.0\nnumber = 50\n")), box(1.0, 1.0)).traces.size(),
         50U);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keys of joints that do not go together are refused with the key, what was found and what to do; what goes together
-// survives being written out and read again.
+// Tests that incompatible keys of joints are refused with the key, what was found and a remedy, and that valid
+// combinations are unchanged after writing and reading.
 
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ TEST(JointRefusals, MechanicsOfAJointGoTogether) {
               std::string::npos);
 }
 
-/// A rock of its own strengths with a joint.
+/// A rock with coulomb bonds and a joint.
 std::string of_rock(const std::string& keys, const std::string& thick = "") {
     const testing::ScratchFolder folder;
     std::ofstream(folder / "case.toml") << R"([packing]

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The report of a network: amounts by their definitions, κ recovered from a network, and blocks that can be counted by
-// hand.
+// Tests the report of a network: amounts by their definitions, κ recovered from a network, and blocks counted by hand.
 
 #include "specimens/joints/joint_report.hpp"
 
@@ -31,7 +30,7 @@ TEST(JointReport, TwoCrossingSetsCutRectangles) {
         "[[joint_set]]\nname = \"a\"\nangle = 0.0\nspacing = 0.25\nthrough = [0.0, 0.125]\n"
         "[[joint_set]]\nname = \"b\"\nangle = 90.0\nspacing = 0.5\nthrough = [0.25, 0.0]\n",
         box(1.0, 1.0));
-    EXPECT_EQ(report.blocks, 15U);  // 5 rows of 3
+    EXPECT_EQ(report.blocks, 15U);  // 5 rows of 3 blocks
     EXPECT_TRUE(agrees("largest", report.largest_block, 0.25 * 0.5, 1e-12));
     EXPECT_TRUE(agrees("P21 of a", report.sources[0].p21, 4.0, 1e-12));
     EXPECT_TRUE(agrees("P10 of b", report.sources[1].p10, 2.0, 1e-12));
@@ -87,7 +86,7 @@ TEST(JointReport, ParallelTracesAreOnePetal) {
     }
 }
 
-/// Report of a set of nearly parallel planes in a section.
+/// Report for a set of nearly parallel planes in a section.
 SourceReport planes_in(const char* section, double trend, double dip, double dip_direction) {
     return report_of(fmt::format("[joints]\nsection = \"{}\"\nsection_trend = {}\n[[joint_set]]\nname = \"a\"\n"
                                  "orientation = \"fisher\"\ndip = {}\ndip_direction = {}\nfisher_k = 1e6\n"
@@ -97,9 +96,9 @@ SourceReport planes_in(const char* section, double trend, double dip, double dip
         .sources[0];
 }
 
-// Down along +x, which points to the trend, a plane dips by tan α = tan(dip) cos(dip direction - trend); seen from
-// above its trace is its strike, square to the dip direction. K = 1e6 scatters planes by 0.06 degrees, a trace in a
-// section at 50 degrees to the dip by at most 1/sin(angle between plane and section) of it.
+// In a vertical section, where +x points to the trend, the apparent dip α of a plane is given by tan α = tan(dip)
+// cos(dip direction - trend). On a map its trace is the strike, perpendicular to the dip direction. For K = 1e6, planes
+// scatter by 0.06 degrees, and traces by up to this value divided by the sine of the angle between plane and section.
 TEST(JointReport, TracesOfPlanesHaveTheirApparentDipInAnySection) {
     for (const double dip_direction : {70.0, 100.0, 250.0}) {
         const double turn = (dip_direction - 40.0) * degree;
@@ -107,7 +106,7 @@ TEST(JointReport, TracesOfPlanesHaveTheirApparentDipInAnySection) {
         const SourceReport vertical = planes_in("vertical", 40.0, 35.0, dip_direction);
         EXPECT_TRUE(within("direction asked", vertical.direction_asked, line_direction(-apparent), 1e-9));
         EXPECT_TRUE(within("direction", vertical.direction, line_direction(-apparent), 0.1));
-        // From +x, which points to the trend: clockwise by dip direction - trend, and a quarter turn on.
+        // Relative to +x, which points to the trend: clockwise by dip direction - trend, plus a quarter turn.
         const double strike = line_direction(90.0 - (dip_direction - 40.0));
         const SourceReport horizontal = planes_in("horizontal", 40.0, 35.0, dip_direction);
         EXPECT_TRUE(within("direction asked, from above", horizontal.direction_asked, strike, 1e-9));
@@ -115,8 +114,8 @@ TEST(JointReport, TracesOfPlanesHaveTheirApparentDipInAnySection) {
     }
 }
 
-// A box of 2 m by 1.5 m, so that no amount is its own area times the number. Of the traces the first has its midpoint
-// beyond the box, which also cuts the second.
+// A box of 2 m by 1.5 m, so that amounts differ from plain numbers. The first trace has its midpoint outside the box,
+// which also cuts the second trace.
 TEST(JointReport, AmountsOfMeasuredTracesAreThoseCountedByHand) {
     const JointReport report = report_of(
         "[[trace]]\nname = \"out\"\npoints = [1.5, 0.5, 3.5, 0.5]\n"
@@ -131,14 +130,15 @@ TEST(JointReport, AmountsOfMeasuredTracesAreThoseCountedByHand) {
     EXPECT_TRUE(agrees("P20", report.all.p20, 2.0 / 3.0, 1e-12));
     EXPECT_TRUE(agrees("mean length", report.all.mean_length, 0.9, 1e-12));
     EXPECT_TRUE(agrees("P21", report.all.p21, 1.9 / 3.0, 1e-12));
-    // Their mean direction is 0 degrees, by 1.5 m to 0.4 m: a line along y crosses the first two.
+    // Their mean direction is 0 degrees, from lengths of 1.5 m and 0.4 m; a line along y crosses the first two.
     EXPECT_TRUE(agrees("scan line", report.all.scan_line, 90.0, 1e-12));
     EXPECT_TRUE(agrees("P10", report.all.p10, 1.5 / 3.0, 1e-12));
     EXPECT_TRUE(agrees("scan line across the third", line_direction(report.sources[2].scan_line + 90.0), 90.0, 1e-12));
     EXPECT_TRUE(agrees("P10 of the third", report.sources[2].p10, 0.4 / 3.0, 1e-12));
 }
 
-// Four short ones along x and two long ones at 40 degrees: κ is of directions, each once, the mean by length.
+// Four short traces along x and two long ones at 40 degrees: κ counts each direction once, the mean direction is
+// weighted by length.
 TEST(JointReport, KappaCountsEachTraceOnce) {
     const double c = std::cos(40.0 * degree), s = std::sin(40.0 * degree);
     const SourceReport all =
@@ -149,7 +149,7 @@ TEST(JointReport, KappaCountsEachTraceOnce) {
                               0.5 + c, 0.1 + s, 0.9 + c, 0.1 + s),
                   box(2.0, 1.5))
             .all;
-    const double c2 = std::cos(80.0 * degree), s2 = std::sin(80.0 * degree);  // of doubled angles
+    const double c2 = std::cos(80.0 * degree), s2 = std::sin(80.0 * degree);  // cosine and sine of the doubled angle
     EXPECT_TRUE(agrees("kappa", all.kappa, fitted_kappa(std::hypot(2.0 + c2, s2) / 3.0, 6), 1e-9));
     EXPECT_TRUE(agrees("direction", all.direction, 0.5 * std::atan2(s2, 0.2 + c2) / degree, 1e-9));
 }
@@ -182,7 +182,7 @@ TEST(JointReport, GapsTakeTheirShareOfTheFrequencyOfLines) {
     ASSERT_TRUE(a.amount);
     EXPECT_EQ(a.amount->key, "p10");
     EXPECT_TRUE(agrees("P10 asked", a.amount->value, 0.75 / 0.02, 1e-12));
-    // Random phases of some 600 lines of 25 cycles each: an end of a line errs by less than a cycle.
+    // About 600 lines of 25 cycles with random phases: the error at the end of a line is less than a cycle.
     EXPECT_TRUE(agrees("P10", a.p10, 0.75 / 0.02, 0.01));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of lengths: each sampler against its own distribution (Kolmogorov-Smirnov) and moments, and the formulas of the
-// laws against closed forms.
+// Tests the laws of trace length: samplers against their own distribution (Kolmogorov-Smirnov) and moments, and
+// formulas of the laws against closed forms.
 
 #include "specimens/joints/length_law.hpp"
 
@@ -19,10 +19,10 @@ using testing::within;
 struct Named {
     const char* name;
     LengthLaw law;
-    double mean, deviation;  // m, by the closed forms
+    double mean, deviation;  // m, from closed forms
 };
 
-/// Moments of a power law by its density l^-a: ∫ l^(k-a) / ∫ l^-a.
+/// Moments of a power law with density l^-a: ∫ l^(k-a) / ∫ l^-a.
 double power_moment(double l0, double l1, double a, int k) {
     const auto integral = [&](double p) {
         return p == -1.0 ? std::log(l1 / l0) : (std::pow(l1, p + 1.0) - std::pow(l0, p + 1.0)) / (p + 1.0);
@@ -62,7 +62,7 @@ TEST(LengthLaw, SamplesFollowTheirDistribution) {
             const double share = law.share_below(lengths[k]), n = static_cast<double>(draws);
             furthest = std::max({furthest, share - static_cast<double>(k) / n, static_cast<double>(k + 1) / n - share});
         }
-        // Kolmogorov's distribution: √n D exceeds 1.95 once in a thousand.
+        // By Kolmogorov's distribution, √n D exceeds 1.95 in one of a thousand cases.
         EXPECT_TRUE(within(std::string("Kolmogorov's sqrt(n) D, ") + name, std::sqrt(draws) * furthest, 0.0, 1.95));
     }
 }
@@ -74,7 +74,7 @@ TEST(LengthLaw, SamplesHaveItsMeanAndDeviation) {
         for (const double length : drawn(law, 12)) sum += length, squares += (length - mean) * (length - mean);
         const double n = static_cast<double>(draws), error = deviation / std::sqrt(n);
         EXPECT_TRUE(within(std::string("mean of samples, ") + name, sum / n, mean, 4.0 * error + 1e-12));
-        // The variance's own error is larger the heavier the tail: bounded by draws of the law itself elsewhere.
+        // The error of the variance increases with the weight of the tail, so it is not checked for the widest law.
         if (deviation > 0.0 && std::string(name) != "wide lognormal") {
             EXPECT_TRUE(agrees(std::string("deviation of samples, ") + name, std::sqrt(squares / n), deviation, 0.05));
         }

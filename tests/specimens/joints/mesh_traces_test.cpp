@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A jointed specimen as a test makes it: edges on traces, what is printed, and errors that name traces by their source.
+// Tests a jointed specimen as made for a test: edges on traces, printed lines, and errors that name the source of
+// traces.
 
 #include "specimens/joints/mesh_traces.hpp"
 
@@ -37,9 +38,9 @@ TEST(JointedSpecimen, HasItsTracesAsFacesAndSaysSo) {
     }));
 }
 
-// specimens/joints/METHODS.md states 6 %: 9.5 % are of even rows of cells beside the traces. k_n/k_s = 2.5, five cells
-// between the traces. Over 20 packings 5.9 %, from one to the other by 0.9 %: the mean of three lies within three
-// deviations.
+// specimens/joints/METHODS.md states 6 %; regular rows of cells beside the traces would give 9.5 %. k_n/k_s = 2.5, with
+// five cells between the traces. Over 20 packings the mean is 5.9 % and the standard deviation 0.9 %, so the mean of
+// three is within three deviations.
 TEST(JointedSpecimen, StraightLinesOfFacesSoftenVoronoiCellsAsStated) {
     const auto modulus = [](int seed, const std::string& joints) {
         return moduli_of(prepare_test(case_of(fmt::format(R"([packing]
@@ -103,7 +104,7 @@ TEST(JointedSpecimen, WhatCannotHaveJointsIsRefused) {
                   .find("mesh.merge_destroyed: found true with joints"),
               std::string::npos);
     EXPECT_EQ(refused("[mesh]\nkind = \"delaunay\"\nthick = 1e-3\n[bond]\nthick = 1.1e-3\n", ""), "accepted")
-        << "circles have joints, too";
+        << "circles can have joints";
     EXPECT_NE(refused("thick = 1e-3\n", "thick = 1e-3\nboundary = \"seeds\"\n").find("mesh.boundary"),
               std::string::npos);
     EXPECT_NE(refused("\"compression\"", "\"brazilian\"").find("loading.kind: found \"brazilian\" with joints"),

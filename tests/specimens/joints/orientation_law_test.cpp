@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of direction: samplers against their own distributions and moments, planes cut by sections against the formula
-// of apparent dip, and κ recovered.
+// Tests the laws of direction: samplers against their own distributions and moments, planes cut by sections against the
+// formula of apparent dip, and recovery of κ.
 
 #include "specimens/joints/orientation_law.hpp"
 
@@ -27,7 +27,7 @@ using testing::within;
 constexpr double degree = std::numbers::pi / 180.0;
 constexpr std::size_t draws = 20'000;
 
-/// To [-90, 90) degrees about the mean, as rad.
+/// The angle from the mean direction, reduced to [-90, 90) degrees, in rad.
 double from_mean(double angle, double mean) {
     const double off = angle - mean;
     return off - std::numbers::pi * std::floor(off / std::numbers::pi + 0.5);
@@ -40,7 +40,7 @@ std::vector<double> drawn(const OrientationLaw& law, std::uint64_t seed, std::si
     return angles;
 }
 
-/// √n D of angles from the mean against a density over [-π/2, π/2], which need not be normed.
+/// √n D of angles relative to the mean, for a density over [-π/2, π/2] that need not be normalised.
 double kolmogorov(std::vector<double> off, const std::function<double(double)>& density) {
     std::sort(off.begin(), off.end());
     using boost::math::quadrature::gauss_kronrod;
@@ -84,7 +84,7 @@ TEST(OrientationLaw, KappaIsRecovered) {
         Rose rose;
         for (const double angle : drawn(OrientationLaw::von_mises(0.3, kappa), 23)) rose.add(angle, 1.0);
         const double fitted = fitted_kappa(rose.resultant(), rose.count);
-        // The estimate's error is 1/sqrt(n A'(κ)), A' = 1 - A/κ - A²: large κ have κ sqrt(2/n).
+        // The standard error of the estimate is 1/sqrt(n A'(κ)), A' = 1 - A/κ - A²; for large κ it is κ sqrt(2/n).
         const double a =
             boost::math::cyl_bessel_i(1, std::min(kappa, 600.0)) / boost::math::cyl_bessel_i(0, std::min(kappa, 600.0));
         const double slope = kappa < 600.0 ? 1.0 - a / kappa - a * a : 0.5 / (kappa * kappa);
@@ -98,7 +98,7 @@ TEST(OrientationLaw, FewLinesLieBeyondTheStretch) {
     for (const double kappa : {1e-3, 0.5, 2.0, 10.0, 1e6}) laws.push_back(OrientationLaw::von_mises(0.3, kappa));
     for (const double k : {1e-3, 3.0, 20.0, 1e6}) {
         laws.push_back(OrientationLaw::fisher(50.0 * degree, 45.0 * degree, k, section));
-        laws.push_back(OrientationLaw::fisher(85.0 * degree, 165.0 * degree, k, section));  // 15 degrees from it
+        laws.push_back(OrientationLaw::fisher(85.0 * degree, 165.0 * degree, k, section));  // 15 degrees off
     }
     for (const OrientationLaw& law : laws) {
         double beyond = 0.0;
@@ -108,7 +108,7 @@ TEST(OrientationLaw, FewLinesLieBeyondTheStretch) {
     }
     EXPECT_EQ(OrientationLaw::fixed(0.3).stretch(), 1.0);
     EXPECT_TRUE(agrees("all lines within", OrientationLaw::uniform(0.3, 60.0 * degree).stretch(), 2.0, 1e-12));
-    EXPECT_LE(OrientationLaw::von_mises(0.3, 10.0).stretch(), 4.0) << "no more lines than it takes";
+    EXPECT_LE(OrientationLaw::von_mises(0.3, 10.0).stretch(), 4.0) << "the bound may not be larger than necessary";
 }
 
 TEST(OrientationLaw, FittedKappaSolvesTheLikelihoodEquation) {
@@ -125,9 +125,8 @@ TEST(OrientationLaw, FittedKappaSolvesTheLikelihoodEquation) {
 }
 
 TEST(OrientationLaw, FisherPlanesCutSquareAreVonMisesLike) {
-    // Normals in a section are those of planes square to it: about a mean plane square to the section, the trace's
-    // angle has the density of n projected. For large K and small deviations it is normal of variance 1/K, with weights
-    // near 1.
+    // If the mean plane is perpendicular to the section, the trace's angle has the projected density of n. For large K
+    // and small deviations it is a normal distribution with variance 1/K, with weights near 1.
     const double k = 2000.0;
     const Section section = Section::vertical(90.0 * degree);
     const OrientationLaw law = OrientationLaw::fisher(30.0 * degree, 90.0 * degree, k, section);
@@ -143,7 +142,8 @@ TEST(OrientationLaw, FisherPlanesCutSquareAreVonMisesLike) {
 }
 
 TEST(OrientationLaw, FisherWithoutConcentrationIsUniformInTheSection) {
-    // Planes of all directions alike, each as often as it meets the section: traces have no preferred direction.
+    // With uniformly distributed planes, weighted by how often they meet the section, traces have no preferred
+    // direction.
     std::vector<double> off =
         drawn(OrientationLaw::fisher(50.0 * degree, 200.0 * degree, 1e-3, Section::vertical(10.0 * degree)), 25);
     for (double& angle : off) angle = from_mean(angle, 0.0);
@@ -151,7 +151,7 @@ TEST(OrientationLaw, FisherWithoutConcentrationIsUniformInTheSection) {
 }
 
 TEST(OrientationLaw, FisherWeighsPlanesByTheirChanceToMeetTheSection) {
-    // Against a plain sum over planes drawn all round, each weighted: mean of cos 2θ.
+    // Compared with a direct sum over planes in all directions, each weighted: the mean of cos 2θ.
     const double k = 5.0, dip = 40.0 * degree, direction = 75.0 * degree;
     const Section section = Section::vertical(30.0 * degree);
     const OrientationLaw law = OrientationLaw::fisher(dip, direction, k, section);
@@ -160,7 +160,7 @@ TEST(OrientationLaw, FisherWeighsPlanesByTheirChanceToMeetTheSection) {
     double weighted_cosine = 0.0, weighted_sine = 0.0, weights = 0.0;
     const double t = 30.0 * degree;
     const double mean[3] = {std::sin(dip) * std::sin(direction), std::sin(dip) * std::cos(direction), std::cos(dip)};
-    // Normals on a fine grid of the sphere, with Fisher's density.
+    // Normals on a fine grid over the sphere, with Fisher's density.
     constexpr int rings = 800, round = 800;
     for (int i = 0; i < rings; ++i) {
         const double z = -1.0 + 2.0 * (i + 0.5) / rings, r = std::sqrt(1.0 - z * z);
@@ -189,10 +189,10 @@ TEST(OrientationLaw, TheMeanTraceHasTheApparentDip) {
             for (const double direction : {20.0, 130.0, 300.0}) {
                 const OrientationLaw law =
                     OrientationLaw::fisher(dip * degree, direction * degree, 100.0, Section::vertical(trend * degree));
-                // Down towards +x where the plane dips that way.
+                // The trace goes down towards +x if the plane dips that way.
                 const double apparent = -std::atan(std::tan(dip * degree) * std::cos((direction - trend) * degree));
                 EXPECT_NEAR(from_mean(law.mean(), apparent), 0.0, 1e-9) << trend << ' ' << dip << ' ' << direction;
-                // On a map it is the strike.
+                // On a map, the trace is the strike.
                 const OrientationLaw map = OrientationLaw::fisher(dip * degree, direction * degree, 100.0,
                                                                   Section::horizontal(trend * degree));
                 EXPECT_NEAR(from_mean(map.mean(), (trend - (direction - 90.0)) * degree), 0.0, 1e-9);

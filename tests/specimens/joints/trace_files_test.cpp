@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of traces: the three forms say the same, what is written is read again to the last digit, and what is wrong is
-// named with its line.
+// Tests trace files: the three formats give the same traces, written values are read back exactly, and errors are
+// reported with their line.
 
 #include "specimens/joints/trace_files.hpp"
 
@@ -66,12 +66,12 @@ TEST(TraceFiles, HeightsAreNamed) {
                   .find("found 9 numbers, expected x and y of two points or more; if "
                         "these are x y z, remove every third number"),
               std::string::npos);
-    // Three points of x y, straight, bent, along the diagonal and across the middle.
+    // Lines with three points x y: straight, bent, along the diagonal, and across the middle.
     for (const char* text : {"0 0.5 1.5 2 2 2.25\n", "0 0 1 1 2 2\n", "-1 1 0 0.1 1 -1.2\n", "3 7 3.2 7.4 3.1 7.9\n",
                              "# x1 y1 x2 y2\n0.2 0.3 101.1 1.8 1.5 101.4\n"})
         EXPECT_EQ(parse_traces("a.txt", text, "").front().size(), 3U) << text;
     EXPECT_EQ(parse_traces("a.txt", "# x1 y1 x2 y2 in m, section at z = 12\n0.1 0.2 0.9 0.8\n", "").front().size(), 2U)
-        << "a remark about heights";
+        << "a comment with a section height";
 }
 
 TEST(TraceFiles, OtherKindsOfFileAreNamed) {
@@ -159,7 +159,7 @@ TEST(TraceFiles, EveryBeginningOfADrawingIsReadOrRefused) {
         } catch (const InputError&) {
         }
     }
-    EXPECT_LT(read, 12U);  // those that lack no more than the end behind ENDSEC
+    EXPECT_LT(read, 12U);  // only those complete up to ENDSEC
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Kinds of test: their formulas against published values, their shapes and parts, and what is refused; closed forms of
-// discs and beams are claims (tests/bench/verify/laboratory).
+// Tests the kinds of test: formulas against published values, shapes and parts, and refusals. Closed forms of discs and
+// beams are claims (tests/bench/verify/laboratory).
 
 #include "specimens/kinds/test_kind.hpp"
 
@@ -38,7 +38,7 @@ TEST(TestKinds, TheCaseKnowsEveryKindByItsName) {
 }
 
 TEST(TestKinds, FormulasHaveTheirPublishedValues) {
-    // 5e-5: half of the last digit given.
+    // The tolerance of 5e-5 is half of the last digit given.
     const double beam[][2] = {{0.2, 1.1749}, {0.3, 1.5212}, {0.4, 1.9818}, {0.5, 2.6625}};
     for (const auto& [ratio, expected] : beam)
         EXPECT_TRUE(within(fmt::format("f({})", ratio), notched_beam_factor(ratio), expected, 5e-5));
@@ -53,13 +53,14 @@ TEST(TestKinds, FormulasHaveTheirPublishedValues) {
 TEST(TestKinds, ANotchPartsWhatLiesOnEitherSideOfIt) {
     const Notch notch{{0.0, -1.0}, {0.0, 1.0}};
     EXPECT_TRUE(notch.parts({-1.0, 0.0}, {1.0, 0.5}));
-    EXPECT_FALSE(notch.parts({-1.0, 1.5}, {1.0, 1.5}));  // above its tip
+    EXPECT_FALSE(notch.parts({-1.0, 1.5}, {1.0, 1.5}));  // above the tip of the notch
     EXPECT_FALSE(notch.parts({-1.0, 0.0}, {-0.5, 0.5}));
     EXPECT_EQ(notch.distance({0.5, 0.0}), 0.5);
     EXPECT_EQ(notch.distance({0.0, 2.0}), 1.0);
 }
 
-/// A jaw's face is where the parts of a test say: outline and face of every jaw are apart by what it touches at.
+/// Checks that jaws are at the positions given by the parts of a test: the outline and the face of each jaw differ by
+/// the distance at which contact begins.
 TEST(TestKinds, JawsThatAreNotBondedJustTouchTheDisc) {
     TestCase test;
     test.loading.kind = LoadingKind::brazilian;
@@ -78,7 +79,8 @@ TEST(TestKinds, JawsThatAreNotBondedJustTouchTheDisc) {
             for (std::uint32_t k = 0; k + 1 < part.face; ++k)
                 for (const Vec2 corner : shape.outline)
                     nearest = std::min(nearest, Notch{part.corners[k], part.corners[k + 1]}.distance(corner));
-            // Sides are allowed for by the whole of their depth, of which a corner uses some: 1/8 (side/radius)² of it.
+            // The jaw allows for the whole depth of a cell's side, of which a corner uses only a part: 1/8
+            // (side/radius)².
             EXPECT_GE(nearest, reach * (1.0 - 1e-9)) << name_of(jaws);
             EXPECT_LE(nearest, reach + 1e-4 * shape.width) << name_of(jaws);
         }
@@ -97,7 +99,7 @@ TEST(TestKinds, SupportsOfABeamCarryHalfTheLoadEachAndNoThrust) {
     const std::vector<BodyMotion>& reaction = test.small_strain->moduli.solution.reaction;
     ASSERT_EQ(reaction.size(), 3U);
     const double load = reaction.back().y;
-    // The lattice is symmetric about midspan, except its odd rows, half a disc shorter at both ends.
+    // The lattice is symmetric about midspan, except that odd rows are half a disc shorter at both ends.
     EXPECT_TRUE(within("left support over the load", -reaction[0].y / load, 0.5, 1e-3));
     EXPECT_TRUE(within("right support over the load", -reaction[1].y / load, 0.5, 1e-3));
     for (const BodyMotion& one : reaction) EXPECT_TRUE(within("thrust over the load", one.x / load, 0.0, 1e-6));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What --check estimates, against closed forms and against the tests themselves.
+// Tests the estimates of --check against closed forms and against tests.
 
 #include "specimens/loading/check.hpp"
 
@@ -29,7 +29,7 @@ TEST(StrainOfShare, CountsOnlyWhatCanBreak) {
     }
     EXPECT_EQ(strain_of_share(bonds, 0.0), 1e-3) << "at least one";
     EXPECT_EQ(strain_of_share(bonds, 0.5), 6e-3);
-    bonds[9].strength = std::numeric_limits<double>::infinity();  // the first to go is held
+    bonds[9].strength = std::numeric_limits<double>::infinity();  // the bond that would break first is unbreakable
     EXPECT_EQ(strain_of_share(bonds, 0.0), 2e-3);
     EXPECT_TRUE(std::isinf(strain_of_share({}, 0.1)));
 }
@@ -50,7 +50,7 @@ TEST(TestCheck, CountsGrainsStepsAndSeconds) {
     EXPECT_TRUE(
         agrees("stress of the estimate", check.strength->stress, check.youngs_modulus * check.strength->strain, 1e-12));
     EXPECT_GE(check.strength->strain, check.first_break->strain);
-    EXPECT_EQ(check.rate, check.slowest_rate) << "a rate that is given stays";
+    EXPECT_EQ(check.rate, check.slowest_rate) << "a given rate is not changed";
 }
 
 TEST(TestCheck, EstimatesNoStrengthUnderAPressure) {
@@ -88,7 +88,8 @@ TEST(TestCheck, SaysWhereANumberLooksLikeAnotherUnit) {
     EXPECT_NE(mega.find("material.tensile_strength = 9 Pa is 1e-10 of the contact modulus: is it meant in MPa?"),
               std::string::npos)
         << mega;
-    // Faster than its waves: unstable within some tens of steps, however few a second there are.
+    // Loading is faster than its waves, so the test becomes unstable within some tens of steps, however few steps it
+    // takes per second.
     const std::string giga = warnings_of(area + "contact_modulus = 60\ntensile_strength = 1e-3\ncohesion = 1e-2", 5.0);
     EXPECT_NE(giga.find("while steps were timed, unstable at step"), std::string::npos) << giga;
     EXPECT_NE(giga.find("material.contact_modulus = 60 Pa is softer than any rock or soil: is it meant in GPa?"),
@@ -101,7 +102,7 @@ TEST(TestCheck, SaysWhereANumberLooksLikeAnotherUnit) {
     EXPECT_EQ(points.find("may end before"), std::string::npos) << points;
 }
 
-/// Judgement of what a platen does to the corners that it touches. Its bonds have 40 degrees, broken ones 30.
+/// Judges the effect of platens on the corners they touch. Bonds have a friction angle of 40 degrees, broken bonds 30.
 TEST(TestCheck, ADiscIsJudgedByTheFrictionOfItsBonds) {
     const testing::ScratchFolder scratch;
     std::ofstream(scratch / "case.toml") << "include = \"" CRACKLE_SOURCE_DIR
@@ -126,7 +127,7 @@ TEST(TestCheck, CornersComeNearerToAPlatenAsTheThicknessShrinks) {
     const TestCheck thick = pressed("1e-3", "1.08e-3"), thin = pressed("1e-5", "9e-5");
     EXPECT_TRUE(agrees("distance from the platen's face", thick.corner_distance, 1e-3, 1e-3));
     EXPECT_TRUE(agrees("distance from the platen's face", thin.corner_distance, 1e-5, 1e-3));
-    // The overlap at bonding, and with it the strength, is the same.
+    // The overlap at bonding, and therefore the strength, is the same.
     EXPECT_TRUE(agrees("way of the corner", thin.corner_closing, thick.corner_closing, 0.5));
     EXPECT_GT(thin.corner_closing, thin.corner_distance);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A specimen under a membrane between platens: equilibrium before loading, what the pressure does to its area, and a
-// test that continues from there.
+// Tests a specimen between platens under a membrane: equilibrium before loading, the effect of the pressure on its
+// area, and a test resumed from there.
 
 #include "specimens/loading/confine.hpp"
 
@@ -51,7 +51,7 @@ TEST_F(Confined, SpecimenIsInEquilibriumBeforeLoadingBegins) {
         for (const char* loading : {"", "platens = \"frictional\"\nplaten_friction_angle = 10"}) {
             VirtualTest test = prepare_test(described(mesh, pressure, loading));
             World& world = test.world;
-            // At rest: without the motion that loading begins with its dashpots carry nothing.
+            // Without velocities, dashpots carry no force.
             for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;
             velocities_changed(world);
             compute_forces(world);
@@ -64,7 +64,7 @@ TEST_F(Confined, SpecimenIsInEquilibriumBeforeLoadingBegins) {
             EXPECT_TRUE(within("lateral strain", row.lateral_strain, 0.0, 1e-15));
             EXPECT_EQ(world.bonds.broken, 0);
             EXPECT_EQ(test.setup.apparatus.confining_pressure, pressure);
-            // The disc that is rolled about the specimen is as large as a mean particle.
+            // The probe disc has the size of a mean particle.
             const double particle = std::sqrt(test.setup.specimen.width * test.setup.specimen.height /
                                               static_cast<double>(test.setup.specimen.particles));
             EXPECT_TRUE(agrees("radius of the membrane's disc, m", world.membrane.probe, 0.5 * particle, 1e-12));
@@ -73,7 +73,8 @@ TEST_F(Confined, SpecimenIsInEquilibriumBeforeLoadingBegins) {
 }
 
 TEST_F(Confined, SpecimenThatItsPlatensDoNotHoldIsRefusedSoon) {
-    // The last circles of a side lie a little nearer to one platen than those of the other: the membrane pushes.
+    // The last circles on one side are slightly nearer to one platen than those on the other, because of the membrane's
+    // pressure.
     const auto file = scratch_ / "smooth.toml";
     std::ofstream(file) << "include = \"" CRACKLE_SOURCE_DIR "/specimens/rocks/softrock.toml\"\n"
                         << "title = \"smooth platens\"\n[packing]\ncount = 300\n[confinement]\npressure = 5e6\n"
@@ -90,7 +91,7 @@ TEST_F(Confined, SpecimenThatItsPlatensDoNotHoldIsRefusedSoon) {
     EXPECT_NE(refused.find("raise loading.platen_friction_angle"), std::string::npos) << refused;
 }
 
-/// N, of the specimen on a wall, inwards positive where it presses it out.
+/// Force of the specimen on a wall, N; positive if it pushes the wall outwards.
 double force_on_wall(const VirtualTest& test, std::size_t wall) {
     const double force = test.world.bodies.force[test.setup.apparatus.parts[wall].body].fx;
     return wall == 1 ? -force : force;
@@ -146,7 +147,7 @@ TEST_F(Confined, WallsDoTheWorkOfTheirForceAndTheEnergyCloses) {
 TEST_F(Confined, SpecimenBetweenWallsHasTheModulusOfItsSolutionAndIsNoSofterThanInAMembrane) {
     for (const char* mesh : {"", "voronoi"}) {
         TestCase description = described(mesh, pressure, {}, "walls");
-        description.loading.max_axial_strain = 1e-4;  // by less of it the start's small waves are seen
+        description.loading.max_axial_strain = 1e-4;  // small enough that initial waves would be noticed
         *description.loading.axial_strain_rate = 5e-4;
         VirtualTest test = prepare_test(description);
         const double solved = nominal_stress(test.setup.apparatus, test.small_strain->moduli.solution.reaction);
@@ -156,7 +157,8 @@ TEST_F(Confined, SpecimenBetweenWallsHasTheModulusOfItsSolutionAndIsNoSofterThan
         const double modulus = (last.axial_stress - first.axial_stress) / last.axial_strain;
         EXPECT_TRUE(agrees("slope, N/m", modulus, solved, 2e-3));
         EXPECT_GE(solved, test.state.youngs_modulus);
-        EXPECT_LT(solved, 1.1 * test.state.youngs_modulus) << "free to widen, walls hinder nothing but unevenness";
+        EXPECT_LT(solved, 1.1 * test.state.youngs_modulus)
+            << "the specimen widens freely, so walls restrain only its unevenness";
     }
 }
 
@@ -172,7 +174,8 @@ TEST_F(Confined, LoadingBetweenWallsBeginsWithoutAShock) {
         };
         const double first = kinetic();
         for (int n = 0; n < 12; ++n) step(test.world);
-        // Walls that stand still at first take 5e-4 of it in twelve steps: a fifth of that would be seen.
+        // Walls at rest at the beginning would take 5e-4 of the energy in twelve steps; a fifth of this would be
+        // noticed.
         EXPECT_TRUE(agrees("kinetic energy after twelve steps, J", kinetic(), first, 1e-4));
     }
 }
@@ -224,7 +227,7 @@ TEST_F(Confined, PressureBeyondTheRockIsRefusedWhateverThePlatens) {
     for (const char* loading : {"", "platens = \"frictional\"\nplaten_friction_angle = 10"}) {
         try {
             prepare_test(described("", 1e7, loading));
-            ADD_FAILURE() << "goes on without its pressure: " << loading;
+            ADD_FAILURE() << "continues without its pressure: " << loading;
         } catch (const InputError& error) {
             const std::string message = error.what();
             EXPECT_NE(message.find("confinement.pressure: found no equilibrium"), std::string::npos) << message;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A specimen in half boxes: pressed before it is sheared, and loaded tests of the kinds that are not between platens.
+// Tests a specimen in two half boxes, which is compressed before it is sheared, and loaded tests of kinds that are not
+// between platens.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ class Kinds : public ::testing::Test {
         wanted.numerics = numerics;
         return read_case(testing::write_small_case(scratch_ / "", wanted));
     }
-    /// Circles of some millimetres in the shear box under 5 MPa. @param tables of traces and the mesh
+    /// Circles of a few millimetres in the shear box under 5 MPa. @param tables TOML tables of traces and mesh
     TestCase packed(const std::string& tables, double max_strain) const {
         std::ofstream(scratch_ / "packed.toml") << fmt::format(
             "[packing]\nwidth = 0.03\nheight = 0.02\nradius_min = 0.9e-3\nradius_max = 1.6e-3\nmean_overlap = "
@@ -54,7 +55,7 @@ class Kinds : public ::testing::Test {
 constexpr const char* open_joint =
     "[[trace]]\nname = \"joint\"\npoints = [0.0, 0.01, 0.03, 0.01]\nbonded = false\nfriction_angle = 30.0\n";
 
-// Pressing brings circles together that no bond joins: the linear solution of the bonds alone goes past them.
+// Compression brings unbonded circles into contact, so it differs from the linear solution, which contains only bonds.
 TEST_F(Kinds, BoxPressesCirclesThatMeetByTheNormalStress) {
     for (const char* joint : {"", open_joint}) {
         VirtualTest test = bond_test(packed(joint, 0.001));
@@ -66,15 +67,15 @@ TEST_F(Kinds, BoxPressesCirclesThatMeetByTheNormalStress) {
     }
 }
 
-// The joint parts the boxes from side to side: what presses it and what shears it are the boxes' forces over its
-// length.
+// The joint separates the boxes from side to side, so its normal and shear stresses are the forces on the boxes divided
+// by its length.
 TEST_F(Kinds, OpenJointAmongCirclesSlidesAtItsFriction) {
     TestCase description = packed(open_joint, 4e-4);
-    description.loading.strength_drop = 1.0;  // it slides on
+    description.loading.strength_drop = 1.0;  // it continues to slide
     VirtualTest test = prepare_test(description);
     const double strength = 5e6 * std::tan(30.0 * std::numbers::pi / 180.0);
     const double strain = test.setup.rate_rule.first_strain;
-    // Before it slides the solution is linear, and its points share the stress evenly, except at the boxes' ends.
+    // Before sliding the solution is linear, and points carry equal stress except at the ends of the boxes.
     EXPECT_TRUE(within("strain of the rule over the stress that slides by the modulus",
                        strain * test.small_strain->moduli.youngs_modulus / strength, 1.0, 0.3));
     load_specimen(test);
@@ -104,7 +105,7 @@ TEST_F(Kinds, BoxPressesWithTheNormalStressBeforeItShears) {
         double lower = 0.0;
         for (const SetupPart& part : test.setup.apparatus.parts)
             if (part.body != test.setup.apparatus.top) lower += world.bodies.force[part.body].fy;
-        // What bodies between them are left with: most_unbalanced of the force on a particle, each.
+        // The tolerance is the unbalanced force allowed on each particle between the boxes.
         EXPECT_TRUE(agrees(name + ": and on the lower one", -lower, force, 1e-3));
         const CurveRow row = observe_row(world, test.setup);
         EXPECT_EQ(row.axial_strain, 0.0);
@@ -120,7 +121,7 @@ TEST_F(Kinds, NormalForceStaysWhenShearingBeginsAndDoesItsWork) {
     const std::vector<CurveRow>& rows = test.state.rows;
     EXPECT_EQ(rows.front().lateral_strain, 0.0);
     EXPECT_EQ(rows.front().confinement_work, 0.0);
-    // Its work is minus the force times the rise, to the rounding of a sum over steps.
+    // The work is minus the force times the rise, up to the round-off of a sum over steps.
     const double force = normal * test.setup.specimen.width;
     for (const CurveRow& row : rows) {
         const double expected = -force * row.lateral_strain * test.setup.specimen.height;
@@ -132,7 +133,7 @@ TEST_F(Kinds, NormalForceStaysWhenShearingBeginsAndDoesItsWork) {
 TEST_F(Kinds, NormalStiffnessMakesTheNormalForceGrowWithTheRise) {
     constexpr double normal = 1e3, stiffness = 1e8;  // N/m, N/m2
     TestCase description = described("direct_shear", "", "normal_stress = 1e3\nnormal_stiffness = 1e8");
-    description.loading.max_axial_strain = 0.02;  // beyond its strength, where it rises
+    description.loading.max_axial_strain = 0.02;  // beyond its strength, so that it dilates
     VirtualTest test = prepare_test(description);
     load_specimen(test);
     const double force = normal * test.setup.specimen.width, spring = stiffness * test.setup.specimen.width;
@@ -144,8 +145,7 @@ TEST_F(Kinds, NormalStiffnessMakesTheNormalForceGrowWithTheRise) {
         ASSERT_NEAR(row.confinement_work, expected, 1e-9 * force * test.setup.specimen.height * 1e-3)
             << row.axial_strain;
     }
-    // Held back from rising at the end, the specimen bears what the spring has grown by; its inertia is of the box
-    // alone.
+    // The spring's increasing force acts on the specimen at the end; only the box has inertia.
     compute_forces(test.world);
     const double rise = test.state.rows.back().lateral_strain * test.setup.specimen.height;
     EXPECT_TRUE(agrees("force on the upper box, N", test.world.bodies.force[test.setup.apparatus.top].fy,
@@ -185,7 +185,7 @@ TEST_F(Kinds, StressRisesByTheLinearSolutionsModulus) {
                                                          {"direct_shear", "normal_stress = 0"}};
     for (const auto& [kind, loading] : kinds) {
         for (const char* mesh : {"", "voronoi"}) {
-            // Six discs wide are no disc, and a pad that holds a single one turns about it.
+            // A specimen six circles wide is not a disc, and a pad that touches a single circle rotates about it.
             if (*mesh == '\0' && std::string(kind) != "direct_shear") continue;
             TestCase description = described(kind, mesh, loading, 1e-3, "intact = true");
             description.loading.max_axial_strain = 1e-4;
@@ -194,8 +194,8 @@ TEST_F(Kinds, StressRisesByTheLinearSolutionsModulus) {
             load_specimen(test);
             const CurveRow &first = test.state.rows.front(), &last = test.state.rows.back();
             const double slope = (last.axial_stress - first.axial_stress) / (last.axial_strain - first.axial_strain);
-            // Jaws are concave: a corner of a cell in a hollow of theirs meets one edge or the other, as it moves,
-            // where the solution has it at one. That is the case of a cell in 20 here, by a share of its stiffness.
+            // Jaws are concave: a cell's corner in a hollow touches one edge or the other as it moves, but only one in
+            // the linear solution. Here one cell in 20 is affected, by a fraction of its stiffness.
             const bool hollow = *mesh != '\0' && std::string(kind) == "brazilian";
             EXPECT_TRUE(agrees(fmt::format("{} {}: slope of the curve", kind, *mesh == '\0' ? "circles" : mesh), slope,
                                test.small_strain->moduli.youngs_modulus, hollow ? 5e-3 : 1e-4));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long a test will take is known before it begins, and one without an end in sight is refused by the key that makes
-// it so.
+// Tests that the duration of a test is known before it begins, and that a test without a foreseeable end is refused
+// with the key that causes this.
 
 #include "specimens/loading/expected_run.hpp"
 
@@ -33,7 +33,7 @@ class ExpectedRun : public ::testing::Test {
     TestCase small_case(const SmallCase& wanted = {}) const {
         return read_case(testing::write_small_case(scratch_ / "", wanted));
     }
-    /// The message of a test that is refused, without a folder of its own left behind.
+    /// The message for a refused test, which must not leave a folder behind.
     std::string refusal(const TestCase& test) const {
         TestOptions options;
         options.folder = scratch_ / "out";
@@ -93,12 +93,12 @@ TEST_F(ExpectedRun, IsNoReasonToRefuseWhereThatIsAskedFor) {
     EXPECT_TRUE(run_test(small_case(slow), options, hooks).interrupted);
 }
 
-/// Back-tension discs between frictional jaws have no linear solution, and must move all the same.
+/// Discs with back-tension bonds between frictional jaws have no linear solution, but their parts must still move.
 TEST_F(ExpectedRun, OfEveryKindItsPlatenMoves) {
     constexpr double rate = 0.02;
     struct Tried {
         const char *kind, *height_to_width, *loading;
-        bool cells = false;  // where no disc reaches all parts
+        bool cells = false;  // whether to use cells, since no circle reaches all parts
     };
     const Tried kinds[] = {
         {"compression", "0.5", ""},
@@ -128,7 +128,7 @@ TEST_F(ExpectedRun, OfEveryKindItsPlatenMoves) {
         const double before = test.setup.apparatus.axial_strain(test.world), begun = test.world.stepping.time;
         for (int k = 0; k < 50; ++k) step(test.world);
         const double strain = test.setup.apparatus.axial_strain(test.world) - before;
-        // Strain counts from the place of the driving part in double precision.
+        // Strain is computed from the position of the driving part in double precision.
         EXPECT_TRUE(agrees(fmt::format("strain of a {} test in 50 steps", kind), strain,
                            rate * (test.world.stepping.time - begun), 1e-6));
     }
@@ -154,7 +154,7 @@ TEST_F(ExpectedRun, OfASmallSpecimenTakesNoMoreThreadsThanAreOfUse) {
     options.folder = scratch_ / "out";
     options.threads = 16;
     options.most_threads = 4;
-    options.fewest_bodies_a_thread = 40;  // of 79 bodies
+    options.fewest_bodies_a_thread = 40;  // there are 79 bodies
     std::string notices;
     TestHooks hooks;
     hooks.stage = [&](const std::string& line) { notices += line + '\n'; };

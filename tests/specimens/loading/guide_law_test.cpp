@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The shipped rock under the guide's contact law, bonded and not yet loaded: against what the guide states of its
-// specimen. One packing; ratios vary with it.
+// Tests the shipped rock with the guide's contact law, bonded but not loaded, against the values stated in the guide.
+// There is only one packing; ratios vary between packings.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ TEST(GuideRock, UnderItsOwnLawHasTheGuidesContactsAndItsBackTensionBetweenSumAnd
     const auto contacts = [](const VirtualTest& test) {
         return static_cast<double>(test.setup.bonds.contacts_initial);
     };
-    const double back_tension = 753.0;  // N, the guide's
+    const double back_tension = 753.0;  // N, value in the guide
     fmt::print(
         "  mean back-tension a pair of elements: sum {:.4g} N, mean {:.4g} N, the guide {:.4g} N\n"
         "  stiffness over the circles': sum {:.3g}, mean {:.3g}, the guide sqrt(10)\n",
@@ -39,7 +39,7 @@ TEST(GuideRock, UnderItsOwnLawHasTheGuidesContactsAndItsBackTensionBetweenSumAnd
     EXPECT_TRUE(
         agrees("contacts over the circles', the guide's about 10", contacts(sum) / contacts(circles), 10.0, 0.15));
     EXPECT_EQ(contacts(mean), contacts(sum));
-    // An independent estimate on such a specimen gave 1.2 kN and 0.58 kN.
+    // An independent estimate for such a specimen gave 1.2 kN and 0.58 kN.
     EXPECT_TRUE(agrees("back-tension, sum, N", sum.setup.bonds.mean_back_tension, 1200.0, 0.05));
     EXPECT_TRUE(agrees("back-tension, mean, N", mean.setup.bonds.mean_back_tension, 580.0, 0.05));
     EXPECT_GT(sum.setup.bonds.mean_back_tension, back_tension);

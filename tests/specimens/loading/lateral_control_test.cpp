@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loading by lateral strain: as by axial strain while nothing breaks, backwards where the specimen bursts.
+// Tests loading by lateral strain: the same as by axial strain while nothing breaks, backwards when the specimen
+// bursts.
 
 #include "specimens/setup/lateral_control.hpp"
 
@@ -39,7 +40,8 @@ TEST(LateralControl, FollowsABarSteadilyAndGoesBackFromABurst) {
     };
     go(100);
     EXPECT_TRUE(agrees("speed of an elastic bar, 1/s", path.speed, allowed, 1e-12));
-    // Twenty bands at once: smoothed over twenty looks it grows by a band a look, the target by a quarter of one.
+    // A jump of twenty bands: after smoothing over twenty calls it grows by a band per call, while the target grows by
+    // a quarter of one.
     burst = 2e-4;
     go(10);
     EXPECT_TRUE(agrees("speed in a burst, 1/s", path.speed, -allowed, 1e-12));
@@ -77,7 +79,7 @@ TEST_F(WidenedRock, IsLoadedAsByAxialStrainWhileNothingBreaks) {
     load_specimen(axial);
     ASSERT_EQ(test.state.ended_by, ended_by_strain);
     const CurveRow &last = test.state.rows.back(), &other = axial.state.rows.back();
-    // The target is followed a transit late, of thirty that the test takes.
+    // The specimen follows the target with a delay of one transit time; the test takes thirty.
     EXPECT_TRUE(agrees("rate of lateral strain, 1/s",
                        test.setup.gauges.median_lateral_strain(test.world, test.setup.bonds.start) / last.time,
                        test.state.poissons_ratio * other.axial_strain / other.time, 0.05));
@@ -97,7 +99,7 @@ TEST_F(WidenedRock, BreakingSpecimenWidensNoFasterThanItsTarget) {
         EXPECT_TRUE(within("energy left open over the platens' work", last.energy_error / last.platen_work, 0.0, 1e-3));
         return (last.lateral_strain - peak.lateral_strain) / (last.time - peak.time);
     };
-    EXPECT_LT(widening(true), 0.5 * widening(false)) << "mean rate of lateral strain beyond the peak";
+    EXPECT_LT(widening(true), 0.5 * widening(false)) << "mean rate of lateral strain after the peak";
 }
 
 TEST_F(WidenedRock, ControlThatMakesNoSenseIsRefused) {

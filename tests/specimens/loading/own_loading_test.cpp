@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A caller's looks at a test, and loading by its own rule.
+// Tests callbacks during a test, and loading by a caller's own rule.
 
 #include "specimens/loading/own_loading.hpp"
 
@@ -30,7 +30,7 @@ class OwnLoading : public ::testing::Test {
     VirtualTest prepared(const SmallCase& wanted) {
         return prepare_test(read_case(testing::write_small_case(scratch_ / "", wanted)));
     }
-    /// By tolerance in place of a rate.
+    /// A test loaded by a tolerance instead of a rate.
     VirtualTest tolerant(const std::vector<double>& unload_at_strain) {
         TestCase description = read_case(testing::write_small_case(scratch_ / "", brief()));
         description.loading.axial_strain_rate.reset();
@@ -40,7 +40,7 @@ class OwnLoading : public ::testing::Test {
     }
     static SmallCase brief() {
         SmallCase wanted;
-        wanted.rate = 0.0005;  // several steps a row
+        wanted.rate = 0.0005;  // several steps per row
         wanted.max_strain = 0.001;
         wanted.output = "curve_rows = 200\nframes = 3";
         return wanted;
@@ -121,7 +121,7 @@ TEST_F(OwnLoading, RowsFollowThePlatenBackAndForth) {
     const auto top = std::ranges::max_element(rows, {}, &CurveRow::axial_strain);
     EXPECT_NEAR(top->axial_strain, 2e-4, 1e-6);
     EXPECT_LT(rows.back().axial_strain, 1e-4);
-    // The way back has as many rows per strain as the way up.
+    // Unloading has as many rows per strain as loading.
     const double up = static_cast<double>(top - rows.begin()) / 2e-4;
     const double down = static_cast<double>(rows.end() - top) / 1e-4;
     EXPECT_NEAR(down / up, 1.0, 0.02);
@@ -137,7 +137,7 @@ TEST_F(OwnLoading, EndsLoadingByTolerance) {
     set_platen_speed(test, speed);
     load_specimen(test);
     EXPECT_EQ(platen_speed(test), speed);
-    EXPECT_EQ(test.state.rate.slowest, test.state.rate.fastest) << "no rule has chosen since";
+    EXPECT_EQ(test.state.rate.slowest, test.state.rate.fastest) << "the rule must not change the rate";
 }
 
 TEST_F(OwnLoading, RefusesASpeedWhereTheCaseTurnsThePlaten) {

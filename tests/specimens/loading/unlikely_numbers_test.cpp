@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers that are likely meant otherwise are named with what they may mean; those of rocks are not.
+// Tests that numbers probably given in other units are reported with a suggestion, and that usual values of rocks are
+// not.
 
 #include "specimens/loading/unlikely_numbers.hpp"
 
@@ -79,7 +80,7 @@ TEST(UnlikelyNumbers, MillimetresAreNoMetres) {
     EXPECT_EQ(notices_of(mass, large), "") << "blocks between joints may be large";
     TestCase soft = granite();
     soft.material.contact_modulus = 1e8;
-    EXPECT_EQ(notices_of(soft, large), "") << "as stiff as soil";
+    EXPECT_EQ(notices_of(soft, large), "") << "a modulus as low as that of soil";
 }
 
 TEST(UnlikelyNumbers, OfAMineralAreItsOwn) {

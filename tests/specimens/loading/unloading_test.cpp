@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loading that turns round: where, how smoothly, and what the curve's cycles say.
+// Tests loading that reverses: position and smoothness of the reversal, and the cycles of the curve.
 
 #include "specimens/setup/unloading.hpp"
 
@@ -36,7 +36,7 @@ TEST(Unloading, ABarTurnsWhereItIsAskedToWithoutMoreThanItsAcceleration) {
     loading.unload_at_strain = {2e-3, 4e-3};
     loading.unload_to = 0.25;
     const UnloadRule rule = unload_rule_of(loading, rate, modulus);
-    // ρ height² a/2 = E T² a/2, what accelerating the bar takes, is the tolerance's share of E ε1.
+    // ρ height² a/2 = E T² a/2, the stress that accelerates the bar, is the tolerance times E ε1.
     EXPECT_TRUE(agrees("out-of-balance by it, N/m",
                        modulus * rate.transit_time * rate.transit_time * rule.acceleration / 2.0,
                        rate.tolerance * modulus * rate.first_strain, 1e-12));
@@ -58,7 +58,7 @@ TEST(Unloading, ABarTurnsWhereItIsAskedToWithoutMoreThanItsAcceleration) {
                        1.0, 1e-9));
     const double expected[] = {2e-3, 0.25 * 2e-3, 4e-3, 0.25 * 4e-3};
     ASSERT_EQ(turns.size(), 4U);
-    // Beyond the turn: two intervals at the creeping speed, and stopping from it.
+    // Overshoot at the reversal: two intervals at the creeping speed, and the deceleration from it.
     const double beyond = 2.0 * rule.creep * interval + rule.creep * rule.creep / (2.0 * rule.acceleration);
     for (std::size_t k = 0; k < 4; ++k)
         EXPECT_TRUE(within("strain at turn, per 1e-3", 1e3 * turns[k], 1e3 * expected[k], 1e3 * beyond));
@@ -91,7 +91,7 @@ class UnloadedRock : public ::testing::Test {
         description.loading.rate_tolerance = 0.01;
         return description;
     }
-    /// Unloaded at twice and four times its first strain, and loaded on to six times.
+    /// Unloaded at two and four times its first strain, and then loaded to six times.
     TestCase unloaded(const std::string& kind) const {
         TestCase description = loaded(kind, "", 0.005);
         const double first = prepare_test(description).setup.rate_rule.first_strain;
@@ -120,7 +120,8 @@ TEST_F(UnloadedRock, ElasticSpecimenHasItsModulusInEveryCycle) {
             const LoadingCycle& c = cycles[k];
             EXPECT_TRUE(within("strain at turn", c.strain, (*description.loading.unload_at_strain)[k],
                                spacing + 1e-3 * first_strain));
-            // Platens that stand still feel no dashpots; what is left is the out-of-balance of turning round.
+            // Dashpots exert no force on platens at rest; the remaining error is the out-of-balance force of the
+            // reversal.
             EXPECT_TRUE(agrees("modulus of the cycle, N/m", c.modulus, test.state.youngs_modulus, 0.01));
             EXPECT_TRUE(within("Poisson's ratio", c.poissons_ratio, test.state.poissons_ratio, 0.01));
             EXPECT_TRUE(
@@ -133,7 +134,7 @@ TEST_F(UnloadedRock, ElasticSpecimenHasItsModulusInEveryCycle) {
         for (const CurveRow& row : first.rows)
             ASSERT_NEAR(row.axial_stress, test.state.youngs_modulus * row.axial_strain,
                         0.01 * cycles[1].stress + 0.02 * test.state.youngs_modulus * row.axial_strain);
-        EXPECT_FALSE(test.state.failure.failed) << "unloading is no failure";
+        EXPECT_FALSE(test.state.failure.failed) << "unloading is not failure";
     }
 }
 
@@ -173,7 +174,7 @@ TEST_F(UnloadedRock, WhatBreaksLowersTheModulusAndCostsWork) {
     EXPECT_GT(cycles[1].loop, 0.0);
     EXPECT_TRUE(test.state.failure.failed);
     EXPECT_GT(test.state.failure.peak_strain, cycles[1].strain);
-    // The account of energy stays closed through the cycles.
+    // The energy account remains closed during the cycles.
     const CurveRow& last = test.state.rows.back();
     EXPECT_TRUE(within("energy left open over the platens' work", last.energy_error / last.platen_work, 0.0, 1e-3));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A specimen between its platens: where they stand, and what they measure.
+// Tests a specimen between its platens: their positions and measurements.
 
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/loading/load_specimen.hpp"
@@ -121,7 +121,7 @@ TEST_F(VirtualRock, PulledFailsWithPositiveStressAndBalancedEnergy) {
                            last.friction_loss + last.fracture_loss - last.platen_work;
     EXPECT_TRUE(agrees("energy_error against the columns, J", balance, last.energy_error, 1e-6));
     EXPECT_TRUE(within("energy balance over work", balance / last.platen_work, 0.0, 5e-3));
-    // No stress can exceed what the bonds across the narrower row could carry.
+    // The stress cannot exceed what the bonds across the narrower row can carry.
     const double bound = 6.0 * 1e7 * 2.0 * testing::rock_overlap / test.setup.specimen.width;
     EXPECT_LT(test.state.failure.peak_stress, bound);
 }
@@ -155,7 +155,7 @@ TEST_F(VirtualRock, FrictionalPlatensStartWithoutForceAndHoldNoBond) {
 }
 
 TEST_F(VirtualRock, CornersPressedThroughAPlatensFaceArePushedBackInProportion) {
-    // Behind a single segment they would be pushed on, and the specimen's strength would be k_n t a corner.
+    // Behind a single segment, corners would be pushed out on the far side, and the strength would be k_n t per corner.
     SmallCase wanted;
     wanted.mesh = "voronoi";
     wanted.kind = "compression";
@@ -165,7 +165,7 @@ TEST_F(VirtualRock, CornersPressedThroughAPlatensFaceArePushedBackInProportion) 
     const double thick = world.settings.thick;
     world.bodies.state[test.setup.apparatus.bottom].y += 2.5 * thick;
     world.bodies.state[test.setup.apparatus.top].y -= 2.5 * thick;
-    for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;  // the dashpots' share
+    for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;  // removes the forces of dashpots
     world.list.valid = world.stepping.forces_current = false;
     compute_forces(world);
     for (const BodyIndex platen : {test.setup.apparatus.bottom, test.setup.apparatus.top}) {
@@ -193,7 +193,8 @@ TEST_F(VirtualRock, HalfTheStepGivesThePeakWithinFivePercent) {
 }
 
 TEST_F(VirtualRock, EnergyOfARunToFailureClosesBetterWithTheStep) {
-    // A break takes what its forces still do over the drift in which it is found into account: second order.
+    // A break accounts for the work of its forces during the drift in which it is found, so the error is of second
+    // order.
     std::vector<double> errors;
     for (const char* share : {"0.8", "0.4", "0.2"}) {
         SmallCase wanted;
@@ -206,11 +207,12 @@ TEST_F(VirtualRock, EnergyOfARunToFailureClosesBetterWithTheStep) {
         fmt::print("  {} of the bound: {:.3g} of the work\n", share, errors.back());
     }
     EXPECT_LT(std::abs(errors[0]), 1e-4);
-    EXPECT_LT(std::abs(errors[2]), 0.3 * std::abs(errors[0])) << "a sixteenth, but for where single breaks fall";
+    EXPECT_LT(std::abs(errors[2]), 0.3 * std::abs(errors[0]))
+        << "second order gives a sixteenth, apart from the times of single breaks";
 }
 
 TEST_F(VirtualRock, NoTermOfTheAccountOfEnergyCouldBeMissing) {
-    // Each loss alone is far more than what the account leaves open, of the dashpots each direction by itself.
+    // Each loss alone is much larger than the closing error; for dashpots, in each direction separately.
     for (const bool shear : {false, true}) {
         SmallCase wanted;
         wanted.mesh = "voronoi";
@@ -357,8 +359,9 @@ TEST_F(VirtualRock, NothingToBondWithAPlatenIsRefused) {
 }
 
 TEST_F(VirtualRock, UnderTheGuidesLawIntactRunOfCirclesHasTheModulusOfTheSolve) {
-    // Polygons as well only as long as no disc passes the end of a segment, where the overlap jumps: at once in a mesh
-    // of thousands of pairs. So here the platens alone are segments; the verification claims have the polygons.
+    // With polygons this holds only as long as no disc passes the end of a segment, where the overlap jumps. In a mesh
+    // of thousands of pairs that happens at once. Here only the platens are segments; the verification claims include
+    // polygons.
     for (const char* law : {"demseg", "demseg_mean"}) {
         SmallCase wanted;
         wanted.rate = 0.002;
@@ -385,8 +388,8 @@ TEST_F(VirtualRock, UnderTheGuidesLawPolygonsHoldOnToTheirPlatensBySegmentPairs)
         if (!view.bonded) continue;
         EXPECT_EQ(view.kind, PointKind::segment_segment);
         if (!test.setup.apparatus.is_platen(view.body_i) && !test.setup.apparatus.is_platen(view.body_j)) continue;
-        // Both ends of an edge in front of the platen's face: twice the excess of bond.thick over the gap. Edges that
-        // end there have one, and a platen's own corners are too far.
+        // If both ends of an edge are in front of the platen's face, the overlap is twice the excess of bond.thick over
+        // the gap. With one end it is once the excess; a platen's own corners are too far away.
         const double ends = view.overlap > 1.2e-4 ? 2.0 : 1.0;
         facing += ends > 1.5 ? 1 : 0;
         worst = std::max(worst, std::abs(view.overlap - ends * 8e-5));

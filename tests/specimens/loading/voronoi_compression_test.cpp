@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The shipped Voronoi compression, loaded five times as fast and past failure. Its bytes depend neither on the number
-// of threads, each of which has worked, nor on where it was stopped and resumed.
+// Tests the shipped Voronoi compression, loaded five times as fast and past failure. Its bytes must depend neither on
+// the number of threads, all of which must have worked, nor on where it was stopped and resumed.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ using testing::expect_same;
 using testing::ScratchFolder;
 using verification::hash_of;
 
-constexpr int steps_between_questions = 64;  // of the loading loop, whether to stop
+constexpr int steps_between_questions = 64;  // between calls that ask the loading loop to stop
 
 TestCase fast_case() {
     TestCase test =
@@ -41,7 +41,7 @@ TestCase fast_case() {
 }
 
 struct Trace {
-    std::vector<std::uint64_t> hashes;  // of all state, every 64 steps
+    std::vector<std::uint64_t> hashes;  // hashes of the whole state, every 64 steps
     std::vector<std::int64_t> thread_blocks;
     std::int64_t broken = 0;
     bool failed = false;
@@ -99,7 +99,7 @@ TEST(VoronoiCompression, HasTheSameFilesForAnyNumberOfThreadsAndResumedAtFiveRan
             expect_same(contents(options.folder), one, fmt::format("{} threads", threads));
             continue;
         }
-        // Packing and solves ask, too: counting begins with loading.
+        // Packing and solves also call this; counting begins with loading.
         const auto stop = [&] {
             const auto loading = std::make_shared<bool>(false);
             TestHooks hooks;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells of the sizes asked for: mean and spread of their equivalent diameters, recounted from the polygons' areas.
+// Tests cells of requested sizes: mean and spread of their equivalent diameters, computed again from the polygons'
+// areas.
 
 #include "specimens/making/cell_sizes.hpp"
 
@@ -41,7 +42,7 @@ TestCase cells_case(MeshKind kind, double diameter, double spread) {
     return test;
 }
 
-/// From the areas that the scene's bodies have, with hardly a gap between them.
+/// From the areas of the scene's bodies, which have very small gaps.
 CellSizes recounted(const Scene& scene) {
     double sum = 0.0, squares = 0.0;
     for (const Body& body : scene.bodies) {
@@ -136,7 +137,7 @@ TEST(DerivedGap, IsAFiftiethOfTheMeanCellSize) {
     EXPECT_TRUE(agrees("mesh.thick", specimen.mesh_thick, 0.02 * size, 1e-12));
     EXPECT_EQ(specimen.mesh_gap, specimen.mesh_thick);
     test.mesh.inset = 2e-5;
-    EXPECT_EQ(make_specimen(test, {}).mesh_gap, 4e-5) << "twice the inset, where that is given";
+    EXPECT_EQ(make_specimen(test, {}).mesh_gap, 4e-5) << "twice the inset, if it is given";
 }
 
 }  // namespace

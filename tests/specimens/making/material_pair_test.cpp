@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of contacts between two materials: what a table for the pair replaces.
+// Tests the laws of contacts between two materials: which values a table for the pair replaces.
 
 #include <gtest/gtest.h>
 
@@ -58,7 +58,7 @@ TEST(MaterialPair, OverridesTheStrengthsOfCoulombBonds) {
     other.tensile_strength = 20.0, other.cohesion = 40.0, other.residual_friction_angle = 20.0;
     scene.materials.push_back(other);
     scene.bodies[1].material = 1;
-    const auto law = [&] { return build_world(scene).settings.laws[1]; };  // between the two
+    const auto law = [&] { return build_world(scene).settings.laws[1]; };  // law between the two materials
     const auto tangent = [](double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); };
     EXPECT_EQ(law().tensile_strength, 10.0) << "the weaker";
     EXPECT_EQ(law().cohesion, 40.0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Several minerals: how a case states them, which grain gets which, what a contact of two of them does.
+// Tests several minerals: how a case defines them, which grain gets which, and contacts between two of them.
 
 #include "specimens/making/minerals.hpp"
 
@@ -49,7 +49,7 @@ constexpr const char* three_minerals =
 
 class MineralRock : public ::testing::Test {
   protected:
-    /// A case of discs (or cells of them) with more text at its end. @return its path
+    /// Writes a case of discs, or of their cells, with additional text at its end. @return its path
     std::filesystem::path write(const std::string& minerals, const std::string& mesh = "") const {
         SmallCase wanted;
         wanted.mesh = mesh;
@@ -79,7 +79,7 @@ double area_of(const Specimen& specimen, const Body& body) {
            specimen.scene.materials[static_cast<std::size_t>(body.material)].density;
 }
 
-/// Share of the area that each mineral has, counted again; and the largest grain's.
+/// Fraction of the area of each mineral, computed again, and that of the largest grain.
 std::pair<std::vector<double>, double> counted_shares(const Specimen& specimen) {
     std::vector<double> shares(specimen.minerals.size(), 0.0);
     double all = 0.0, largest = 0.0;
@@ -103,7 +103,7 @@ TEST_F(MineralRock, HasWhatItsTableGivesAndTheRestOfMaterial) {
     EXPECT_FALSE(mineral_material(test, 1).normal_stiffness.has_value()) << "the file's";
     const Specimen rock = make_specimen(test, {});
     const auto& materials = rock.scene.materials;
-    ASSERT_EQ(materials.size(), 4u) << "the last is the platens'";
+    ASSERT_EQ(materials.size(), 4u) << "the last one is that of the platens";
     EXPECT_EQ(materials[0].normal_stiffness, 2e7);
     EXPECT_EQ(materials[0].shear_stiffness, 2.5e6);
     EXPECT_EQ(materials[1], materials[3]);
@@ -157,7 +157,7 @@ TEST_F(MineralRock, OwnListStandsInPlaceOfTheIncludedFiles) {
     const TestCase test = read_case(scratch_ / "own.toml");
     ASSERT_EQ(test.mineral.size(), 1u);
     EXPECT_EQ(test.mineral[0].name, "olivine");
-    EXPECT_FALSE(test.mineral[0].area_share.has_value()) << "quartz's, which stood at this place";
+    EXPECT_FALSE(test.mineral[0].area_share.has_value()) << "the area share of quartz, which had this position";
     EXPECT_FALSE(test.position.contains("mineral[1].area_share"));
 }
 
@@ -188,7 +188,7 @@ TEST_F(MineralRock, SameSeedGivesTheSameGrainsInAnyOrderOfTheFile) {
     EXPECT_EQ(of_seed(1), first);
     std::set<std::map<int, int>> all;
     for (int seed = 0; seed < 8; ++seed) all.insert(of_seed(seed));
-    EXPECT_EQ(all.size(), 8u) << "each seed its own";
+    EXPECT_EQ(all.size(), 8u) << "each seed gives another result";
     const TestCase test = read_case(write(std::string("[minerals]\nseed = 1\n") + three_minerals));
     Scene scene = testing::small_rock_scene();
     for (CircleElement& circle : scene.circles) circle.radius = testing::rock_radius;
@@ -201,8 +201,9 @@ TEST_F(MineralRock, SameSeedGivesTheSameGrainsInAnyOrderOfTheFile) {
 }
 
 TEST_F(MineralRock, NoMineralIsDrawnForPlaceOrSize) {
-    // Two halves of 1,000 cells: over 400 seeds, the share of mineral 0 in the left half and among the larger half is
-    // 0.5 on average. One draw has a standard deviation of 0.5/sqrt(1000) = 0.016, the mean of 400 one of 0.0008.
+    // Two minerals of equal area in 1,000 cells. Over 400 seeds, the fraction of mineral 0 in the left half, and among
+    // the larger half of the grains, is 0.5 on average. Its standard deviation is 0.5/sqrt(1000) = 0.016 for one seed
+    // and 0.0008 for the mean.
     Scene scene = square_lattice(40, 25, 0.01, 1e-5, undamped_rock(1e7, 27.0));
     scene.materials.resize(3, scene.materials[0]);
     for (std::size_t k = 0; k < scene.circles.size(); ++k)
@@ -279,7 +280,7 @@ TEST_F(MineralRock, LabelsByNameOrNumberInTheOrderOfTheFile) {
               std::string::npos);
 }
 
-/// Writes an image whose pixel colours are given row by row from the top, 0xaarrggbb.
+/// Writes an image with pixel colours 0xaarrggbb, row by row from the top.
 void write_png(const std::filesystem::path& file, int width, const std::vector<std::uint32_t>& pixels,
                cairo_format_t format = CAIRO_FORMAT_ARGB32) {
     const int height = static_cast<int>(pixels.size()) / width;
@@ -319,7 +320,7 @@ TEST_F(MineralRock, ImageLiesOverTheBoxWithItsTopRowAtTheTop) {
 }
 
 TEST_F(MineralRock, GrainHasTheColourOfMostOfItsPixels) {
-    // A fine chequerboard of one red pixel in four: wherever a centroid lies, most of a disc is green.
+    // A fine pattern in which one of four pixels is red, so that most of each disc is green wherever its centre is.
     std::vector<std::uint32_t> pixels;
     for (int row = 0; row < 240; ++row)
         for (int column = 0; column < 120; ++column) pixels.push_back(row % 2 + column % 2 == 0 ? red : green);
@@ -337,7 +338,7 @@ TEST_F(MineralRock, ImagesThatDoNotFitAreRefused) {
     EXPECT_NE(refusal(minerals).find(":18: minerals.image: found no file"), std::string::npos);
     std::ofstream(scratch_ / "section.png") << "GIF89a";
     EXPECT_NE(refusal(minerals).find("cannot be read as PNG"), std::string::npos);
-    // Unpacked it would take 1.6 GB.
+    // Decompressed, the image would take 1.6 GB.
     std::ofstream(scratch_ / "section.png", std::ios::binary)
         << std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x4e\x20\0\0\x4e\x20", 24);
     EXPECT_NE(refusal(minerals).find("with 400000000 pixels, expected at most 100000000"), std::string::npos);
@@ -350,14 +351,14 @@ TEST_F(MineralRock, ImagesThatDoNotFitAreRefused) {
     EXPECT_NE(refusal(minerals).find("found a transparent pixel"), std::string::npos);
 }
 
-/// Images of 4 x 3 red pixels, each with one flaw; what comes behind IHDR's name.
+/// An image of 4 x 3 red pixels with one flaw; the bytes after the name IHDR.
 struct FlawedImage {
     std::string bytes;
     const char* flaw;
 };
 
 std::vector<FlawedImage> flawed_images() {
-    // Octal: no letter behind an escape belongs to it.
+    // Octal escapes, because letters after a hexadecimal escape could belong to it.
     const auto text = []<std::size_t N>(const char(&bytes)[N]) { return std::string(bytes, N - 1); };
     return {
         {text("\000\000\000\004\000\000\000\003\010\002\000\000\000\073\226\071\221\000\000\000\000\111\105\116\104\256"
@@ -441,7 +442,7 @@ TEST_F(MineralRock, FileWithMaterialsOfItsOwnIsRefused) {
 TEST_F(MineralRock, TwoMineralsOfEqualPropertiesGiveTheBytesOfOne) {
     constexpr double stiffness = odd_stiffness;
     volatile double k = stiffness;
-    ASSERT_NE(2.0 * k * k / (k + k), k) << "springs in series differ from it in the last bit";
+    ASSERT_NE(2.0 * k * k / (k + k), k) << "springs in series differ from a single one in the last bit";
     for (const char* mesh : {"", "voronoi"}) {
         std::vector<std::string> curves, events;
         for (const bool minerals : {false, true}) {
@@ -489,7 +490,7 @@ TEST_F(MineralRock, FramesAndSummaryTellTheMinerals) {
     EXPECT_EQ(minerals[2].area_share_reached, rock.minerals[2].reached);
 }
 
-/// Discs one above another, so that columns are springs in series: `below` rows of quartz, the others of feldspar.
+/// Discs on top of each other, so that columns are springs in series: `below` rows of quartz, the others of feldspar.
 class LayeredColumn : public MineralRock {
   protected:
     static constexpr int columns = 4, rows = 9, below = 4;
@@ -514,7 +515,7 @@ class LayeredColumn : public MineralRock {
         labels.close();
         return prepare_test(read_case(path));
     }
-    /// Modulus of springs in series, the one between the layers given.
+    /// Modulus of springs in series, for a given spring between the layers.
     static double series_modulus(const TestSetup& setup, double between) {
         const auto series = [](double a, double b) { return 2.0 / (1.0 / a + 1.0 / b); };
         const double compliance = 1.0 / series(rock, quartz) + (below - 1) / quartz + 1.0 / between +

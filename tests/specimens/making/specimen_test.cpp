@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a case's keys make of the particles that it packs or reads.
+// Tests the effect of a case's keys on particles that it packs or reads.
 
 #include "specimens/making/specimen.hpp"
 
@@ -21,7 +21,7 @@
 namespace crackle {
 namespace {
 
-/// In N s/m, where a packing would have a ratio by itself.
+/// Given in N s/m, although the packing itself has a damping ratio.
 TEST(Specimen, DashpotsOfTheCaseReplaceTheRatioThatAPackingHasByItself) {
     TestCase test;
     test.source = "dashpots.toml";
@@ -39,10 +39,10 @@ TEST(Specimen, DashpotsOfTheCaseReplaceTheRatioThatAPackingHasByItself) {
     test.material.normal_damping = 120.0;
     test.material.shear_damping = 40.0;
     const Material stated = make_specimen(test, {}).scene.materials.at(0);
-    EXPECT_FALSE(stated.damping_ratio.has_value()) << "it would be taken in place of the dashpots";
+    EXPECT_FALSE(stated.damping_ratio.has_value()) << "a damping ratio would replace the dashpots";
     EXPECT_EQ(stated.normal_damping, 120.0);
     EXPECT_EQ(stated.shear_damping, 40.0);
-    test.damping_scale = 0.5;  // as a companion of --verify has it
+    test.damping_scale = 0.5;  // as in a companion test of --verify
     const Material halved = make_specimen(test, {}).scene.materials.at(0);
     EXPECT_EQ(halved.normal_damping, 60.0);
     EXPECT_EQ(halved.shear_damping, 20.0);
@@ -69,7 +69,7 @@ TEST(Specimen, IsAtRestWithoutGravityWhateverTheFileSays) {
         specimen.notices, [](const std::string& notice) { return notice.find("gravity") != std::string::npos; }));
 }
 
-/// Message on the small rock after a change of its file.
+/// Message for the small rock after a change of its file.
 std::string refusal_after(const std::function<void(Scene&)>& change) {
     const testing::ScratchFolder folder;
     const std::filesystem::path file = testing::write_small_case(folder / "", {});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Directions of the cracks of a specimen pulled apart, and of cracks put in by hand.
+// Tests the directions of cracks, for a specimen pulled apart and for cracks set by hand.
 
 #include "specimens/measures/crack_rose.hpp"
 
@@ -46,7 +46,7 @@ TEST_F(CrackedRock, HasACrackForEachBrokenBondBetweenParticlesByKindAndTime) {
             crack.bond = bond;
             crack.time = static_cast<double>(bond);
             crack.shear_mode = bond % 3 == 0;
-            crack.orientation = -0.5 * std::numbers::pi + 0.2;  // of the normal: the crack at 0.2 rad
+            crack.orientation = -0.5 * std::numbers::pi + 0.2;  // direction of the normal; the crack is at 0.2 rad
             history.cracks.push_back(crack);
             const ContactPoint point = test.setup.bonds.points[bond];
             if (test.setup.apparatus.is_platen(point.body_i) || test.setup.apparatus.is_platen(point.body_j)) continue;
@@ -93,7 +93,7 @@ TEST_F(CrackedRock, HasFragmentsOfTheSizesOfItsParts) {
     const FragmentSizes dust = measure_fragments(test.world, test.setup, frame);
     EXPECT_EQ(dust.count, test.setup.specimen.particles);
     EXPECT_TRUE(agrees("D50 of dust, m", dust.median_size, 2.0 * testing::rock_radius, 1e-12));
-    EXPECT_EQ(dust.law.pieces, 0u) << "dust is no fragment of the law";
+    EXPECT_EQ(dust.law.pieces, 0u) << "tiny fragments are not part of the fit";
 }
 
 }  // namespace

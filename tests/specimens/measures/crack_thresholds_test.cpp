@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Crack initiation and damage of curves whose cracks begin and join where we put them.
+// Tests crack initiation and damage for curves whose cracks begin and join at given stresses.
 
 #include "specimens/measures/crack_thresholds.hpp"
 
@@ -23,8 +23,8 @@ constexpr double modulus = 50e9, ratio = 0.25, peak = 100e6, begin = 45e6, join 
 constexpr int rows_to_peak = 1000;
 constexpr double spacing = peak / rows_to_peak;
 
-/// σ = E ε up to the peak. Beyond `begin` cracks open, which widens the specimen by k (σ - begin)², k such that the
-/// area is least strained at `join`; a break for every row there. @param noise m/m, uniform, of the lateral strain
+/// σ = E ε up to the peak. Beyond `begin` cracks open and widen the specimen by k (σ - begin)², with k such that the
+/// area is smallest at `join`; every row there has a break. @param noise uniform noise of the lateral strain, m/m
 std::vector<CurveRow> cracking_curve(double noise = 0.0) {
     std::mt19937_64 generator(5);
     const double k = (1.0 - ratio) / (2.0 * modulus * (join - begin));
@@ -51,14 +51,14 @@ TEST(CrackThresholds, AreWhereCracksBeginAndJoin) {
     EXPECT_TRUE(agrees("axial strain there", found.damage_strain, join / modulus, spacing / join));
     EXPECT_TRUE(within("1 % of the 550 breaks up to the peak, the sixth, Pa", found.first_percent, begin + 6 * spacing,
                        1e-3 * spacing));
-    // The count is read at 200 places over 0.8 of the peak.
+    // The number of breaks is evaluated at 200 stresses up to 0.8 of the peak.
     EXPECT_TRUE(within("break of the count, Pa", found.count_break, begin, 0.8 * peak / 200.0));
     EXPECT_LE(found.low, begin + 0.8 * peak / 200.0);
     EXPECT_GE(found.high, begin - 0.8 * peak / 200.0);
-    // The lateral strain's slope is that of its chord.
+    // The slope of the lateral strain is that of its chord.
     const double farthest = begin + (join - begin) * (join - begin) / (2.0 * join);
     EXPECT_TRUE(within("lateral strain farthest from its chord, Pa", found.lateral_strain, farthest, spacing));
-    // Without noise the first row that is opened by more than rounding, 1e-16 of 1e-3.
+    // Without noise, this is the first row opened by more than round-off, 1e-16 of 1e-3.
     EXPECT_TRUE(within("crack strain, Pa", found.crack_strain, begin, 2.0 * spacing));
     EXPECT_TRUE(within("largest less smallest, Pa", found.spread(), farthest - begin, 3.0 * spacing));
 }
@@ -67,7 +67,7 @@ TEST(CrackThresholds, OfNoisyStrainsAreWhereTheyLeaveTheNoise) {
     constexpr double noise = 2e-6;
     const CrackThresholds found = of(cracking_curve(noise));
     const double k = (1.0 - ratio) / (2.0 * modulus * (join - begin)), deviation = noise / std::sqrt(3.0);
-    // The last row within the band lies where the opening is the band, less or more the noise itself.
+    // In the last row within the band, the opening is the band plus or minus the noise itself.
     const auto opened = [&](double by) { return begin + std::sqrt(by / k); };
     EXPECT_GE(found.crack_strain, opened(3.0 * deviation - noise));
     EXPECT_LE(found.crack_strain, opened(3.5 * deviation + noise));
@@ -75,7 +75,7 @@ TEST(CrackThresholds, OfNoisyStrainsAreWhereTheyLeaveTheNoise) {
 }
 
 /// Rows alternate by ±a between a tenth and a quarter of the peak, and are exact otherwise. Of the 250 quiet rows 150
-/// scatter, by a sqrt(150/249) as a deviation, and the opening leaves three of these at sqrt(3 deviations/k).
+/// alternate, so the standard deviation is a sqrt(150/249). The opening exceeds three of these at sqrt(3 deviations/k).
 TEST(CrackThresholds, NoiseIsThatOfTheRowsUpToAQuarterOfThePeak) {
     constexpr double a = 2e-6;
     std::vector<CurveRow> rows = cracking_curve();
@@ -86,7 +86,7 @@ TEST(CrackThresholds, NoiseIsThatOfTheRowsUpToAQuarterOfThePeak) {
 }
 
 TEST(CrackThresholds, NoiseIsNotKnownOfFewerThanTenRows) {
-    for (const auto& [stride, known] : {std::pair{20, true}, {40, false}}) {  // 13 and 7 rows below a quarter
+    for (const auto& [stride, known] : {std::pair{20, true}, {40, false}}) {  // 13 and 7 quiet rows
         std::vector<CurveRow> few;
         const std::vector<CurveRow> rows = cracking_curve();
         for (std::size_t n = 0; n <= rows_to_peak; n += static_cast<std::size_t>(stride)) few.push_back(rows[n]);
@@ -103,7 +103,7 @@ TEST(CrackThresholds, DropsOnTheWayDoNotCountTwice) {
     EXPECT_TRUE(within("break of the count, Pa", of(rows).count_break, begin, 0.8 * peak / 100.0));
 }
 
-// Near the peak cracks join, and their count rises far steeper than where they begin.
+// Near the peak cracks join, and their number grows much faster than where they begin.
 TEST(CrackThresholds, BreaksBeyondFourFifthsOfThePeakDoNotMoveTheBreakOfTheCount) {
     std::vector<CurveRow> rows = cracking_curve();
     for (std::size_t n = 850; n < rows.size(); ++n) rows[n].bonds_broken += 100 * static_cast<int>(n - 850);

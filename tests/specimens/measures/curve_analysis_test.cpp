@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Windows, moduli and ratios of curves written by hand and of curves whose moduli are known.
+// Tests windows, moduli and ratios for curves written by hand and for curves whose moduli are known.
 
 #include "specimens/measures/curve_analysis.hpp"
 
@@ -76,9 +76,9 @@ TEST(Moduli, BeyondThePeakAreOfTheFall) {
     }
     EXPECT_TRUE(agrees("modulus beyond the peak", tangent_beyond_peak(curve, 200, true).modulus, -10e9, 1e-9));
     EXPECT_TRUE(agrees("brittleness index, 1 + E/|M|", brittleness_index(5e9, -10e9), 1.5, 1e-12));
-    curve.resize(230);  // has fallen to 0.71 of the peak
+    curve.resize(230);  // falls to 0.71 of the peak
     EXPECT_TRUE(std::isnan(tangent_beyond_peak(curve, 200, true).modulus));
-    // Down to 0.84 of the peak, up beyond it, and down to 0.5 much later: the whole of it rises.
+    // Falls to 0.84 of the peak, rises above it, and falls to 0.5 much later: all of it counts as rising.
     std::vector<CurveRow> rises;
     for (const double stress : {0.5, 1.0, 0.84, 0.9, 1.0, 1.1, 1.2, 1.3, 1.35, 0.5}) {
         CurveRow row;
@@ -92,7 +92,7 @@ TEST(Moduli, BeyondThePeakAreOfTheFall) {
     EXPECT_TRUE(std::isnan(tangent_beyond_peak(drops_at_once, 200, true).modulus)) << "one row only";
 }
 
-// To nine tenths of the peak it falls by 2 GPa, and then by 10 GPa.
+// It falls with a slope of 2 GPa to nine tenths of the peak, and then with 10 GPa.
 TEST(Moduli, BeyondThePeakAreOfTheFallFromNineTenths) {
     std::vector<CurveRow> curve;
     for (int k = 0; k <= 300; ++k) {
@@ -120,7 +120,8 @@ TEST(Moduli, OfTooFewRowsAreNotNumbers) {
     EXPECT_TRUE(std::isnan(platen_out_of_balance({}, -1)));
 }
 
-/// Rows 1/1024 of strain apart. Besides: lateral strain a quarter of the axial, counts that differ in every row.
+/// Rows at strains 1/1024 apart, with a lateral strain of a quarter of the axial one, and counts that differ in every
+/// row.
 std::vector<CurveRow> by_hand(const std::vector<double>& stress) {
     std::vector<CurveRow> rows;
     for (const double value : stress) {
@@ -144,7 +145,7 @@ std::vector<double> rising(int rows) {
 }
 
 TEST(InitialWindow, EndsWithTheRowAtATwentiethOfTheStrainAtPeak) {
-    auto stress = rising(41);  // peak in row 40: two rows of strain
+    auto stress = rising(41);  // peak in row 40: the window has two rows
     stress[1] = 3;
     stress[2] = 4;
     const Tangent t = initial_tangent(by_hand(stress), 40, true);
@@ -158,7 +159,7 @@ TEST(InitialWindow, EndsWithTheRowAtATwentiethOfTheStrainAtPeak) {
 }
 
 TEST(InitialWindow, OfTwoRowsHasNoModulus) {
-    const Tangent t = initial_tangent(by_hand(rising(40)), 39, true);  // 1.95 rows of strain
+    const Tangent t = initial_tangent(by_hand(rising(40)), 39, true);  // the window has 1.95 rows
     EXPECT_EQ(t.rows, 2);
     EXPECT_TRUE(std::isnan(t.modulus));
     EXPECT_TRUE(std::isnan(t.poissons_ratio));
@@ -173,7 +174,7 @@ TEST(InitialWindow, LooksAtNothingBehindThePeak) {
 }
 
 TEST(WindowAtHalfThePeak, ReachesFromTheFirstRowAtTwoFifthsToTheFirstAtThree) {
-    // Reaches 4 in row 2, falls, reaches 6 in row 5; 4 and 6 are 40 % and 60 % of 10.
+    // Reaches 4 in row 2, falls, and reaches 6 in row 5; 4 and 6 are 40 % and 60 % of 10.
     const Tangent t = tangent_at_half_peak(by_hand({0, 3, 5, 2, 5.5, 7, 10, 8}), 6, true);
     EXPECT_EQ(t.rows, 4);
     EXPECT_EQ(t.strain_to, 5.0 / 1024);
@@ -204,9 +205,9 @@ TEST(PlatensOutOfBalance, IsTheLargestDifferenceUpToThePeak) {
     EXPECT_DOUBLE_EQ(platen_out_of_balance(rows, 3), 0.3);
     rows[2].stress_top = 6;
     rows[2].stress_bottom = 10;
-    EXPECT_DOUBLE_EQ(platen_out_of_balance(rows, 3), 0.4) << "without its sign";
+    EXPECT_DOUBLE_EQ(platen_out_of_balance(rows, 3), 0.4) << "absolute value";
     rows[4].stress_top = 100;
-    EXPECT_DOUBLE_EQ(platen_out_of_balance(rows, 3), 0.4) << "not behind the peak";
+    EXPECT_DOUBLE_EQ(platen_out_of_balance(rows, 3), 0.4) << "not after the peak";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cycles of unloading in the rows of a curve.
+// Tests cycles of unloading in the rows of a curve.
 
 #include "specimens/measures/cycles.hpp"
 
@@ -22,7 +22,7 @@ CurveRow row(double strain, double stress, double lateral) {
     return r;
 }
 
-/// Up to (4, 40), down to (2, 10) along one straight line, up again along another that ends at (5, 42).
+/// Up to (4, 40), down to (2, 10) along a straight line, and up again along another that ends at (5, 42).
 std::vector<CurveRow> loop() {
     return {row(0, 0, 0),    row(4, 40, 1.0), row(3, 25, 0.8), row(2, 10, 0.6),
             row(3, 26, 0.8), row(5, 42, 1.4), row(6, 43, 2.0)};
@@ -38,7 +38,8 @@ TEST(LoadingCycles, OfKnownLinesAreThoseLines) {
     EXPECT_TRUE(agrees("modulus", c.modulus, 15.0, 1e-14));
     EXPECT_TRUE(agrees("Poisson's ratio", c.poissons_ratio, 0.2, 1e-14));
     EXPECT_TRUE(agrees("permanent strain", c.permanent_strain, 2.0 - 10.0 / 15.0, 1e-14));
-    // Down: -(40+25)/2 - (25+10)/2 = -50; up: (10+26)/2 to 3, then to 4, where it stands at 34: (26+34)/2.
+    // Unloading: -(40+25)/2 - (25+10)/2 = -50. Loading: (10+26)/2 up to 3, then (26+34)/2 up to 4, where the stress is
+    // 34.
     EXPECT_TRUE(agrees("loop", c.loop, 18.0 + 30.0 - 50.0, 1e-14));
     EXPECT_TRUE(agrees("Poisson's ratio of a pulled one", find_cycles(rows, false)[0].poissons_ratio, -0.2, 1e-14));
 }
@@ -57,8 +58,8 @@ TEST(LoadingCycles, OneThatTheCurveDoesNotEndHasNoLoss) {
 TEST(LoadingCycles, SayWhetherAnythingHasBrokenOrSlidAndWhatThePlatensDifferBy) {
     std::vector<CurveRow> rows = loop();
     for (CurveRow& row : rows) row.stress_top = row.stress_bottom = row.axial_stress;
-    rows[1].stress_top += 2.0, rows[1].stress_bottom -= 2.0;  // at the turn
-    rows[3].stress_top -= 1.0, rows[3].stress_bottom += 1.0;  // where it is lowest
+    rows[1].stress_top += 2.0, rows[1].stress_bottom -= 2.0;  // at the reversal
+    rows[3].stress_top -= 1.0, rows[3].stress_bottom += 1.0;  // at the lowest point
     const LoadingCycle plain = find_cycles(rows, true)[0];
     EXPECT_TRUE(plain.unbroken && plain.linear);
     EXPECT_TRUE(agrees("error of the modulus", plain.modulus_error, (2.0 + 1.0) / (40.0 - 10.0), 1e-14));
@@ -76,7 +77,7 @@ TEST(LoadingCycles, SayWhetherAnythingHasBrokenOrSlidAndWhatThePlatensDifferBy) 
 }
 
 TEST(LoadingCycles, OfOneAmplitudeAreCountedEach) {
-    // Three times to about 4: a little beyond the first turn, and a little short of it.
+    // Three times to about 4: slightly beyond the first reversal, and slightly below it.
     const std::vector<CurveRow> rows{row(0, 0, 0),       row(4, 40, 1.0),    row(3, 25, 0.8), row(2, 10, 0.6),
                                      row(3, 26, 0.8),    row(4.5, 41, 1.1),  row(3, 24, 0.8), row(2.5, 15, 0.7),
                                      row(4.25, 40, 1.0), row(2.25, 20, 0.6), row(5, 44, 1.5), row(6, 45, 2.0)};
@@ -87,7 +88,7 @@ TEST(LoadingCycles, OfOneAmplitudeAreCountedEach) {
     EXPECT_EQ(cycles[2].strain, 4.25);
     EXPECT_TRUE(agrees("modulus of the second", cycles[1].modulus, 26.0 / 2.0, 1e-14));
     EXPECT_TRUE(agrees("modulus of the third", cycles[2].modulus, 20.0 / 2.0, 1e-14));
-    // Down: -(41+24)/2·1.5 - (24+15)/2·0.5; up from 2.5 to 4.25, where it turns again.
+    // Unloading: -(41+24)/2·1.5 - (24+15)/2·0.5; loading from 2.5 to 4.25, the next reversal.
     EXPECT_TRUE(agrees("loop of the second", cycles[1].loop, -48.75 - 9.75 + 0.5 * (15.0 + 40.0) * 1.75, 1e-14));
     EXPECT_FALSE(std::isnan(cycles[2].loop));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a specimen parted, of cracks put into a chain of particles between two platens by hand.
+// Tests where a specimen separated, for cracks set by hand in a chain of particles between two platens.
 
 #include "specimens/measures/parting.hpp"
 
@@ -8,9 +8,9 @@
 namespace crackle {
 namespace {
 
-/// Particles 0 to 9 at the heights 0.05, 0.15, ... of a specimen 1 m high that stands at y = 2; platens 10 and 11. Bond
-/// n joins particles n and n + 1; bonds 9 and 10 are the lower platen's with particles 0 and 1, bond 11 the upper
-/// one's.
+/// Particles 0 to 9 at heights 0.05, 0.15, ... of a specimen of 1 m height that begins at y = 2; platens are 10 and 11.
+/// Bond n joins particles n and n + 1; bonds 9 and 10 join the lower platen with particles 0 and 1, and bond 11 belongs
+/// to the upper platen.
 TestSetup chain(double grip) {
     TestSetup setup;
     setup.specimen.height = 1.0;
@@ -45,12 +45,12 @@ ContactHistory broken(std::initializer_list<PointIndex> bonds) {
 TEST(Parting, OfNoBrokenBondIsNowhere) { EXPECT_FALSE(find_parting(chain(0.1), broken({}))); }
 
 TEST(Parting, IsOfTheLargestCrackWhichIsBrokenBondsThatShareParticles) {
-    // Bonds 3 and 4 share particle 4; bonds 0 and 8 stand alone.
+    // Bonds 3 and 4 share particle 4; bonds 0 and 8 are isolated.
     const std::optional<Parting> parting = find_parting(chain(0.1), broken({0, 3, 8, 4}));
     ASSERT_TRUE(parting);
     EXPECT_EQ(parting->bonds, 2);
     EXPECT_EQ(parting->place, PartingPlace::gauge);
-    EXPECT_NEAR(parting->height, 0.45, 1e-12);  // of 0.40 and 0.50
+    EXPECT_NEAR(parting->height, 0.45, 1e-12);  // mean of 0.40 and 0.50
 }
 
 TEST(Parting, WithinTheDepthOfAGripIsTheGrips) {
@@ -60,7 +60,7 @@ TEST(Parting, WithinTheDepthOfAGripIsTheGrips) {
 }
 
 TEST(Parting, HalfOfWhoseBondsAreAPlatensIsThePlatens) {
-    // Both bonds of the lower platen and one between particles, 1 and 2: two of three.
+    // Both bonds of the lower platen, and one between particles 1 and 2: two of three are at the platen.
     const Parting parting = *find_parting(chain(0.1), broken({9, 10, 1}));
     EXPECT_EQ(parting.place, PartingPlace::platen);
     EXPECT_EQ(parting.bonds, 3);

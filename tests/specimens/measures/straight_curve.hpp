@@ -8,7 +8,7 @@
 
 namespace crackle::testing {
 
-/// σ = E ε up to the peak, then a drop to a share of it; lateral strain = ν ε.
+/// σ = E ε up to the peak, then a drop to the fraction `share_after` of it; lateral strain = ν ε.
 inline std::vector<CurveRow> straight_curve(double modulus, double peak_strain, double share_after,
                                             double poissons_ratio, int rows) {
     std::vector<CurveRow> curve;

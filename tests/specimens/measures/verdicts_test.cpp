@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Verdicts on made-up cracks, each true of one specimen and false of another; figures of a shear box on a made-up
-// curve.
+// Tests verdicts on generated cracks, each true for one specimen and false for another, and values of a shear box from
+// a generated curve.
 
 #include "specimens/measures/verdicts.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 using testing::agrees;
 using testing::within;
 
-/// Particles on a grid of spacing 1, and cracks between neighbours of it.
+/// Particles on a grid with spacing 1, and cracks between neighbours.
 class Cracked {
   public:
     Cracked(LoadingKind kind, int columns, int rows) : columns_(columns) {
@@ -48,7 +48,7 @@ class Cracked {
         crack.bond = static_cast<PointIndex>(setup.bonds.points.size() - 1);
         history.cracks.push_back(crack);
     }
-    /// Breaks a column from its right neighbour, zigzagging so that breaks share particles.
+    /// Breaks a column from its right neighbour along a zigzag, so that breaks share particles.
     void split(int column, int from, int to) {
         for (int row = from; row <= to; ++row) {
             break_between(at(column, row), at(column + 1, row));
@@ -56,7 +56,7 @@ class Cracked {
         }
     }
     std::vector<Verdict> verdicts(bool failed = true) const {
-        // A drop of 2 % at time 2.
+        // The stress drops by 2 % at time 2.
         std::vector<CurveRow> rows(4);
         const double stress[] = {0.0, 100.0, 98.0, 10.0};
         for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -82,7 +82,7 @@ TEST(Verdicts, DiscThatSplitsAlongItsLoadIsValid) {
 
 TEST(Verdicts, DiscThatIsCrushedAtBothJawsIsNot) {
     Cracked disc(LoadingKind::brazilian, 21, 21);
-    disc.split(10, 0, 2);  // whose mean place is the centre
+    disc.split(10, 0, 2);  // its mean position is the centre
     disc.split(10, 18, 20);
     for (const Verdict& verdict : disc.verdicts())
         EXPECT_EQ(verdict.holds, false) << verdict.claim << ": " << verdict.found;
@@ -104,7 +104,7 @@ TEST(Verdicts, SlantedCrackOfADiscIsNotASplit) {
         disc.break_between(disc.at(k + 1, k), disc.at(k + 1, k + 1));
     }
     EXPECT_EQ(disc.verdicts()[2].holds, false) << disc.verdicts()[2].found;
-    EXPECT_FALSE(disc.verdicts(false)[2].holds.has_value());  // it may yet
+    EXPECT_FALSE(disc.verdicts(false)[2].holds.has_value());  // not decided yet
 }
 
 TEST(Verdicts, BeamBreaksAtMidspanOrNot) {
@@ -132,17 +132,17 @@ TEST(Verdicts, ACrackAtThirtyDegreesIsNoSplitAndOneAtTenIs) {
 
 TEST(Verdicts, MidspanIsAQuarterOfTheHeightToEitherSide) {
     Cracked near(LoadingKind::bending, 81, 21), far(LoadingKind::bending, 81, 21);
-    near.split(44, 0, 15);  // 4.5 from the middle, of 5.25
-    far.split(47, 0, 15);   // 7.5
+    near.split(44, 0, 15);  // at 4.5 from the middle; the limit is 5.25
+    far.split(47, 0, 15);   // at 7.5 from the middle
     EXPECT_EQ(near.verdicts()[0].holds, true) << near.verdicts()[0].found;
     EXPECT_EQ(far.verdicts()[0].holds, false) << far.verdicts()[0].found;
 }
 
 TEST(Verdicts, ACrackSpansHalfOfWhatTheNotchHasLeft) {
     Cracked beam(LoadingKind::bending, 81, 21);
-    beam.split(40, 12, 18);  // 6 of a height of 21
+    beam.split(40, 12, 18);  // broken over 6 of a height of 21
     EXPECT_EQ(beam.verdicts()[0].holds, false) << beam.verdicts()[0].found;
-    beam.setup.specimen.notch = 11.0;  // of the 10 left
+    beam.setup.specimen.notch = 11.0;  // 10 are left above the notch
     EXPECT_EQ(beam.verdicts()[0].holds, true) << beam.verdicts()[0].found;
 }
 
@@ -169,7 +169,7 @@ TEST(Verdicts, EachClaimThatDoesNotHoldHasASentence) {
     EXPECT_EQ(broken_claim("the specimen is at least 20 particles wide", "12.3 particles"),
               "the specimen is 12.3 particles wide; at least 20 are needed");
     EXPECT_EQ(broken_claim("the moon is round", "a cube"), "it does not hold that the moon is round: a cube")
-        << "of another version's summary";
+        << "summary of another version";
     std::size_t claims = 0;
     for (const LoadingKind kind : {LoadingKind::compression, LoadingKind::tension, LoadingKind::brazilian,
                                    LoadingKind::bending, LoadingKind::direct_shear}) {
@@ -184,7 +184,7 @@ TEST(Verdicts, EachClaimThatDoesNotHoldHasASentence) {
 }
 
 TEST(ShearBox, ResidualAndDilationAreThoseOfTheCurve) {
-    // Stress 1 - 0.5 (1 - exp(...)) is not needed: a peak in row 50, then 3; rise with a slope of tan 12 degrees.
+    // The stress has its peak in row 50 and is then 3; the rise has a slope of tan 12 degrees.
     std::vector<CurveRow> rows(101);
     const double slope = std::tan(12.0 * 3.14159265358979 / 180.0), height = 2.0, length = 3.0;
     for (std::size_t k = 0; k < rows.size(); ++k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What frames record of the past of their contacts, and where they draw the cracks.
+// Tests the history of contacts in frames, and the positions of drawn cracks.
 
 #include "specimens/observers/contact_history.hpp"
 
@@ -73,7 +73,7 @@ class PastOfRock : public ::testing::Test {
     ScratchFolder scratch_;
 };
 
-/// A disc at the side, put here and there by hand while time goes on.
+/// A disc at the side, moved by hand as time passes.
 class WanderingDisc {
   public:
     explicit WanderingDisc(VirtualTest& test) : test_(test) {
@@ -108,7 +108,7 @@ class WanderingDisc {
 TEST_F(PastOfRock, AContactHasStateAndAgeThroughBreakAndTouchingAgain) {
     VirtualTest test = prepared({});
     WanderingDisc disc(test);
-    std::vector<std::size_t> own;  // bonds of the disc
+    std::vector<std::size_t> own;  // indices of the disc's bonds
     for (std::size_t k = 0; k < test.setup.bonds.points.size(); ++k) {
         const ContactPoint point = test.setup.bonds.points[k];
         if (point.body_i == disc.disc() || point.body_j == disc.disc()) own.push_back(k);
@@ -147,7 +147,7 @@ TEST_F(PastOfRock, AContactHasStateAndAgeThroughBreakAndTouchingAgain) {
 TEST_F(PastOfRock, AContactWithoutABondIsAsOldAsTheLookThatSawItFirst) {
     VirtualTest test = prepared({});
     WanderingDisc disc(test);
-    // Another disc at the left side, two rows up: touched from the left, it touches the wanderer alone.
+    // Another disc at the left side, two rows up; touched from the left, it touches only the moved disc.
     BodyIndex other = no_body;
     for (BodyIndex b = 0; b < test.world.bodies.size(); ++b) {
         const BodyState& body = test.world.bodies.state[b];
@@ -211,15 +211,15 @@ TEST_F(PastOfRock, CracksAreTheEvents) {
         }
         fmt::print("  {} {}: {} cracks, up to {:.2g} m from where they broke, open up to {:.2g} m\n", mesh, law,
                    events.size(), farthest, widest);
-        // The guide's law has no place for a point whose overlaps are gone: its events may lie elsewhere on the cell.
+        // Under the guide's law, a point without overlap has no position, so its events may be elsewhere on the cell.
         EXPECT_LT(farthest, (law == std::string("demseg") ? 2.0 : 1.0) * testing::rock_radius)
-            << "a share of a face may lie beside its point";
+            << "a point's share of a face may lie next to it";
         EXPECT_GT(widest, 0.0);
         EXPECT_LT(widest, testing::rock_radius);
     }
 }
 
-/// Normal of a bond whose points have not moved yet, from i to j.
+/// Normal of a bond whose points have not moved, from i to j.
 Vec2 normal_at_start(const VirtualTest& test, PointIndex bond) {
     for (PointIndex k = 0; k < test.world.points.size(); ++k) {
         const ContactPoint point = test.world.points.contact[k], wanted = test.setup.bonds.points[bond];
@@ -249,7 +249,7 @@ TEST_F(PastOfRock, OpeningIsTheMotionApartLessTheOverlapThatBonded) {
             const CrackFace open = find_crack_face(PlacedFrame(test.world, test.setup, frame), bond);
             worst = std::max(worst, std::abs(open.opening - closed.opening - way));
             worst = std::max(worst, norm(open.begin - closed.begin - 0.5 * way * normal));
-            // Turned as a whole a specimen opens nowhere.
+            // A specimen that rotates as a whole opens nowhere.
             const double angle = 0.3;
             const Vec2 turn{std::cos(angle), std::sin(angle)};
             for (Frame::Body& body : frame.bodies) {
@@ -279,13 +279,13 @@ TEST_F(PastOfRock, SharesOfAFaceMakeUpTheFaceAndCirclesHaveTheirDiameter) {
         VirtualTest test = prepared(wanted);
         const Frame frame = taken(test);
         const PlacedFrame placed(test.world, test.setup, frame);
-        std::map<std::pair<BodyIndex, BodyIndex>, double> faces;  // m, of all shares
+        std::map<std::pair<BodyIndex, BodyIndex>, double> faces;  // m, length of faces between two bodies
         for (PointIndex bond = 0; bond < test.setup.bonds.points.size(); ++bond) {
             const ContactPoint point = test.setup.bonds.points[bond];
             const CrackFace face = find_crack_face(placed, bond);
             faces[std::minmax(point.body_i, point.body_j)] += norm(face.end - face.begin);
         }
-        // The edges of a cell that lie against another cell, one a pair: those as long as a fifth of a disc.
+        // Edges of cells that face another cell, one per pair, if they are at least a fifth of a disc long.
         double worst = 0.0;
         int compared = 0;
         for (const auto& [pair, length] : faces) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Peak, largest stress and failure of curves written by hand: the exact row of each.
+// Tests peak, largest stress and failure of curves written by hand: the exact row of each.
 
 #include "specimens/observers/peak_and_failure.hpp"
 
@@ -38,7 +38,7 @@ TEST(Failure, IsATenthOfThePeakStrainBelowHalfThePeak) {
     }
     EXPECT_TRUE(agrees("peak stress", tracker.peak_stress, 5e3, 1e-12));
     EXPECT_TRUE(agrees("peak strain", tracker.peak_strain, 1e-3, 1e-12));
-    EXPECT_NEAR(static_cast<double>(row - 1), 111.0, 1.0) << "below from row 101 on, for ten rows";
+    EXPECT_NEAR(static_cast<double>(row - 1), 111.0, 1.0) << "below from row 101, for ten rows";
 }
 
 TEST(Failure, DoesNotComeFromTheFirstTrembling) {
@@ -53,13 +53,13 @@ TEST(Failure, DoesNotComeFromTheFirstTrembling) {
 
 TEST(Failure, DoesNotComeAboveTheShareNorAfterARecovery) {
     EXPECT_FALSE(tracked(straight_curve(5e6, 1e-3, 0.51, 0.3, 100)).collapsed);
-    EXPECT_TRUE(tracked(straight_curve(5e6, 1e-3, 0.51, 0.3, 100), 0.6).collapsed) << "the share is settable";
+    EXPECT_TRUE(tracked(straight_curve(5e6, 1e-3, 0.51, 0.3, 100), 0.6).collapsed) << "the share can be set";
     auto curve = straight_curve(5e6, 1e-3, 0.2, 0.3, 100);
-    for (std::size_t k = 105; k < curve.size(); k += 5) curve[k].axial_stress = 3e3;  // back above half every five rows
+    for (std::size_t k = 105; k < curve.size(); k += 5) curve[k].axial_stress = 3e3;  // above half every five rows
     EXPECT_FALSE(tracked(curve).collapsed);
 }
 
-/// Stresses of rows 1/1024 of strain apart. @return row at which the test ends by failure, -1 if it does not
+/// Passes stresses at strains 1/1024 apart. @return row at which the test ends by failure; -1 if it does not
 std::int64_t failing_row(FailureTracker& tracker, const std::vector<double>& stress) {
     for (std::size_t row = 0; row < stress.size(); ++row) {
         tracker.update(static_cast<std::int64_t>(row), static_cast<double>(row) / 1024, stress[row]);
@@ -68,7 +68,7 @@ std::int64_t failing_row(FailureTracker& tracker, const std::vector<double>& str
     return -1;
 }
 
-/// Feeds all rows to the tracker. @return row at which the peak is known, -1 if it is not
+/// Passes all rows to the tracker. @return row at which the peak is known; -1 if it is not
 std::int64_t known_row(FailureTracker& tracker, const std::vector<double>& stress) {
     std::int64_t known = -1;
     for (std::size_t row = 0; row < stress.size(); ++row) {
@@ -78,7 +78,7 @@ std::int64_t known_row(FailureTracker& tracker, const std::vector<double>& stres
     return known;
 }
 
-/// The beginning, then `value` `times` times.
+/// Appends `value` to a list of stresses `times` times.
 std::vector<double> then(std::vector<double> stress, double value, int times) {
     stress.insert(stress.end(), static_cast<std::size_t>(times), value);
     return stress;
@@ -104,13 +104,13 @@ TEST(Failure, RowsWithoutStressHaveNoPeak) {
     EXPECT_EQ(zeros.peak_row, -1);
     EXPECT_EQ(failing_row(begins_late, {0, 0, 0, 2}), -1);
     EXPECT_EQ(begins_late.peak_row, 3);
-    EXPECT_EQ(failing_row(pulled, then({-1, -2, -3}, -4.0, 40)), -1) << "negative in the sense of the test";
+    EXPECT_EQ(failing_row(pulled, then({-1, -2, -3}, -4.0, 40)), -1) << "negative in the direction of the test";
     EXPECT_EQ(pulled.peak_row, -1);
 }
 
 TEST(Failure, NegativeStressIsBelowEveryShare) {
     FailureTracker tracker;
-    EXPECT_EQ(failing_row(tracker, then({0, 8}, -1.0, 20)), 12) << "below from row 2 on, ten rows later";
+    EXPECT_EQ(failing_row(tracker, then({0, 8}, -1.0, 20)), 12) << "below from row 2, ten rows later";
 }
 
 TEST(Failure, NeedsTenRowsAndATenthOfTheStrainAtPeak) {
@@ -125,7 +125,7 @@ TEST(Failure, NeedsTenRowsAndATenthOfTheStrainAtPeak) {
 TEST(Failure, BeginsAgainAfterARowAtTheShare) {
     FailureTracker tracker;
     std::vector<double> stress = then({0, 8}, 3.0, 10);  // rows 2 to 11
-    stress.push_back(4.0);                               // half the peak is not below it
+    stress.push_back(4.0);                               // equal to half the peak, not below
     EXPECT_EQ(failing_row(tracker, then(stress, 3.0, 30)), 13 + 10);
 }
 
@@ -153,7 +153,7 @@ FailureTracker by_a_tenth() {
 
 TEST(Strength, IsTheFirstMaximumThatADropFollows) {
     FailureTracker tracker = by_a_tenth();
-    EXPECT_EQ(known_row(tracker, then({0, 8}, 7.0, 20)), 12) << "below 7.2 from row 2 on, ten rows later";
+    EXPECT_EQ(known_row(tracker, then({0, 8}, 7.0, 20)), 12) << "below 7.2 from row 2, ten rows later";
     EXPECT_EQ(tracker.peak_row, 1);
     EXPECT_FALSE(tracker.collapsed) << "above half the peak";
     EXPECT_FALSE(tracker.larger_after_peak());
@@ -168,7 +168,7 @@ TEST(Strength, IsNotALaterPeakOfRubble) {
         const auto row = static_cast<std::int64_t>(new_peak.size());
         new_peak.push_back(tracker.update(row, static_cast<double>(row) / 1024, value));
         EXPECT_EQ(tracker.failed, row >= 12) << row;
-        EXPECT_EQ(tracker.collapsed, row >= 26) << row << ": below half the largest from row 16 on";
+        EXPECT_EQ(tracker.collapsed, row >= 26) << row << ": below half the largest from row 16";
     }
     EXPECT_EQ(tracker.peak_row, 1);
     EXPECT_EQ(tracker.peak_stress, 8.0);
@@ -177,23 +177,23 @@ TEST(Strength, IsNotALaterPeakOfRubble) {
     EXPECT_EQ(tracker.largest_stress, 16.0);
     EXPECT_EQ(tracker.strain_at_largest, 15.0 / 1024);
     EXPECT_TRUE(tracker.larger_after_peak());
-    EXPECT_EQ(std::count(new_peak.begin(), new_peak.end(), true), 1) << "no picture of the rubble";
+    EXPECT_EQ(std::count(new_peak.begin(), new_peak.end(), true), 1) << "no picture after the failure";
 }
 
 TEST(Strength, OfAPlateauIsItsFirstRow) {
     FailureTracker flat = by_a_tenth(), falling = by_a_tenth();
-    EXPECT_EQ(known_row(flat, then({0, 8, 8, 8}, 7.5, 40)), -1) << "not by a tenth";
+    EXPECT_EQ(known_row(flat, then({0, 8, 8, 8}, 7.5, 40)), -1) << "the drop is less than a tenth";
     EXPECT_EQ(known_row(falling, then({0, 8, 8, 8}, 7.0, 40)), 4 + 10);
     EXPECT_EQ(falling.peak_row, 1);
 }
 
 TEST(Strength, ADropThatRecoversTooSoonCountsForNothing) {
     FailureTracker higher = by_a_tenth(), lower = by_a_tenth();
-    std::vector<double> stress = then({0, 8}, 5.0, 10);  // rows 2 to 11: nine rows from the first to the last
+    std::vector<double> stress = then({0, 8}, 5.0, 10);  // rows 2 to 11: nine intervals
     stress.push_back(9.0);
     EXPECT_EQ(known_row(higher, then(stress, 7.0, 20)), 13 + 10);
     EXPECT_EQ(higher.peak_row, 12);
-    stress.back() = 7.5;  // back within a tenth
+    stress.back() = 7.5;  // again within a tenth of the peak
     EXPECT_EQ(known_row(lower, then(stress, 7.0, 20)), 13 + 10);
     EXPECT_EQ(lower.peak_row, 1);
 }
@@ -227,7 +227,7 @@ TEST(Strength, IsTheLargestStressWhereTheTestEndsBeforeSuchADrop) {
     EXPECT_EQ(tracker.peak_row, 1);
 }
 
-/// Stress is positive in the sense of the test: pulled apart it falls to nothing, and swings beyond.
+/// Stress is positive in the direction of loading: after tension failure it falls to 0 and oscillates below.
 TEST(Strength, OfASpecimenPulledApart) {
     FailureTracker tracker = by_a_tenth();
     std::vector<double> stress{0, 4, 8, 0, -1};
@@ -239,13 +239,13 @@ TEST(Strength, OfASpecimenPulledApart) {
 
 TEST(Failure, EndsByTheWayGoneWhereStressAndStrainFallTogether) {
     FailureTracker tracker;
-    // Up to row 1000, then back the same way: class II.
+    // Up to row 1000, then back along the same line: class II.
     const auto at = [](int row) { return (row <= 1000 ? row : 2000 - row) / 1024.0; };
     int row = 0;
     for (; row < 2000 && !tracker.collapsed; ++row) tracker.update(row, at(row), row / 1024.0, at(row));
     EXPECT_EQ(tracker.peak_row, 1000);
     EXPECT_EQ(tracker.peak_strain, at(1000));
-    // Below half from row 1501 on, and for a tenth of the way to the peak, 100 rows.
+    // Below half the peak from row 1501 on, for a tenth of the strain at the peak, 100 rows.
     EXPECT_EQ(row - 1, 1601);
 }
 

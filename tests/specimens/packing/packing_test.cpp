@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Packings carry load at rest, meet their targets, press equally both ways, have the sizes asked for, and come out the
-// same whatever the threads. Figures are taken from the scene by brute force, not from the packer's own sums.
+// Tests that packings carry load at rest, meet their targets, are isotropic, have the requested sizes, and do not
+// depend on threads. Values are computed from the scene by brute force, not from the packer's own sums.
 
 #include "specimens/packing/packing.hpp"
 
@@ -42,7 +42,7 @@ Material rock() {
     return material;
 }
 
-/// The guide's rock in SI.
+/// Request for the guide's rock, in SI units.
 PackingRequest guide_rock(std::uint64_t seed) {
     PackingRequest request;
     request.count = 304;
@@ -53,13 +53,13 @@ PackingRequest guide_rock(std::uint64_t seed) {
     return request;
 }
 
-/// Every pair against every pair: forces with k_n, counted in N.
+/// Values from all pairs of circles, with forces by k_n, in N.
 struct PlainFigures {
     double largest_unbalanced = 0.0, mean_force = 0.0, mean_overlap = 0.0;
     std::array<double, 4> wall_force{};
     double circle_area = 0.0;
     std::int64_t circle_contacts = 0, floating = 0;
-    double smallest_overlap = 1e300;  // of all contacts, m
+    double smallest_overlap = 1e300;  // m, over all contacts
 
     double anisotropy(const Domain& d) const {
         const double x = 0.5 * (wall_force[0] + wall_force[1]) / (d.y2 - d.y1),
@@ -119,7 +119,7 @@ double median(std::vector<double> values) {
     return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }
 
-/// Largest distance of the empirical from the given cumulative curve.
+/// Largest distance between the empirical and the given cumulative distribution.
 template <typename Share>
 double distance_from(std::vector<double> radii, const Share& share) {
     std::sort(radii.begin(), radii.end());
@@ -162,7 +162,7 @@ TEST(Packing, GuideRockIsInEquilibriumOnTargetAndIsotropicOverTwentySeeds) {
         coordinations.push_back(packing.report.coordination_of_carrying);
         contacts.push_back(static_cast<double>(f.circle_contacts));
         void_ratios.push_back((d.x2 - d.x1) * (d.y2 - d.y1) / f.circle_area - 1.0);
-        // The report agrees with brute force.
+        // The report must agree with brute force.
         EXPECT_EQ(packing.report.circle_contacts, f.circle_contacts);
         EXPECT_EQ(packing.report.floating, f.floating);
         EXPECT_NEAR(packing.report.anisotropy, f.anisotropy(d), 1e-9);
@@ -195,7 +195,7 @@ TEST(Packing, StaysAtRestInTheSolver) {
 }
 
 TEST(Packing, FloatingCirclesKeepOffTheOthers) {
-    // What is left of a contact at the tolerance of the equilibrium would be bonded, and bonds nothing.
+    // A contact with an overlap as small as the tolerance of the equilibrium would be bonded without any strength.
     const Packing packing = make_packing(guide_rock(1));
     const PlainFigures f = measure_plainly(packing.scene);
     fmt::print("  {} floating; smallest overlap {:.3g} of the mean\n", f.floating, f.smallest_overlap / f.mean_overlap);
@@ -255,7 +255,7 @@ TEST(Packing, NamesTheReachableRangeOfAnUnreachableVoidRatio) {
                 << text;
             EXPECT_LT(low, high);
             EXPECT_TRUE(asked < low || asked > high);
-            // What the message promises can be had.
+            // A value in the range given by the message must be accepted.
             request.void_ratio = 0.5 * (low + high);
             EXPECT_NEAR(make_packing(request).report.void_ratio / *request.void_ratio, 1.0, 1e-3);
         }
@@ -264,7 +264,7 @@ TEST(Packing, NamesTheReachableRangeOfAnUnreachableVoidRatio) {
 
 TEST(Packing, SameSeedGivesTheSameBytesForAnyNumberOfThreads) {
     PackingRequest request = guide_rock(11);
-    request.count = 4500;  // enough for the parallel loops
+    request.count = 4500;  // enough to run the parallel loops
     request.mean_overlap = 6e-4;
     const std::string one = bytes_of(make_packing(request).scene);
     for (const int threads : {2, 3}) {
@@ -288,12 +288,12 @@ TEST(Packing, LargeOnesMoveAgainstADragToTheSameEquilibriumAndBytesForAnyNumberO
     EXPECT_TRUE(within("mean overlap / target - 1", f.mean_overlap / 2e-4 - 1.0, 0.0, 5e-4));
     EXPECT_TRUE(within("anisotropy", f.anisotropy(packing.scene.domain), 0.0, 0.01));
     EXPECT_TRUE(packing.report.box_met);
-    EXPECT_EQ(packing.report.attempts, 1);  // though one floating circle of this seed has no room to be moved off
+    EXPECT_EQ(packing.report.attempts, 1);  // although one floating circle of this seed cannot be moved away
     request.threads = 3;
     EXPECT_TRUE(bytes_of(make_packing(request).scene) == bytes_of(packing.scene));
 }
 
-// A progress hook may stop the packing: a pass over twenty million circles takes seconds.
+// A progress hook may stop the packing; a pass over twenty million circles takes seconds.
 TEST(Packing, LargeOnesReportAfterEachFewPasses) {
     std::mt19937_64 generator(1);
     std::vector<Disc> discs(300'000);
@@ -339,7 +339,7 @@ TEST(SizeDistribution, SamplesPassTheKolmogorovTestAgainstTheirOwnFormulas) {
     EXPECT_GE(*std::min_element(cut.begin(), cut.end()), 0.015);
     EXPECT_LE(*std::max_element(cut.begin(), cut.end()), 0.03);
 
-    // Half of the mass between diameters 1 and 2, half between 2 and 4: number densities slope·d⁻³.
+    // Half of the mass has diameters between 1 and 2, half between 2 and 4: number densities are slope·d⁻³.
     const SieveCurve curve{{{1e-3, 0.0}, {2e-3, 0.5}, {4e-3, 1.0}}};
     const auto sieved = sample_radii(curve, 3000, generator);
     const double lower = 1.0 - 1.0 / 4.0, upper = 1.0 / 4.0 - 1.0 / 16.0;
@@ -350,7 +350,7 @@ TEST(SizeDistribution, SamplesPassTheKolmogorovTestAgainstTheirOwnFormulas) {
                                 return below / (lower + upper);
                             }),
               critical_distance(3000));
-    // And the mass that passes is the curve's.
+    // The mass that passes must also follow the curve.
     double mass = 0.0, passing = 0.0;
     for (const double r : sieved) {
         mass += r * r;
@@ -358,7 +358,7 @@ TEST(SizeDistribution, SamplesPassTheKolmogorovTestAgainstTheirOwnFormulas) {
     }
     EXPECT_TRUE(agrees("share of the mass passing the middle sieve", passing / mass, 0.5, 5e-3));
 
-    // The test can fail: another distribution does not pass.
+    // A different distribution must fail the test.
     EXPECT_GT(distance_from(uniform, [](double r) { return (r - 0.01) / 0.024; }), critical_distance(300));
 }
 
@@ -424,7 +424,7 @@ TEST(SizeDistribution, ReadsASieveCurveAndNamesTheLineOfABadOne) {
 }
 
 TEST(RandomNumbers, AreThoseOfTheStandardsGenerator) {
-    // The 10000th number of the default-seeded generator is fixed by the standard; ours is made of its upper 53 bits.
+    // The standard prescribes the 10000th number of the default-seeded generator; the function uses its upper 53 bits.
     std::mt19937_64 generator;
     generator.discard(9999);
     EXPECT_EQ(uniform_number(generator), static_cast<double>(9981545732273789042ULL >> 11) / 9007199254740992.0);
@@ -474,7 +474,7 @@ TEST(Packing, RefusesRequestsThatContradictThemselves) {
     EXPECT_NE(complaint([](auto& r) { r.material.density = -1.0; }).find("density"), std::string::npos);
 }
 
-/// Two circles that overlap by 2 mm, each within a side wall by 1 mm, and one within the floor by 4 mm.
+/// Two circles that overlap each other by 2 mm and a side wall by 1 mm each; one overlaps the floor by 4 mm.
 TEST(PackingReport, OfThreeCirclesIsThatByHand) {
     Scene scene;
     scene.materials = {rock()};
@@ -487,7 +487,7 @@ TEST(PackingReport, OfThreeCirclesIsThatByHand) {
     EXPECT_EQ(report.circle_contacts, 1);
     EXPECT_NEAR(report.coordination, 2.0 / 3.0, 1e-15);
     EXPECT_NEAR(report.coordination_of_carrying, (2.0 + 3.0) / 3.0, 1e-15);
-    // Mean of four contacts; without the side walls 3 mm.
+    // The mean over four contacts; without the side walls it would be 3 mm.
     EXPECT_NEAR(report.mean_contact_force / stiffness, 0.25 * (2e-3 + 2 * 1e-3 + 4e-3), 1e-12);
     EXPECT_NEAR(report.mean_overlap, 3e-3, 1e-12);
     EXPECT_NEAR(report.stress_x / stiffness, 1e-3 / 0.3, 1e-12);
@@ -508,7 +508,7 @@ TEST(PackingReport, TellsOfABoxThatIsWiderOrNarrowerThanAsked) {
 }
 
 TEST(SizeDistribution, DistanceOfAFewSizesIsThatByHand) {
-    // The shares 0 to 1 over 0 to 1: at 0.5 all are below, and half should be.
+    // For radii uniform in [1, 2], both values are at most 1.5, where the expected fraction is one half.
     EXPECT_NEAR(kolmogorov_distance(UniformRadii{1.0, 2.0}, {1.25, 1.5}), 0.5, 1e-12);
     EXPECT_NEAR(kolmogorov_distance(UniformRadii{1.0, 2.0}, {1.5, 1.75}), 0.5, 1e-12);
     EXPECT_NEAR(kolmogorov_distance(UniformRadii{1.0, 2.0}, {1.25, 1.75}), 0.25, 1e-12);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A packing as text and back: to the bit, with any material, or not at all.
+// Tests writing a packing as text and reading it: identical to the bit with any material, or refused.
 
 #include "specimens/packing/packing_text.hpp"
 

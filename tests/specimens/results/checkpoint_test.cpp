@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A checkpoint whose hashes are right and whose numbers are not: whatever is an index is looked at before it is used.
+// Tests a checkpoint with correct hashes but invalid numbers: every index must be checked before it is used.
 
 #include "specimens/results/checkpoint.hpp"
 
@@ -30,13 +30,13 @@ using testing::ScratchFolder;
 using testing::SmallCase;
 using testing::write_small_case;
 
-/// Sets one whole number, or enumeration, far beyond what it counts. Of a vector it goes to the first and the last.
+/// Sets one integer or enumerator to a value far out of range. In a vector, it can be the first or the last element.
 class FarNumber {
   public:
-    /// @param which  of all in the order of the walk, from 0
+    /// @param which index of the item to change, in the order of visiting, from 0
     explicit FarNumber(int which) : left_(which) {}
 
-    /// What was changed, as in "bonds.pairs[].body_i"; empty if there are not that many.
+    /// Name of the changed item, such as "bonds.pairs[].body_i"; empty if there are not that many items.
     const std::string& changed() const { return changed_; }
 
     template <class T>
@@ -48,7 +48,7 @@ class FarNumber {
         } else if constexpr (std::is_enum_v<T>) {
             if (chosen(name)) value = static_cast<T>(std::numeric_limits<std::underlying_type_t<T>>::max());
         } else if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
-            if (chosen(name)) value = std::numeric_limits<T>::max() - 2;  // the largest two may stand for none
+            if (chosen(name)) value = std::numeric_limits<T>::max() - 2;  // the two largest values may mean «none»
         }
     }
     template <class T, class Room>
@@ -86,8 +86,7 @@ class FarNumber {
     std::string changed_;
 };
 
-/// Whole numbers that count, name or number something for readers, and index nothing; `left_end` of a membrane that is
-/// not there.
+/// Integers that are counts, ids or codes, not indices; also `left_end` of an absent membrane.
 const std::set<std::string> no_index{"account.blocks[].broken",
                                      "account.blocks[].gained",
                                      "bodies.controls[].first_step",

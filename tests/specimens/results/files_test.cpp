@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The folder of a test: complete, the same bytes however often it was interrupted and whatever the threads, and never
-// at the expense of earlier results.
+// Tests the folder of a test: it is complete, has the same bytes for any interruptions and threads, and never destroys
+// earlier results.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -51,13 +51,13 @@ class TestFolder : public ::testing::Test {
     TestCase small_case(const SmallCase& wanted = {}) const {
         return read_case(write_small_case(scratch_ / "", wanted));
     }
-    /// Rocks whose properties are stated: every law, unit, factor, end and file of theirs is in one of them.
+    /// Cases that together use every law, unit, factor, way of ending and file.
     static std::vector<SmallCase> stated_rocks() {
         const std::string minerals =
             "[minerals]\nseed = 4\n[[mineral]]\nname = \"quartz\"\narea_share = 0.4\ncontact_modulus = 3e7\n"
             "[[mineral]]\nname = \"mica\"\nfriction_angle = 15.0\nresidual_friction_angle = 10.0\n"
             "[[mineral_pair]]\nbetween = [\"quartz\", \"mica\"]\nfriction_angle = 12.0\n";
-        SmallCase pulled;  // cells, in area units, with random strengths and minerals, held in grips
+        SmallCase pulled;  // cells in area units, with random strengths and minerals, held by grips
         pulled.mesh = "voronoi";
         pulled.rate = 0.005;
         pulled.material =
@@ -74,7 +74,7 @@ class TestFolder : public ::testing::Test {
         squeezed.loading = "platens = \"frictional\"\nplaten_friction_angle = 10.0";
         squeezed.bond =
             "law = \"coulomb\"\nstrength_distribution = \"lognormal\"\nstrength_cv = 0.3\nstrength_seed = 6";
-        SmallCase discs = squeezed;  // across gaps, strengths by the back-tension
+        SmallCase discs = squeezed;  // bonds across gaps, strengths relative to the back-tension
         discs.rate = 0.06;
         discs.mesh = "";
         discs.material = "";
@@ -82,24 +82,24 @@ class TestFolder : public ::testing::Test {
         discs.bond =
             "law = \"coulomb\"\nrange = 0.05\ntensile_factor = 1.0\ncohesion_factor = 2.0\n"
             "strength_distribution = \"normal\"\nstrength_cv = 0.2\nstrength_seed = 7";
-        SmallCase sliding;  // back-tension, whose slips are recorded
+        SmallCase sliding;  // back-tension bonds with recorded slips
         sliding.kind = "compression";
         sliding.mesh = "voronoi";
         sliding.rate = 0.1;
         sliding.max_strain = 0.03;
         sliding.output += "\nslips = true";
-        SmallCase jointed = squeezed;  // slides on after a few hundred steps
+        SmallCase jointed = squeezed;  // slides along its trace after a few hundred steps
         jointed.rate = 0.03;
         jointed.minerals =
             "[[trace]]\npoints = [0.0, 0.1, 0.2355, 0.32]\nfriction_angle = 20.0\ncohesion = 1e4\n"
             "tensile_strength = 1e3\ndilation_angle = 5.0\n[[trace]]\npoints = [0.05, 0.3, 0.15, 0.35]";
         return {pulled, squeezed, discs, sliding, jointed};
     }
-    /// Stops when asked for the nth time while it loads; the loop asks every 64 steps.
+    /// Stops at the given number of calls during loading; the loop calls every 64 steps.
     static TestHooks stopping_at(int questions) {
         TestHooks hooks;
         const auto loading = std::make_shared<bool>(false);
-        // Solves ask, too: the last line before loading counts.
+        // Solves also call this; the last line before loading starts the count.
         hooks.detail = [loading](const std::string& line) {
             *loading = *loading || line.find(" steps to max_axial_strain") != std::string::npos;
         };
@@ -110,7 +110,7 @@ class TestFolder : public ::testing::Test {
         return hooks;
     }
 
-    /// Interrupted again and again, after `longer` more questions each time, then compared with the test in one.
+    /// Interrupts a test repeatedly, after `longer` more calls each time, then compares it with an uninterrupted test.
     void expect_same_resumed(const TestCase& test, int longer, const std::string& what) {
         TestOptions straight = options("straight"), broken = options("broken");
         straight.force = broken.force = true;
@@ -162,7 +162,7 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
         << "the same number in both files";
     const std::vector<double>& ids = *results.events.find("body_i");
     EXPECT_GT(*std::min_element(ids.begin(), ids.end()), 100.0) << "ids of the input";
-    // Figures and their presence: tests/recount.
+    // Values and presence of results are checked by tests/recount.
     EXPECT_EQ(outcome.summary.about.title, "case");
     EXPECT_EQ(outcome.summary.run.command, options("out").command);
     const std::string text = read_file(scratch_ / "out/case.toml");
@@ -199,7 +199,8 @@ TEST_F(TestFolder, ForcedTestOfCirclesLeavesNoPolygonsOfTheOneBefore) {
     forced.force = true;
     run_test(small_case(wanted), forced);
     EXPECT_TRUE(fs::exists(scratch_ / "out/specimen_circles.dat"));
-    EXPECT_FALSE(fs::exists(scratch_ / "out/specimen_polygons.dat")) << "the recount would take them for the specimen";
+    EXPECT_FALSE(fs::exists(scratch_ / "out/specimen_polygons.dat"))
+        << "the recount would treat these files as the specimen";
 }
 
 TEST_F(TestFolder, EndsBeforeFailureWithAPeakSoFar) {
@@ -264,7 +265,7 @@ TEST_F(TestFolder, OfAStatedRockEndsResumedWithTheBytesOfAnUninterruptedTest) {
     for (const SmallCase& rock : stated_rocks()) expect_same_resumed(small_case(rock), 1, rock.kind + " " + rock.mesh);
 }
 
-/// Since when a contact without a bond has touched, is recorded in the checkpoint alone.
+/// The time since when an unbonded contact has touched is stored only in the checkpoint.
 TEST_F(TestFolder, ResumedKnowsHowOldItsContactsAre) {
     SmallCase wanted;
     wanted.kind = "compression";
@@ -282,7 +283,7 @@ TEST_F(TestFolder, ResumedKnowsHowOldItsContactsAre) {
         outcome = resume_test(options("broken"), stopping_at(4));
     }
     expect_same(contents(scratch_ / "broken"), contents(scratch_ / "straight"), "resumed");
-    int old = 0;  // contacts that an interrupt came across
+    int old = 0;  // number of contacts that existed at an interrupt
     for (const auto& entry : fs::directory_iterator(scratch_ / "straight/frames")) {
         if (!entry.path().filename().string().starts_with("contacts_")) continue;
         const PolyData data = read_polydata(entry.path());
@@ -301,7 +302,7 @@ TEST_F(TestFolder, ResumingTakesAwayWhatCameAfterTheCheckpoint) {
     const TestCase test = small_case();
     run_test(test, options("straight"));
     run_test(test, options("broken"), stopping_at(4));
-    // The files have grown beyond the checkpoint, as after a kill.
+    // The files have rows after the checkpoint, as after a kill.
     std::ofstream(scratch_ / "broken/curve.csv", std::ios::app) << "1,2,3\n";
     std::ofstream(scratch_ / "broken/events.csv", std::ios::app) << "1,2,3\n";
     for (const char* picture : {"particles_99999.vtp", "contacts_99999.vtp", "cracks_99999.vtp"})
@@ -363,7 +364,7 @@ TEST_F(TestFolder, KeepsEarlierResultsUntilNewOnesAreComplete) {
     expect_same(contents(scratch_ / "out"), earlier, "beside an unfinished test");
     forced.begins_again = true;
     EXPECT_TRUE(run_test(small_case(wanted), forced, stopping_at(3)).interrupted);
-    // Resumed, and stopped again: still beside the earlier ones.
+    // Resumed and stopped again: the results are still beside the earlier ones.
     const TestOutcome again = resume_test(options("out.new"), stopping_at(3));
     EXPECT_TRUE(again.interrupted);
     EXPECT_EQ(again.folder, scratch_ / "out.new");
@@ -374,7 +375,7 @@ TEST_F(TestFolder, KeepsEarlierResultsUntilNewOnesAreComplete) {
     EXPECT_EQ(resumed.folder, scratch_ / "out");
     EXPECT_FALSE(fs::exists(scratch_ / "out.new"));
     auto now = contents(scratch_ / "out");
-    EXPECT_EQ(now.erase("notes.txt"), 1U) << "what is not ours stays";
+    EXPECT_EQ(now.erase("notes.txt"), 1U) << "foreign files stay";
     TestOptions whole = options("whole");
     run_test(small_case(wanted), whole);
     expect_same(now, contents(scratch_ / "whole"), "resumed in the place of the earlier ones");
@@ -423,7 +424,7 @@ TEST_F(TestFolder, ThatHoldsFilesWithoutAMarkOfATestIsRefusedAndNamesOne) {
     }
     fs::create_directories(scratch_ / "mine");
     std::ofstream(scratch_ / "mine/0123456789abcdef.crackle_tmp") << "half";
-    EXPECT_FALSE(run_test(small_case(), mine).interrupted) << "of a test that was stopped at once";
+    EXPECT_FALSE(run_test(small_case(), mine).interrupted) << "the test was stopped immediately";
     EXPECT_FALSE(fs::exists(scratch_ / "mine/0123456789abcdef.crackle_tmp"));
 }
 
@@ -464,7 +465,7 @@ TEST_F(TestFolder, PeakAndFailureDoNotDependOnTheRowsWritten) {
         EXPECT_EQ(few[key], many[key]) << key;
     }
     EXPECT_LT(read_results(scratch_ / "few").curve.rows(), 13U);
-    for (const char* folder : {"few", "many"}) {  // the row of the end is there, however few are written
+    for (const char* folder : {"few", "many"}) {  // the last row is written, however few rows there are
         const TestResults results = read_results(scratch_ / folder);
         EXPECT_EQ(results.curve.find("axial_strain")->back(), many["axial_strain_end"].get<double>()) << folder;
         EXPECT_EQ(results.curve.find("bonds_broken")->back(), many["bonds_broken"].get<double>()) << folder;
@@ -523,10 +524,10 @@ TEST_F(TestFolder, IsRefusedWhileAnotherTestWritesIntoIt) {
 
 TEST_F(TestFolder, OfAnUnstableRunIsNamedInItsMessage) {
     SmallCase wanted;
-    wanted.rate = 3000.0;  // the platen moves farther in a step than a particle is large
+    wanted.rate = 3000.0;  // the platen moves by more than a particle's size per step
     try {
         run_test(small_case(wanted), options("out"));
-        ADD_FAILURE() << "ran to its end";
+        ADD_FAILURE() << "ran to the end";
     } catch (const UnstableRun& error) {
         fmt::print("  {}\n", error.what());
         EXPECT_NE(std::string(error.what()).find("output so far in " + (scratch_ / "out").string()), std::string::npos);
@@ -552,7 +553,7 @@ TEST_F(TestFolder, IsNotMadeForACaseThatCannotBeTested) {
     EXPECT_FALSE(fs::exists(scratch_ / "out"));
 }
 
-// A network's file system keeps a removed file under another name as long as it is open.
+// A network file system keeps a removed file under another name as long as it is open.
 TEST_F(TestFolder, OfStagedResultsGoesOnceNothingIsKeptInIt) {
     fs::create_directories(scratch_ / "out");
     for (const char* name : {"curve.csv", "summary.json"}) std::ofstream(scratch_ / "out" / name) << "1\n2\n";
@@ -565,7 +566,7 @@ TEST_F(TestFolder, OfStagedResultsGoesOnceNothingIsKeptInIt) {
         std::ofstream(kept) << "open";
         folder.finish();
         EXPECT_EQ(read_file(scratch_ / "out/summary.json"), "new");
-        EXPECT_TRUE(is_there(kept)) << "a file of nobody's was removed";
+        EXPECT_TRUE(is_there(kept)) << "a foreign file was removed";
         fs::remove(kept);
     }
     EXPECT_FALSE(is_there(staged));

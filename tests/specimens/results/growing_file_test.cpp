@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A file that grows continues from what a checkpoint marks, and from nothing else.
+// Tests that a growing file continues only from the state marked by a checkpoint.
 
 #include "specimens/results/growing_file.hpp"
 
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 class AGrowingFile : public ::testing::Test {
   protected:
-    /// Two lines, marked; a third beyond the mark.
+    /// Writes two lines, marks them, and writes a third.
     FileMark written() const {
         GrowingFile file(path_, {});
         file.write("one\n");
@@ -33,7 +33,7 @@ class AGrowingFile : public ::testing::Test {
     static void expect_refused(const std::string& says, const std::function<void()>& act) {
         try {
             act();
-            ADD_FAILURE() << "went through, expected: " << says;
+            ADD_FAILURE() << "accepted, expected: " << says;
         } catch (const InputError& error) {
             fmt::print("  {}\n", error.what());
             EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
@@ -51,7 +51,7 @@ TEST_F(AGrowingFile, GoesOnBehindItsMark) {
     file.flush();
     EXPECT_EQ(read_file(path_), "one\ntwo\nother\n");
     FileMark all = file.mark();
-    GrowingFile again(path_, all);  // the hash went on, too
+    GrowingFile again(path_, all);  // the hash was continued as well
     EXPECT_EQ(again.mark().hash, all.hash);
     EXPECT_NE(all.hash, mark.hash);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The frame at the peak waits in memory or, of a large specimen, on the disc: its files and checkpoints are the same.
+// Tests that the frame at the peak, stored in memory or for a large specimen on disc, gives the same files and
+// checkpoints.
 
 #include <gtest/gtest.h>
 
@@ -31,8 +32,9 @@ constexpr std::size_t always = 0, never = std::numeric_limits<std::size_t>::max(
 
 class PeakFrame : public ::testing::Test {
   protected:
-    /// A test of some looks at the clock, resumed with new files, as after a restart, until it has passed its peak.
-    /// @param large_frame of both parts
+    /// Runs a test for several calls of the clock, resumes it with new files as after a restart, until its peak is
+    /// passed.
+    /// @param large_frame size from which frames are stored on disc
     Contents loaded(std::size_t large_frame) {
         testing::SmallCase wanted;
         wanted.kind = "compression";
@@ -52,7 +54,8 @@ class PeakFrame : public ::testing::Test {
             if (!first) files.add_peak(test.setup, test.state, test.world);
             test.state.step_seconds = 0.0;
             files.write_checkpoint(test.setup, test.state, test.world);
-            EXPECT_EQ(test.state.peak_frame.bodies.empty(), large_frame == always) << "kept after the checkpoint";
+            EXPECT_EQ(test.state.peak_frame.bodies.empty(), large_frame == always)
+                << "still in memory after the checkpoint";
             if (first) {
                 std::ifstream in(folder / "checkpoint", std::ios::binary);
                 test.state = load_test(in, "checkpoint").state;

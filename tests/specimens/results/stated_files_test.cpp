@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A test's summary states what its files are, and whoever reads them takes no others.
+// Tests that a test's summary identifies its files, and that readers accept no others.
 #include "specimens/recordings/stated_files.hpp"
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ void expect_says(const std::string& got, const std::string& expected) {
     EXPECT_NE(got.find(expected), std::string::npos) << got;
 }
 
-/// A small test that records slips, pulled to its end.
+/// A small tension test that records slips, completed.
 class FinishedTest : public ::testing::Test {
   protected:
     FinishedTest() {
@@ -47,7 +47,7 @@ class FinishedTest : public ::testing::Test {
     void write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / name, std::ios::binary) << text;
     }
-    /// Does so with each of the files that are read, and checks the message.
+    /// Changes each of the files that are read, and checks the message.
     void expect_refused(const std::function<std::string(std::string)>& change, const std::string& says) const {
         for (const std::string name : {"curve.csv", "events.csv", "slips.csv"}) {
             const std::string text = read_file(folder_ / name);
@@ -82,7 +82,7 @@ TEST_F(FinishedTest, StatesItsFilesAsTheyAre) {
 TEST_F(FinishedTest, ReadsNoFileThatWasEdited) {
     expect_refused(
         [](std::string text) {
-            text.back() = ' ';  // the end of the last line, which no reader of numbers misses
+            text.back() = ' ';  // replaces the end of the last line, which a reader of numbers would accept
             return text;
         },
         "other bytes, expected");
@@ -116,7 +116,7 @@ TEST_F(FinishedTest, TakesNoOtherCheckpointForItsOwn) {
     other["files"]["checkpoint"]["xxh3"] = "0123456789abcdef";
     write("summary.json", other.dump());
     expect_says(refusal([&] { resume_test(options()); }), "checkpoint: found ");
-    EXPECT_NO_THROW(read_results(folder_)) << "which needs none";
+    EXPECT_NO_THROW(read_results(folder_)) << "reading needs no checkpoint";
 }
 
 TEST_F(FinishedTest, OfAnEarlierVersionIsReadAsItIs) {
@@ -124,7 +124,7 @@ TEST_F(FinishedTest, OfAnEarlierVersionIsReadAsItIs) {
     silent.erase("files");
     write("summary.json", silent.dump());
     write("curve.csv", read_file(folder_ / "curve.csv") + "1\n");
-    expect_says(refusal([&] { read_results(folder_); }), "found 1 value");  // by the reader of numbers
+    expect_says(refusal([&] { read_results(folder_); }), "found 1 value");  // found by the reader of numbers
     write("curve.csv", read_file(folder_ / "curve.csv").substr(0, read_file(folder_ / "curve.csv").size() - 2));
     EXPECT_NO_THROW(read_results(folder_));
 }

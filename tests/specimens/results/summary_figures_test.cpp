@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figures of summary.json from events, notches, membranes, clocks and profiles put in by hand: what whole tests seldom
-// come to, or come to by chance.
+// Tests values of summary.json for events, notches, membranes, clocks and profiles set by hand, which whole tests
+// rarely produce.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -37,8 +37,8 @@ class SummaryFigures : public ::testing::Test {
     testing::ScratchFolder scratch_;
 };
 
-/// A source that opens all round (1), slips (0) or closes all round (-1): its scalar moment is that of the
-/// magnitude.
+/// A source that opens in all directions (1), slips (0) or closes in all directions (-1), with the scalar moment of the
+/// given magnitude.
 AcousticEvent event_of(double magnitude, int sense) {
     AcousticEvent event;
     const double moment = std::pow(10.0, 1.5 * (magnitude + 6.0));
@@ -49,9 +49,10 @@ AcousticEvent event_of(double magnitude, int sense) {
     return event;
 }
 
-// Bins of 0.1: the fullest is -6.4 to -6.3, so that Mc = -6.35 + 0.2. Above it 25 magnitudes lie 0.1 beyond and 25 lie
-// 0.5 beyond. Least distance: above -6.37 (10 of 60 lie 0.17 beyond, 25 each 0.32 and 0.72) the law's share at 0.32 is
-// 0.500 where the first ten end at 0.167; above -6.2 its share at the first magnitude is 0.349, above nothing.
+// In bins of 0.1, the largest is -6.4 to -6.3, so Mc = -6.35 + 0.2. Above it, 25 magnitudes exceed it by 0.1 and 25 by
+// 0.5. For the rule of least distance: above -6.37 (excesses of 0.17 for 10 of 60, 0.32 and 0.72 for 25 each) the law's
+// fraction at 0.32 is 0.500, where the first ten end at 0.167. Above -6.2, its fraction at the first magnitude is
+// 0.349, and that of the data is 0.
 TEST_F(SummaryFigures, OfMagnitudesHaveBothRulesForTheirCompleteness) {
     testing::SmallCase wanted;
     wanted.output += "\nemission = true";
@@ -63,24 +64,24 @@ TEST_F(SummaryFigures, OfMagnitudesHaveBothRulesForTheirCompleteness) {
         events.push_back(event_of(-6.05, 0));
         events.push_back(event_of(-5.65, 0));
     }
-    events.resize(events.size() + 2);  // without a moment
+    events.resize(events.size() + 2);  // events without a moment
     const Json summary = summary_of(test);
     const Json& b = summary["b_value"];
     EXPECT_TRUE(agrees("Mc by curvature", b["completeness"], -6.15, 1e-12));
     EXPECT_EQ(b["events"], 50);
     const double mean = 0.3, aki = std::log10(std::numbers::e) / mean, value = aki * 49.0 / 50.0;
     EXPECT_TRUE(agrees("b", b["b"], value, 1e-12));
-    // Each lies 0.2 from the mean.
+    // Each magnitude differs from the mean by 0.2.
     EXPECT_TRUE(agrees("its error", b["error"], std::log(10.0) * value * value * std::sqrt(50.0 * 0.04 / (50.0 * 49.0)),
                        1e-12));
     // Quantiles of χ² with 100 degrees of freedom, by tables: 74.2219 and 129.5612.
     EXPECT_TRUE(agrees("lower end of its interval", b["interval"][0], aki * 74.2219 / 100.0, 1e-6));
     EXPECT_TRUE(agrees("upper end", b["interval"][1], aki * 129.5612 / 100.0, 1e-6));
     EXPECT_EQ(b["few"], true);
-    EXPECT_EQ(b["straight"], false) << "two magnitudes are no line";
+    EXPECT_EQ(b["straight"], false) << "two magnitudes do not determine a line";
     const Json& other = b["least_distance"];
     EXPECT_TRUE(agrees("Mc by the least distance", other["completeness"], -6.37, 1e-12));
-    EXPECT_EQ(other["events"], 60) << "those above, and not that magnitude itself";
+    EXPECT_EQ(other["events"], 60) << "only those above, not that magnitude itself";
     const double excess = (10 * 0.17 + 25 * 0.32 + 25 * 0.72) / 60.0;
     EXPECT_TRUE(agrees("b above it", other["b"], std::log10(std::numbers::e) / excess * 59.0 / 60.0, 1e-12));
 
@@ -128,7 +129,7 @@ TEST_F(SummaryFigures, OfANotchedBeamAreByHand) {
     test.setup.apparatus.uniaxial = false;
     test.setup.specimen.notch = 0.05;
     test.setup.specimen.area = 0.04;
-    test.setup.specimen.particles = 100;  // 0.02 m each
+    test.setup.specimen.particles = 100;  // each has a size of 0.02 m
     test.setup.apparatus.stress_intensity = 0.5;
     test.setup.apparatus.section = 0.25;
     test.setup.apparatus.length = 0.8;
@@ -138,14 +139,13 @@ TEST_F(SummaryFigures, OfANotchedBeamAreByHand) {
     EXPECT_TRUE(agrees("notch over particle", summary["notch_over_particle"], 2.5, 1e-12));
     EXPECT_TRUE(agrees("K_I of the peak so far", summary["fracture_toughness_so_far"], 1.5e6, 1e-12));
     EXPECT_TRUE(agrees("force at the peak so far, N", summary["peak_force_so_far"], 0.75e6, 1e-12));
-    EXPECT_EQ(summary["nominal_modulus"], 4e9)
-        << "of the linear solution, which has the section and length of the test";
+    EXPECT_EQ(summary["nominal_modulus"], 4e9) << "the linear solution has the section and length of the test";
     EXPECT_TRUE(summary["youngs_modulus"].is_null());
     test.state.failure.failed = true;
     EXPECT_TRUE(agrees("fracture toughness", summary_of(test)["fracture_toughness"], 1.5e6, 1e-12));
 }
 
-// The spring adds its stiffness times the rise, which is the lateral strain of the height.
+// The spring adds its stiffness times the rise, which is the lateral strain times the height.
 TEST_F(SummaryFigures, OfASprungShearBoxAreByHand) {
     VirtualTest test = prepared();
     put_peak(test);
@@ -240,16 +240,17 @@ TEST_F(SummaryFigures, HaveTheirUnitsBesideThem) {
         EXPECT_TRUE(units.contains(key)) << key << ": found no unit";
     }
     EXPECT_GT(numbers, 40U);
-    for (const auto& [key, unit] : units.items()) EXPECT_TRUE(by_point.contains(key)) << key << ": a unit of nothing";
+    for (const auto& [key, unit] : units.items())
+        EXPECT_TRUE(by_point.contains(key)) << key << ": unit of a figure that does not exist";
 
     test.description.material.units = StiffnessUnits::area;
     const Json by_area = summary_of(test);
     EXPECT_TRUE(by_area["units"]["peak_stress_so_far"].get<std::string>().starts_with("Pa, "));
     EXPECT_TRUE(by_area["columns"]["axial_stress"].get<std::string>().starts_with("Pa, "));
-    EXPECT_EQ(by_area["peak_stress_so_far_pa"], 3e6) << "it is one of an area already";
+    EXPECT_EQ(by_area["peak_stress_so_far_pa"], 3e6) << "in area units, it is already in Pa";
 }
 
-// A specimen of 2 m by 1 m: 50 particles are 0.2 m each, 10 across; 800 are 0.05 m each, 40 across.
+// A specimen of 2 m by 1 m: 50 particles have a size of 0.2 m, 10 across the length; 800 have 0.05 m, 40 across.
 TEST_F(SummaryFigures, OfValidityAreTheClaimsOfTheKind) {
     VirtualTest test = prepared();
     test.setup.specimen.width = 2.0;
@@ -268,7 +269,7 @@ TEST_F(SummaryFigures, OfValidityAreTheClaimsOfTheKind) {
     const Json wide = summary_of(test);
     EXPECT_EQ(wide["validity"][0]["holds"], true);
     EXPECT_EQ(wide["validity"][0]["found"], "40 particles");
-    EXPECT_TRUE(wide["valid"].is_null()) << "not all is known";
+    EXPECT_TRUE(wide["valid"].is_null()) << "not all claims are known";
 }
 
 TEST_F(SummaryFigures, OfAProfileAreItsClocks) {
@@ -306,7 +307,7 @@ TEST_F(SummaryFigures, OfAProfileAreItsClocks) {
         EXPECT_FALSE(row["meaning"].get<std::string>().empty());
     };
     expect("force", 4.0, 120);
-    expect("  narrow_phase", 0.25 / 4 * 60, 4);  // a sample's time, of every pass
+    expect("  narrow_phase", 0.25 / 4 * 60, 4);  // mean time of a sample times the number of passes
     expect("integrate", 2.5, 50);
     expect("rate", 0.5, 7);
     expect("rest", 10.0 - 4.0 - 2.5 - 0.5, 0);

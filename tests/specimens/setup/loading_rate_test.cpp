@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loading by tolerance, and the companions that state a test's error.
+// Tests loading by tolerance, and the companion tests that determine a test's error.
 
 #include "specimens/setup/loading_rate.hpp"
 
@@ -33,7 +33,7 @@ RateRule rule_of(double tolerance) {
     return rule;
 }
 
-/// Rate after 400 looks, twenty transits, at a steady error.
+/// Rate after 400 calls, twenty transit times, at a constant error.
 double rate_after(double error, double tolerance) {
     const RateRule rule = rule_of(tolerance);
     RateState state;
@@ -50,7 +50,7 @@ TEST(LoadingRate, StaysAtItsLimitWhereNothingHappensAndFallsWithTheError) {
     EXPECT_LE(rate_after(0.0, 0.01), limit * (1.0 + 1e-12));
     EXPECT_TRUE(agrees("rate at an error of the tolerance itself", rate_after(0.01, 0.01), limit, 1e-12));
     EXPECT_TRUE(agrees("rate at any error, 1/s", rate_after(1e3, 0.01), 0.15 * limit, 1e-9))
-        << "a specimen that rings is not waited for without end";
+        << "the time for settling is limited";
 }
 
 struct Moment {
@@ -60,7 +60,7 @@ struct Moment {
 
 TEST(LoadingRate, FollowsItsFormulaInBothErrorsOfEachSign) {
     RateRule rule = rule_of(0.01);
-    rule.kinetic_per_rate = 2e4;  // J s2: at the rate of 5e-4 below, 5e-3 J are the loading's own
+    rule.kinetic_per_rate = 2e4;  // J s2; at the rate of 5e-4 below, loading itself has 5e-3 J
     rule.energy_floor = 1.0;
     const Moment moments[] = {
         {"nothing but the loading", 0.0, 0.0, 5e-3, 2.0},
@@ -81,8 +81,8 @@ TEST(LoadingRate, FollowsItsFormulaInBothErrorsOfEachSign) {
         state.out_of_balance = m.balance;
         state.kinetic_share = m.share_before;
         choose_rate(state, rule, state.rate, m.kinetic, m.stored, 3.0);
-        // A look is a twentieth of a transit; per transit ln(rate) changes by root(tolerance) ln(tolerance/error), by
-        // at most root(tolerance) up and four times that down.
+        // Each call is a twentieth of a transit time; per transit time, ln(rate) changes by root(tolerance)
+        // ln(tolerance/error), by at most root(tolerance) upwards and four times that downwards.
         const double beyond = std::max(0.0, m.kinetic - 5e-3) / std::max(m.stored, 1.0);
         const double share = m.share_before + (beyond - m.share_before) / 20.0;
         const double error = std::max(std::abs(m.balance), share);
@@ -119,7 +119,7 @@ TEST(LoadingRate, BalanceIsSmoothedOverATransitWithItsSignOverTheLargestStress) 
     RateRule rule = rule_of(0.01);
     rule.stress_floor = 10.0;
     RateState state;
-    watch_balance(state, rule, 3.0, 1.0, 1e-3);  // a tenth of a transit, stress 2 below the floor of 10
+    watch_balance(state, rule, 3.0, 1.0, 1e-3);  // a tenth of a transit; the stress of 2 is below the least, 10
     EXPECT_TRUE(agrees("upper platen ahead", state.out_of_balance, 0.1 * 0.2, 1e-12));
     watch_balance(state, rule, 30.0, 50.0, 1e-3);
     EXPECT_TRUE(agrees("lower platen ahead", state.out_of_balance, 0.02 + 0.1 * (-20.0 / 40.0 - 0.02), 1e-12));
@@ -127,7 +127,7 @@ TEST(LoadingRate, BalanceIsSmoothedOverATransitWithItsSignOverTheLargestStress) 
     const double before = state.out_of_balance;
     watch_balance(state, rule, 1.0, 3.0, 1e-3);  // the largest stress so far, not the present one
     EXPECT_TRUE(agrees("after a fall", state.out_of_balance, before + 0.1 * (-2.0 / 40.0 - before), 1e-12));
-    watch_balance(state, rule, 8.0, 0.0, 1.0);  // steps beyond a transit forget all before
+    watch_balance(state, rule, 8.0, 0.0, 1.0);  // a step longer than a transit time discards earlier values
     EXPECT_TRUE(agrees("a step longer than a transit", state.out_of_balance, 0.2, 1e-12));
 }
 
@@ -155,19 +155,19 @@ class ByTolerance : public ::testing::Test {
 TEST_F(ByTolerance, StartsAsTheElasticSolutionMovesWithoutAShock) {
     for (const char* mesh : {"", "voronoi"}) {
         TestCase description = by_tolerance(mesh, 0.01);
-        description.loading.max_axial_strain = 2e-5;  // nothing slides yet
+        description.loading.max_axial_strain = 2e-5;  // small enough that nothing slides
         description.numerics.intact = true;
         const VirtualTest test = tested(description);
         const double modulus = test.state.youngs_modulus;
         const CurveRow &first = test.state.rows.front(), &last = test.state.rows.back();
         double worst = 0.0;
         for (const CurveRow& row : test.state.rows) {
-            // The dashpots bear their share of the stress from the first step on.
+            // Dashpots carry their part of the stress from the first step on.
             const double expected = first.axial_stress + modulus * (row.axial_strain - first.axial_strain);
             worst = std::max(worst, std::abs(row.axial_stress - expected) / last.axial_stress);
         }
-        // A shock of the platen's speed would be out by rate·transit/strain = sqrt(tolerance) = 0.1 of it; by the rule,
-        // half of the tolerance is left.
+        // A sudden start at the platen's speed would cause an error of rate·transit/strain = sqrt(tolerance) = 0.1;
+        // with the rule, half of the tolerance remains.
         EXPECT_TRUE(
             within(fmt::format("{}: stress off the line of slope E, over the last stress", mesh), worst, 0.0, 0.01));
     }
@@ -204,12 +204,12 @@ TEST_F(ByTolerance, FirstRowsRiseByTheSolvedModulusAtTheRateOfAWholeTest) {
         TestCase description = by_tolerance(mesh, 0.01);
         description.numerics.intact = true;
         VirtualTest test = prepare_test(description);
-        test.description.loading.max_axial_strain = 2e-5;  // the rate is that of the whole test
+        test.description.loading.max_axial_strain = 2e-5;  // the rate is for the whole test
         load_specimen(test);
         const CurveRow &first = test.state.rows.front(), &last = test.state.rows.back();
         EXPECT_GT(first.axial_stress, 0.0) << "the dashpots' share";
         const double slope = (last.axial_stress - first.axial_stress) / (last.axial_strain - first.axial_strain);
-        // What is left is of second order in the strain and in the speed.
+        // The remaining error is of second order in strain and speed.
         EXPECT_TRUE(agrees(fmt::format("{}: slope of the first 2e-5 of strain, N/m", mesh), slope,
                            test.state.youngs_modulus, 2e-3));
         const double widening = (last.lateral_strain - first.lateral_strain) / (last.axial_strain - first.axial_strain);
@@ -238,7 +238,7 @@ TEST_F(ByTolerance, GivesThePeakOfASlowRunInFewerSteps) {
 TEST_F(ByTolerance, TakesTheSameStepsHoweverFarApartTheRowsOfTheCurveAre) {
     TestCase description = by_tolerance("", 0.02);
     const VirtualTest close = tested(description);
-    description.loading.max_axial_strain *= 7.0;  // rows share it out
+    description.loading.max_axial_strain *= 7.0;  // the number of rows is constant, so their spacing increases
     const VirtualTest apart = tested(description);
     EXPECT_GT(close.state.rows[1].axial_strain * 6.0, apart.state.rows[1].axial_strain);
     EXPECT_GT(apart.state.rows[1].axial_strain, 2.0 * close.state.rows[1].axial_strain);
@@ -282,7 +282,7 @@ TEST_F(ByTolerance, CracksOfACompressionHaveTheErrorsOfItsCompanions) {
         EXPECT_TRUE(agrees("damage, change at half the rate", *damage.rate,
                            std::abs(*companion.crack_damage_stress / thresholds.damage - 1.0), 1e-12));
     }
-    // These breaks are too few for two lines, in the test or its companions.
+    // There are too few breaks to fit two lines, in the test or its companions.
     EXPECT_EQ(!errors->figures.crack_initiation_stress->stated, std::isnan(thresholds.count_break));
     const double spacing = test.state.rows[1].axial_stress / thresholds.damage;
     EXPECT_GT(*damage.resolution, 0.0);
@@ -299,7 +299,7 @@ Table<CompanionFigures> companions_of_peaks(double half_step, double half_rate, 
 }
 
 TEST(StatedError, IsTheLargerOfChanceAndRateBesideTheRows) {
-    // Draws 10, 11, 10.1: s² = (0.3667² + 0.6333² + 0.2667²)/2; t√2 s/10 beside 3·0.01.
+    // Values 10, 11, 10.1: s² = (0.3667² + 0.6333² + 0.2667²)/2; compares t√2 s/10 with 3·0.01.
     const auto chance =
         error_of(10.0, 0.05, companions_of_peaks(11.0, 10.1, 9.8, 10.3), &CompanionFigures::peak_stress);
     const double s = std::sqrt((0.11 / 0.3 * 0.11 / 0.3 + 0.19 / 0.3 * 0.19 / 0.3 + 0.08 / 0.3 * 0.08 / 0.3) / 2.0);
@@ -307,7 +307,7 @@ TEST(StatedError, IsTheLargerOfChanceAndRateBesideTheRows) {
     EXPECT_TRUE(agrees("of the half step", *chance.time_step, 0.1, 1e-12));
     EXPECT_TRUE(agrees("of the half rate", *chance.rate, 0.01, 1e-12));
     EXPECT_TRUE(agrees("of the dampings", *chance.damping, 0.03, 1e-12));
-    // Draws 10, 10, 9: s² = 1/3, t√2 s/10 = 0.238 beside 3·0.1.
+    // Values 10, 10, 9: s² = 1/3; compares t√2 s/10 = 0.238 with 3·0.1.
     const auto rate = error_of(10.0, 0.05, companions_of_peaks(10.0, 9.0, 10.0, 10.0), &CompanionFigures::peak_stress);
     EXPECT_TRUE(agrees("by the rate", *rate.stated, std::hypot(0.05, 0.3), 1e-12));
     EXPECT_TRUE(

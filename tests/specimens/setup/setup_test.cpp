@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is recorded of a specimen when loading begins: its gauge against a lattice of known Poisson's ratio, its counts.
+// Tests the record of a specimen at the start of loading: its gauge, for a lattice of known Poisson's ratio, and its
+// counts.
 
 #include "specimens/setup/setup.hpp"
 
@@ -23,8 +24,9 @@ namespace {
 using testing::agrees;
 using testing::SmallCase;
 
-/// A tall triangular lattice with columns along y, its sides and ends overlapped by four walls. Uniaxial stress along
-/// the columns deforms it alike everywhere, sides included: at a disc of the side two inclined bonds balance as at any.
+/// A tall triangular lattice with columns along y that overlaps four walls. Uniaxial stress along the columns gives
+/// uniform deformation, including the sides: at a disc of the side, two inclined bonds are in balance as at any other
+/// disc.
 Scene tall_lattice(const Material& material) {
     const double overlap = testing::rock_overlap, spacing = 2.0 * testing::rock_radius - overlap;
     Scene scene = triangular_lattice(56, 9, testing::rock_radius, overlap, material);
@@ -35,7 +37,7 @@ Scene tall_lattice(const Material& material) {
     return scene;
 }
 
-/// Axial strain between the ends of the middle half of the height, by where discs of the left side are and were.
+/// Axial strain of the middle half of the height, from initial and final positions of discs at the left side.
 double strain_of_middle(const TestSetup& setup, const std::vector<double>& rise) {
     const auto by_height = [&](BodyIndex a, BodyIndex b) { return setup.bonds.start[a].y < setup.bonds.start[b].y; };
     const auto [low, high] = std::ranges::minmax_element(setup.gauges.left, by_height);
@@ -43,9 +45,9 @@ double strain_of_middle(const TestSetup& setup, const std::vector<double>& rise)
 }
 
 TEST(Gauge, GivesThePoissonsRatioOfATriangularLattice) {
-    // Springs kn and ks at every contact: nu = (kn - ks)/(3 kn + ks), from the energy of a uniform strain of its three
-    // directions of bonds. The ends, held and touched at every other column, give more than the middle; what they
-    // disturb fades as exp(-4.2 y/width) (Saint-Venant), to 6e-4 where the gauge begins.
+    // With springs kn and ks at every contact, nu = (kn - ks)/(3 kn + ks), from the energy of a uniform strain for the
+    // three bond directions. The held ends are softer than the middle. Their influence decreases as exp(-4.2 y/width)
+    // (Saint-Venant), to 6e-4 where the gauge begins.
     const testing::ScratchFolder scratch;
     const auto path = testing::write_small_case(scratch / "", [] {
         SmallCase wanted;

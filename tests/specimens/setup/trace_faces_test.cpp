@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faces on traces: all of a trace is faces, and they open and slip by what their two sides move apart, whatever both do
-// together.
+// Tests faces on traces: faces cover all of a trace, and their opening and slip are the relative displacements of the
+// two sides, whatever common motion they have.
 
 #include "specimens/setup/trace_faces.hpp"
 
@@ -28,7 +28,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// A face between two bodies at (0, 0) and (1, 1), in the middle, its normal at 45 degrees.
+/// A face in the middle between two bodies at (0, 0) and (1, 1), with its normal at 45 degrees.
 TestSetup one_face(BodyIndex i, BodyIndex j) {
     TestSetup setup;
     setup.bonds.traces.push_back({"one", 0.2});
@@ -51,7 +51,7 @@ TEST(TraceFaces, OpenAndSlipByWhatTheirSidesMoveApart) {
     const Vec2 normal{std::sqrt(0.5), std::sqrt(0.5)};
     for (const auto& [lower, upper] : {std::pair<BodyIndex, BodyIndex>{0, 1}, {1, 0}}) {
         const TestSetup setup = one_face(lower, upper);
-        for (const double turn : {0.0, 0.7, -2.0}) {  // of both, about the origin, and a shift
+        for (const double turn : {0.0, 0.7, -2.0}) {  // rotation of both about the origin, plus a displacement
             const Vec2 shift{0.4, -0.1};
             const auto moved = [&](const StartPlace& start, Vec2 own) {
                 const double c = std::cos(turn), s = std::sin(turn);
@@ -72,7 +72,7 @@ TEST(TraceFaces, OpenAndSlipByWhatTheirSidesMoveApart) {
     }
 }
 
-/// A body that rolls on a face drags its middle along: the turn of one body alone counts by half as turn of the face.
+/// If one body rotates, the middle of the face moves with it, and half of the rotation counts as rotation of the face.
 TEST(TraceFaces, TurnWithTheMeanOfTheirBodies) {
     const TestSetup setup = one_face(0, 1);
     const double turn = 0.2;
@@ -80,14 +80,15 @@ TEST(TraceFaces, TurnWithTheMeanOfTheirBodies) {
     const StartPlace j{1.0, 1.0, -0.1 + turn};
     const FaceMotion face =
         motion_of(setup.bonds.trace_faces[0], setup.bonds.start_of(setup.bonds.trace_faces[0]), {i, j});
-    // The middle lies at a = (-½, -½) from j, and turns about it: R(turn) a - a is a chord, across the mean normal.
+    // The middle is at a = (-½, -½) from j and rotates about it: R(turn) a - a is a chord perpendicular to the mean
+    // normal.
     EXPECT_NEAR(face.opening, 0.0, 1e-15);
     EXPECT_NEAR(face.slip, -2.0 * std::sqrt(0.5) * std::sin(0.5 * turn), 1e-15);
     EXPECT_NEAR(std::atan2((face.end - face.begin).y, (face.end - face.begin).x), 0.75 * pi + 0.5 * turn, 1e-14);
 }
 
-/// Two faces of a trace, 0.2 m with bonds that have all broken and 0.6 m without any, and a second trace of one of 0.4
-/// m.
+/// A trace with two faces, 0.2 m with bonds that are all broken and 0.6 m without bonds, and a second trace with one
+/// face of 0.4 m.
 TEST(TraceFigures, OfOpenAndBondedFacesAreByHand) {
     TestSetup setup = one_face(0, 1);
     setup.bonds.traces = {{"survey", 0.8}, {"survey", 0.4}};
@@ -111,7 +112,7 @@ TEST(TraceFigures, OfOpenAndBondedFacesAreByHand) {
     EXPECT_EQ(first.faces, 2);
     EXPECT_NEAR(*first.length_of_faces, 0.8, 1e-15);
     EXPECT_NEAR(*first.bonded_share, 0.25, 1e-15);
-    EXPECT_NEAR(*first.at_end->failed_share, 1.0, 1e-15) << "all that had bonds";
+    EXPECT_NEAR(*first.at_end->failed_share, 1.0, 1e-15) << "all faces that had bonds";
     EXPECT_TRUE(first.at_peak.stated() && !first.at_peak);
     const JointFigures& both = figures.joints->front();
     EXPECT_EQ(both.traces, 2);
@@ -123,7 +124,7 @@ TEST(TraceFigures, OfOpenAndBondedFacesAreByHand) {
 
 class JointedTest : public ::testing::Test {
   protected:
-    /// Cells with a trace from side to side and another that ends within, one of them as the rock.
+    /// Cells with a trace from side to side and another that ends inside; one of them behaves like the rock.
     VirtualTest jointed(const std::string& of_first = "friction_angle = 20.0", const char* mesh = "voronoi",
                         const char* kind = "compression") const {
         testing::SmallCase wanted;
@@ -177,7 +178,7 @@ TEST_F(JointedTest, WhatAnUpperPartMovesIsTheTracesOpeningAndSlip) {
         const Vec2 moved = opening * up + right * along;
         body.x += moved.x, body.y += moved.y;
     }
-    // All bonds of the first trace's first face and some of its second's.
+    // Breaks all bonds of the first trace's first face and some of its second face.
     ContactHistory history;
     std::vector<std::size_t> faces;
     for (std::size_t k = 0; k < setup.bonds.trace_faces.size() && faces.size() < 2; ++k)

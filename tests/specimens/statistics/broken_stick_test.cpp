@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a curve or a count changes its slope: of curves whose break is known, and of random counts as often as stated.
+// Tests where a curve or a count changes its slope: for curves with a known break, and for random counts as often as
+// stated.
 
 #include "specimens/statistics/broken_stick.hpp"
 
@@ -37,12 +38,12 @@ TEST(BrokenStick, OfFewerThanFivePointsIsNotANumber) {
     EXPECT_TRUE(std::isnan(fit_broken_stick(few, few).at));
 }
 
-/// Breaks at random: at 2 % of the later rate up to s, then at that rate, over stresses from 0 to 1.
+/// Random events over stresses from 0 to 1: up to s at 2 % of the later rate, then at that rate.
 std::vector<Burst> random_bursts(double s, double rate, std::mt19937_64& generator) {
     std::vector<Burst> bursts;
     double x = 0.0;
     while (true) {
-        // An exponential waiting time, run through at the rate that holds where it falls.
+        // An exponential waiting time, at the rate of the interval in which it falls.
         double wait = -std::log1p(-uniform_number(generator)) / rate;
         if (x < s) {
             const double slow = std::min(wait / 0.02, s - x);
@@ -61,7 +62,7 @@ std::vector<Burst> random_bursts(double s, double rate, std::mt19937_64& generat
 
 TEST(BurstBreak, LiesInItsIntervalAsOftenAsStated) {
 #ifdef __SANITIZE_ADDRESS__
-    constexpr int tries = 20;  // each takes half a second there
+    constexpr int tries = 20;  // with sanitizers, each takes half a second
 #else
     constexpr int tries = 200;
 #endif
@@ -74,10 +75,10 @@ TEST(BurstBreak, LiesInItsIntervalAsOftenAsStated) {
         if (found.low <= s && s <= found.high) ++covered;
         sum += found.at - s;
     }
-    // Three standard deviations of such a count.
+    // Three standard deviations of a binomial count.
     const double spread = 3.0 * std::sqrt(0.95 * 0.05 * tries);
     EXPECT_TRUE(within("of all known breaks in their interval", covered, 0.95 * tries, spread));
-    // A single break is known to some 10 of the 400 bursts.
+    // The error of a single break is about 10 of the 400 bursts.
     EXPECT_TRUE(within("mean distance from the known break", sum / tries, 0.0, 10.0 / 400.0 / std::sqrt(tries)));
 }
 
@@ -85,7 +86,7 @@ TEST(BurstBreak, OfFewBurstsIsNotANumber) {
     std::vector<Burst> bursts(fewest_bursts - 1, {0.5, 100});
     EXPECT_TRUE(std::isnan(find_burst_break(bursts, 1.0).at));
     for (std::size_t k = 0; k < bursts.size(); ++k) bursts[k].x = 0.1 * static_cast<double>(k);
-    bursts.push_back({2.0, 1});  // beyond the end
+    bursts.push_back({2.0, 1});  // after the end
     EXPECT_TRUE(std::isnan(find_burst_break(bursts, 1.0).at));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Means of lines, which point both ways, and the test for a preferred direction.
+// Tests means of lines, which have no sense of direction, and the test for a preferred direction.
 
 #include "specimens/statistics/directions.hpp"
 
@@ -77,7 +77,7 @@ TEST(Rose, RayleighRejectsAsOftenAsItStates) {
         for (int line = 0; line < lines; ++line) rose.add(uniform_number(generator, 0.0, std::numbers::pi), 1.0);
         if (rose.rayleigh() < 0.05) ++rejected;
     }
-    // Three standard deviations of such a count, 3 sqrt(4000 0.05 0.95) = 41.
+    // Three standard deviations of a binomial count, 3 sqrt(4000 0.05 0.95) = 41.
     EXPECT_TRUE(within("of 4000 roses without direction called directed at 5 %", rejected, 200.0, 41.0));
 }
 

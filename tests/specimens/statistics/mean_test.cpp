@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Means and their errors against closed forms, and how often intervals hold what they promise.
+// Tests means and their errors against closed forms, and how often intervals contain the true value.
 
 #include "specimens/statistics/mean.hpp"
 
@@ -47,7 +47,7 @@ TEST(MeanFigure, OfOneValueKnowsNoScatterAndOfNoneNoMean) {
     EXPECT_TRUE(std::isnan(mean_of({}).mean));
 }
 
-// 400 samples: a share of 0.95 has a standard error of 0.011.
+// For 400 samples, a fraction of 0.95 has a standard error of 0.011.
 TEST(MeanFigure, IntervalHoldsTheMeanInNineteenOfTwentySamples) {
     std::mt19937_64 generator(7);
     for (const std::size_t count : {2U, 3U, 5U, 10U, 40U, 300U}) {
@@ -64,7 +64,7 @@ TEST(MeanFigure, IntervalHoldsTheMeanInNineteenOfTwentySamples) {
 }
 
 TEST(MeanBias, IsTwiceTheChangeAndItsErrorThatOfTheSum) {
-    // x = x0 + a h + b v, asked at h = v = 1; packings of their own x0, and noise in the companions.
+    // x = x0 + a h + b v, requested at h = v = 1; each packing has its own x0, and the companions have noise.
     const double a = 0.3, b = -0.2;
     std::vector<double> asked, step, rate;
     for (const double packing : {10.0, 12.0, 15.0}) {
@@ -78,13 +78,13 @@ TEST(MeanBias, IsTwiceTheChangeAndItsErrorThatOfTheSum) {
     EXPECT_TRUE(agrees("bias by the rate", exact.rate, b, 1e-12));
     EXPECT_TRUE(agrees("bias", exact.value, a + b, 1e-12));
     EXPECT_TRUE(exact.known());
-    // One packing's asked run is on another branch: both differences have it, and the errors add up in full.
+    // One packing's requested run is on another branch: both differences contain this, and the errors add up fully.
     asked[1] += 0.6;
     const MeanBias shaken = bias_of(asked, step, rate);
     const double each = 2.0 * 0.6 / 3.0;  // standard error of {0, 1.2, 0}
     EXPECT_TRUE(agrees("error by the step", shaken.step_error, each, 1e-12));
     EXPECT_TRUE(agrees("error of the sum", shaken.standard_error, 2.0 * each, 1e-12));
-    EXPECT_FALSE(shaken.known()) << "three packings do not show it";
+    EXPECT_FALSE(shaken.known()) << "three packings are too few to show it";
     EXPECT_FALSE(bias_of(std::array{1.0}, std::array{2.0}, std::array{3.0}).known());
 }
 
@@ -96,7 +96,7 @@ TEST(MeanBias, KnowsPartsThatCancel) {
 }
 
 TEST(MeanBias, ErrorOfEachPartIsItsOwn) {
-    // Twice the changes: 1, 2, 3 by the step; 4, 1, 4 by the rate; their sums 5, 3, 7.
+    // Twice the changes are 1, 2, 3 for the step and 4, 1, 4 for the rate; their sums are 5, 3, 7.
     const std::array asked{4.0, 5.0, 9.0}, step{3.5, 4.0, 7.5}, rate{2.0, 4.5, 7.0};
     const MeanBias bias = bias_of(asked, step, rate);
     EXPECT_TRUE(agrees("by the step", bias.step, 2.0, 1e-12));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sizes drawn from a known law of pieces give it back.
+// Tests that a known law of sizes is recovered from its samples.
 
 #include "specimens/statistics/rosin_rammler.hpp"
 
@@ -19,19 +19,19 @@ using testing::agrees;
 using testing::within;
 
 TEST(RosinRammler, OfPiecesByTheLawGivesItsParametersBack) {
-    // Pieces whose sizes part the area into equal shares: the law's own quantiles, cut off below.
+    // Pieces whose sizes divide the area into equal parts: quantiles of the law, truncated below.
     for (const double n : {0.7, 1.5, 3.0}) {
         constexpr double x0 = 0.02, least = 0.004;
         constexpr int pieces = 4000;
         std::vector<double> sizes, areas;
         const double share_above = std::exp(-std::pow(least / x0, n));
         for (int k = 0; k < pieces; ++k) {
-            const double share = share_above * (k + 0.5) / pieces;  // of the area in larger pieces
+            const double share = share_above * (k + 0.5) / pieces;  // fraction of the area in larger pieces
             sizes.push_back(x0 * std::pow(-std::log(share), 1.0 / n));
             areas.push_back(1e-4);
         }
         const RosinRammler found = fit_rosin_rammler(sizes, areas, least);
-        // The largest of 4000 quantiles stands for the tail: some 1/4000 of its logarithm.
+        // The largest of 4000 quantiles represents the tail, which causes an error of about 1/4000 of its logarithm.
         EXPECT_TRUE(agrees("exponent", found.exponent, n, 5e-3));
         EXPECT_TRUE(agrees("size, m", found.size, x0, 5e-3));
         EXPECT_EQ(found.pieces, 4000u);
@@ -39,7 +39,7 @@ TEST(RosinRammler, OfPiecesByTheLawGivesItsParametersBack) {
 }
 
 TEST(RosinRammler, CountsAPieceByItsArea) {
-    // The distribution of area in pieces of unequal areas: two of half the area stand for one.
+    // The distribution is weighted by area, so two pieces of half the area equal one piece.
     std::vector<double> sizes, areas, split_sizes, split_areas;
     for (int k = 1; k <= 20; ++k) {
         sizes.push_back(0.01 * k);
@@ -49,7 +49,7 @@ TEST(RosinRammler, CountsAPieceByItsArea) {
             split_areas.push_back(0.5);
         }
     }
-    // A maximum is known to half the digits, 1.5e-8.
+    // A maximum is found to half the digits, 1.5e-8.
     const RosinRammler one = fit_rosin_rammler(sizes, areas, 0.005),
                        other = fit_rosin_rammler(split_sizes, split_areas, 0.005);
     EXPECT_TRUE(agrees("exponent", other.exponent, one.exponent, 1e-7));
@@ -60,7 +60,7 @@ TEST(RosinRammler, OfFewOrAlikePiecesIsNotANumber) {
     const std::vector<double> four{1.0, 2.0, 3.0, 4.0}, alike(10, 2.0), weights(10, 1.0);
     EXPECT_TRUE(std::isnan(fit_rosin_rammler(four, std::span(weights).first(4), 0.5).exponent));
     EXPECT_TRUE(std::isnan(fit_rosin_rammler(alike, weights, 0.5).exponent));
-    EXPECT_EQ(fit_rosin_rammler(alike, weights, 3.0).pieces, 0u) << "all below the least";
+    EXPECT_EQ(fit_rosin_rammler(alike, weights, 3.0).pieces, 0u) << "all are below the smallest";
 }
 
 TEST(MedianSize, HasHalfOfTheAreaInSmallerPieces) {

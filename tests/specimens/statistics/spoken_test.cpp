@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Numbers in sentences.
+// Tests numbers in sentences.
 
 #include "specimens/statistics/spoken.hpp"
 

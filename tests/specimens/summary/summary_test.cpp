@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A summary that is written and read again is the same value.
+// Tests that a summary is unchanged after writing and reading.
 
 #include "specimens/summary/summary.hpp"
 
@@ -86,14 +86,14 @@ TEST(Summary, ListsUnitsOfWhatItStatesInTheSenseOfTheTest) {
     EXPECT_EQ(s.strength.largest_stress.converted, 2.0);
 }
 
-/// Each figure has a meaning or, where the name says it, a unit.
+/// Each result has a meaning or, if its name is sufficient, a unit.
 TEST(Summary, NamesEachKeyAndItsTables) {
     for (const SummaryKey& key : summary_keys()) EXPECT_TRUE(!key.meaning.empty() || !key.unit.empty()) << key.name;
     const auto count = [](const char* name) { return std::ranges::count(summary_keys(), name, &SummaryKey::name); };
     for (const char* name : {"peak_stress", "crack_rose.*.length", "numerical_errors.*.stated", "files.*.bytes",
                              "numerical_errors.companions.*.steps", "joints[].at_peak.slip", "profile.phases[].share"})
         EXPECT_EQ(count(name), 1) << name;
-    EXPECT_EQ(count("stable_time_step"), 3) << "one for each sense";
+    EXPECT_EQ(count("stable_time_step"), 3) << "one for each direction";
     EXPECT_EQ(count("crack_rose.tension_to_peak"), 0);
 }
 

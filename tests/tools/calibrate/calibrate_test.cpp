@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle calibrate` as a user calls it.
+// Tests `crackle calibrate` as called by a user.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -59,7 +59,7 @@ TEST_F(CalibrateCommand, EndsWithCasesATableAndItsKeys) {
                         key["interval"][1].get<double>(), key["from"].get<double>(), key["to"].get<double>());
         EXPECT_NE(page.find(row), std::string::npos) << row;
     }
-    EXPECT_EQ(call("rock.toml -o out -q").out, "") << "quiet, and nothing is run again";
+    EXPECT_EQ(call("rock.toml -o out -q").out, "") << "no output, and no test is repeated";
     EXPECT_EQ(read("out/calibration.json"), before);
 }
 
@@ -99,13 +99,13 @@ TEST_F(CalibrateCommand, AnInterruptIsGoneOnFrom) {
     EXPECT_TRUE(exists("out/calibration.json"));
 }
 
-// A mean without a test that the system ended would be that of another rock.
+// A mean without a test that ended with a system error would be that of another rock.
 TEST_F(CalibrateCommand, WithoutATestThatTheSystemEndedNothingIsCalibrated) {
     write_rock(target_text("compression", "peak_stress", 3e7) + target_text("tension", "peak_stress", 6e6) +
                testing::strength_keys);
     const int undisturbed = call("rock.toml -o whole").code;
     const pid_t process = testing::started_call(folder_, {"calibrate", "rock.toml", "-o", "out", "--workers", "1"});
-    testing::kill_workers(process, 8);  // four make packings, three have the same test
+    testing::kill_workers(process, 8);  // four that make packings, and three that run the same test
     EXPECT_EQ(testing::ended_call(process), 4) << read("err.txt");
     EXPECT_NE(read("err.txt").find("expected figures of all packings; the same command runs what is missing"),
               std::string::npos)
@@ -119,7 +119,7 @@ TEST_F(CalibrateCommand, ATestThatCrashesTwiceIsNamedAndTheOthersAreKept) {
     write_rock(target_text("compression", "peak_stress", 3e7) + target_text("tension", "peak_stress", 6e6) +
                testing::strength_keys);
     const pid_t process = testing::started_call(folder_, {"calibrate", "rock.toml", "-o", "out", "--workers", "1"});
-    testing::kill_workers(process, 6, SIGABRT);  // four make packings, two have the same test
+    testing::kill_workers(process, 6, SIGABRT);  // four that make packings, and two that run the same test
     EXPECT_EQ(testing::ended_call(process), 4) << read("err.txt");
     EXPECT_TRUE(std::regex_search(
         read("err.txt"),

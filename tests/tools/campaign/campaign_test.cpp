@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle campaign` as a user calls it: run, show, gather, submit; what is refused, and what a signal leaves.
+// Tests `crackle campaign` as called by a user: run, show, gather, submit; refusals, and the state after a signal.
 
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -33,7 +33,7 @@ class CampaignCommand : public testing::ProgramCall {
     CampaignCommand() : ProgramCall("campaign") { write_small_plan(folder_, 2); }
 };
 
-/// The cells of a line of CSV. Commas within quotes part none.
+/// The cells of a line of CSV; commas in quotes do not separate cells.
 std::vector<std::string> cells_of(const std::string& line) {
     std::vector<std::string> cells(1);
     bool quoted = false;
@@ -47,7 +47,7 @@ std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
-/// The tests of one kind and angle, by the rows of `show --tests`.
+/// Strengths of the tests of one kind and angle, from the rows of `show --tests`.
 std::vector<double> strengths_of(const std::string& rows, const std::string& kind, const std::string& angle) {
     std::istringstream lines(rows);
     std::string line;
@@ -88,9 +88,8 @@ TEST_F(CampaignCommand, RunsAndShowsMeansAndIntervals) {
     const Answer quiet = call("plan.toml -o out -q");
     EXPECT_EQ(quiet.out + quiet.err, "");
 
-    // The mean of two strengths lies midway between them, and the deviation is their distance over the root of 2. The
-    // interval of the mean reaches half that distance times Student's t of one degree of freedom, whose quantile is a
-    // tangent.
+    // The standard deviation of two strengths is their difference divided by the square root of 2. The interval of
+    // their mean is half that difference times Student's t for one degree of freedom, whose quantile is a tangent.
     const std::string means = call("show out --figure peak_stress").out;
     for (const char* angle : {"20", "35"}) {
         const std::vector<double> two = strengths_of(tests.out, "compression", angle);
@@ -127,7 +126,7 @@ TEST_F(CampaignCommand, IsDrawnAndReported) {
         EXPECT_LT(read(fmt::format("{}.svg", part)).size(), read("figure.svg").size());
         parts += read(fmt::format("{}.svg", part)).size();
     }
-    EXPECT_GT(parts, read("figure.svg").size()) << "all parts are the whole";
+    EXPECT_GT(parts, read("figure.svg").size()) << "the parts together exceed the whole";
     ASSERT_EQ(crackle("plot out -o half.svg --test tension"), 0) << read("err.txt");
     EXPECT_LT(read("half.svg").size(), read("figure.svg").size());
     EXPECT_NE(crackle("plot out -o two.svg --test tense"), 0);
@@ -140,7 +139,7 @@ TEST_F(CampaignCommand, IsDrawnAndReported) {
          {"<h1>A small rock</h1>", "12 of 12 tests done", "peak stress", "/summary.json\">summary.json</a>",
           "data:image/svg+xml;base64,", "tension against friction angle φ"})
         EXPECT_NE(page.find(part), std::string::npos) << part;
-    // Cells of its table are the numbers of the CSV.
+    // The cells of the table must equal the numbers of the CSV.
     const Answer csv = call("show out --csv --figure peak_stress");
     std::istringstream lines(csv.out);
     std::string line;
@@ -157,7 +156,7 @@ TEST_F(CampaignCommand, IsDrawnAndReported) {
         number("packings"), number("mean"), number("standard_deviation"),
         100.0 * number("standard_deviation") / number("mean"), number("low_95"), number("high_95"));
     EXPECT_NE(page.find(row), std::string::npos) << row;
-    ASSERT_EQ(crackle("report out"), 0) << "a report takes the place of a report";
+    ASSERT_EQ(crackle("report out"), 0) << "a report replaces a report";
     EXPECT_EQ(read("out/report.html"), page);
 }
 
@@ -203,7 +202,7 @@ TEST_F(CampaignCommand, SubmitsTheScriptThatDryRunShows) {
          {"#!/bin/bash\n", "#SBATCH --array=1-3\n", "#SBATCH --time=0:", "--shard \"$SLURM_ARRAY_TASK_ID/3\""})
         EXPECT_NE(script.out.find(part), std::string::npos) << part << " in\n" << script.out;
     EXPECT_FALSE(exists("out"));
-    // An sbatch that runs the array's tasks one after the other.
+    // A replacement for sbatch that runs the tasks of the array one after another.
     write("sbatch",
           "#!/bin/sh\nfor k in 1 2 3; do SLURM_ARRAY_TASK_ID=$k bash \"$1\" || exit 1; done\n"
           "echo Submitted batch job 7\n");
@@ -217,7 +216,7 @@ TEST_F(CampaignCommand, SubmitsTheScriptThatDryRunShows) {
     EXPECT_NE(call("gather out").out.find("8 of 8 done"), std::string::npos);
 }
 
-/// This process, and those that it starts, on one of its processors only, as a batch system would have it.
+/// Restricts this process and those it starts to one of its processors, as a batch system would.
 class OneProcessor {
   public:
     OneProcessor() {
@@ -254,7 +253,7 @@ TEST_F(CampaignCommand, HasOneWorkerAndOneThreadWhereOneProcessorIsLent) {
 
 TEST_F(CampaignCommand, AnInterruptLosesAtMostTheTestsAtWork) {
     write_small_plan(folder_, 30, "[run]\nkeep = \"curves\"\n");
-    // More than are at work at a time: some of these are in the ledger.
+    // More than run at the same time, so that some are in the ledger.
     const std::ptrdiff_t some = 2 * static_cast<std::ptrdiff_t>(processors_lent()) + 4;
     const auto some_are_done = [&] {
         return exists("out/curves") && std::distance(fs::directory_iterator(folder_ / "out/curves"), {}) >= some;
@@ -263,7 +262,7 @@ TEST_F(CampaignCommand, AnInterruptLosesAtMostTheTestsAtWork) {
     EXPECT_NE(read("err.txt").find("interrupted; the same command resumes"), std::string::npos) << read("err.txt");
     const Answer answer = call("plan.toml -o out");
     EXPECT_NE(answer.out.find(", 0 left; "), std::string::npos) << answer.out;
-    EXPECT_EQ(answer.out.find("; 120 run now"), std::string::npos) << "what had been run was run again: " << answer.out;
+    EXPECT_EQ(answer.out.find("; 120 run now"), std::string::npos) << "finished tests were repeated: " << answer.out;
 }
 
 TEST_F(CampaignCommand, ExitCode1SaysThatAVerdictEndedTests) {
@@ -271,7 +270,7 @@ TEST_F(CampaignCommand, ExitCode1SaysThatAVerdictEndedTests) {
     const Answer answer = call("plan.toml -o out");
     EXPECT_EQ(answer.code, 1) << answer.err;
     EXPECT_NE(answer.out.find("0 of 4 tests done, 4 gone wrong, 0 left"), std::string::npos) << answer.out;
-    EXPECT_EQ(call("plan.toml -o out").code, 1) << "they are not run again, and still gone wrong";
+    EXPECT_EQ(call("plan.toml -o out").code, 1) << "failed tests are not repeated and remain failed";
     write_small_plan(folder_, 1);
     EXPECT_EQ(call("plan.toml -o out --retry").code, 0);
 }

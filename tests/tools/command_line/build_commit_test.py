@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""tools/command_line/build_commit.cmake in made-up checkouts: which commit it names, and when it writes."""
+"""Tests tools/command_line/build_commit.cmake in generated checkouts: which commit it names, and when it writes."""
 import os
 import re
 import shutil
@@ -12,7 +12,7 @@ from pathlib import Path
 SCRIPT = Path(__file__).resolve().parents[3] / "tools" / "command_line" / "build_commit.cmake"
 CMAKE = os.environ.get("CMAKE_PROGRAM", "cmake")
 GIT = shutil.which("git") or ""
-# Settings and folders of the caller's git have no say.
+# Settings and folders of the caller's git have no effect.
 ENVIRONMENT = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")} | {
     "GIT_CONFIG_GLOBAL": os.devnull, "GIT_CONFIG_NOSYSTEM": "1"}
 UNKNOWN = "unknown: built without git or outside of a git checkout"
@@ -32,7 +32,7 @@ class BuildCommit(unittest.TestCase):
         return done.stdout.strip()
 
     def commit(self):
-        """A checkout of one commit, by its name."""
+        """Makes a checkout with one commit. @return its name"""
         self.git("init", "-q")
         (self.sources / "file").write_text("one\n", encoding="utf-8")
         self.git("add", "file")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lists of centres without the program about them, so that the short job of the sanitizers reads some, too.
+// Tests lists of centres without starting the program, so that the short sanitizer job includes some of them.
 #include "tools/commands/centre_list.hpp"
 
 #include <gtest/gtest.h>

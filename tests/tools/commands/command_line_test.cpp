@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What all commands have in common: --help, --version, the manual page, completion, how loud they are, colours and
+// Tests what all commands have in common: --help, --version, the manual page, completion, verbosity, colours and
 // progress.
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
     return count;
 }
 
-/// The names in the table behind a line of `crackle --help` and its like.
+/// The names in the table after a line of a text such as `crackle --help`.
 Words listed(const std::string& text) {
     Words names;
     const std::regex row("\n  ([a-z]+)  +[^ \n-]");
@@ -39,7 +39,7 @@ Words listed(const std::string& text) {
     return names;
 }
 
-/// "--kind" and its like, of a text of --help.
+/// Options such as "--kind" in the text of --help.
 Words options_in(const std::string& help) {
     Words names;
     const std::regex row("\n  (?:-[a-z], |    )(--[a-z-]+)");
@@ -52,7 +52,7 @@ class CommandLines : public testing::ProgramCall {
   protected:
     CommandLines() : ProgramCall("") {}
 
-    /// All commands but `bench`, whose options are another program's.
+    /// All commands except `bench`, whose options are those of another program.
     Words commands() const {
         Words all = listed(call("--help").out);
         std::erase(all, "bench");
@@ -67,7 +67,7 @@ class CommandLines : public testing::ProgramCall {
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out_), read(err_)};
     }
 
-    /// What bash offers for the last of these words.
+    /// Completions that bash offers for the last of these words.
     std::set<std::string> completed(const Words& words) const {
         std::string list;
         for (const std::string& word : words) list += fmt::format(" '{}'", word);
@@ -143,7 +143,7 @@ TEST_F(CommandLines, AResultThatCannotBePrintedIsNoSuccess) {
     }
 }
 
-// A reader may stop at the end, or in the midst of a text longer than a pipe holds.
+// A reader may stop at the end, or within a text longer than the buffer of a pipe.
 TEST_F(CommandLines, AReaderThatHasSeenEnoughIsNoError) {
     for (const char* command : {"crackle test --help", "(for i in $(seq 40); do crackle test --keys; done)"}) {
         const Answer answer = shell(fmt::format("({}) | head -1", command));
@@ -161,7 +161,7 @@ TEST_F(CommandLines, WhatFilesAreCalledCannotReachTheTerminal) {
     EXPECT_EQ(answer.err.find('\x1b'), std::string::npos);
 }
 
-// A title and paths that colour, move and name the terminal, in C0 and in C1.
+// A title and paths with control sequences that change colours, cursor and title of the terminal, in C0 and in C1.
 TEST_F(CommandLines, ResultsCannotCommandTheTerminal) {
     const std::string hostile =
         "a\x1b[31m\x1b]0;b\x07\xc2\x9b"
@@ -258,7 +258,7 @@ TEST_F(CommandLines, WordsThatAreNearlyRightAreGuessed) {
     expect_refused("mesh rock.dat --kind", "crackle mesh: the required argument");
 }
 
-/// A copy of crackle in a folder of its own, with nothing of what is built beside it.
+/// A copy of crackle in a separate folder, without the programs built beside it.
 class Bench : public CommandLines {
   protected:
     Bench() {
@@ -266,14 +266,14 @@ class Bench : public CommandLines {
         std::filesystem::copy_file(CRACKLE_PROGRAM, folder_ / "alone/crackle");
     }
 
-    /// A program of the name that crackle looks for. It prints its folder and its words, one a line.
+    /// Writes a program with the name that crackle searches for. It prints its folder and its arguments, one per line.
     void write_bench(const std::string& folder) const {
         std::filesystem::create_directories(folder_ / folder);
         write(folder + "/crackle-bench", "#!/bin/sh\nprintf '%s\\n' " + folder + " \"$@\"\nexit 7\n");
         std::filesystem::permissions(folder_ / folder / "crackle-bench", std::filesystem::perms::owner_all);
     }
 
-    /// @param path the PATH, of folders in the scratch folder
+    /// @param path the PATH, with folders in the temporary folder
     Answer alone(const std::string& words, const std::string& path = "none") const {
         return shell(fmt::format("PATH='{}/{}' alone/crackle {}", folder_.string(), path, words));
     }
@@ -288,14 +288,14 @@ TEST_F(Bench, IsStartedWithTheSameWordsAndEndsWithItsCode) {
     EXPECT_EQ(alone("bench", "on_path").out, "on_path\n");
     EXPECT_EQ(alone("help bench verify", "on_path").out, "on_path\nverify\n--help\n");
     write_bench("alone");
-    EXPECT_EQ(alone("bench verify", "on_path").out, "alone\nverify\n") << "one beside crackle comes first";
+    EXPECT_EQ(alone("bench verify", "on_path").out, "alone\nverify\n") << "a program next to crackle comes first";
     const std::string version = call("--version").out;
     EXPECT_EQ(call("bench --version").out, "crackle-bench" + version.substr(version.find(' ')))
-        << "the one built beside it";
+        << "the program built in the same folder";
 }
 
 TEST_F(Bench, SaysWhereToGetItWhereItIsNot) {
-    std::filesystem::create_directories(folder_ / "none/crackle-bench");  // a folder is no program
+    std::filesystem::create_directories(folder_ / "none/crackle-bench");  // a folder is not a program
     const Answer answer = alone("bench verify --list");
     EXPECT_EQ(answer.code, 2);
     EXPECT_EQ(answer.out, "");
@@ -313,7 +313,7 @@ TEST_F(Bench, SaysWhereToGetItWhereItIsNot) {
     EXPECT_EQ(doctor.find("missing       gnuplot"), std::string::npos) << doctor;
 }
 
-/// Each command that writes files: its words, and the files it takes.
+/// Each command that writes files: its words and the files it reads.
 TEST_F(CommandLines, QuietSaysNothingAndVerboseSaysMore) {
     testing::write_small_case(folder_, {.output = "curve_rows = 2000\nframes = 5"});
     const std::string deck = std::string(CRACKLE_SOURCE_DIR) + "/specimens/demseg/circle";
@@ -332,7 +332,7 @@ TEST_F(CommandLines, QuietSaysNothingAndVerboseSaysMore) {
         EXPECT_NE(verbose.err.find(" s    +0."), std::string::npos) << "seconds of the stages\n" << verbose.err;
         fmt::print("{}", verbose.err);
     }
-    // Where the result is what is printed, -q leaves it.
+    // If the result is printed, -q does not suppress it.
     EXPECT_NE(call("elastic case.toml -q").out.find("Young's modulus"), std::string::npos);
     EXPECT_EQ(call("elastic case.toml -q").err, "");
     EXPECT_EQ(call("doctor -q").out, call("doctor").out);
@@ -359,7 +359,8 @@ TEST_F(CommandLines, ColoursAreForTerminalsAloneAndNotUnderNoColor) {
     EXPECT_NE(shown("frobnicate").find(error), std::string::npos) << shown("frobnicate");
     EXPECT_NE(shown("pack").find("\x1b[1;31mcrackle"), std::string::npos) << shown("pack");
     EXPECT_NE(shown("test --help").find(heading), std::string::npos) << shown("test --help");
-    EXPECT_NE(shown("frobnicate", "NO_COLOR", "").find(error), std::string::npos) << "set to nothing: not set";
+    EXPECT_NE(shown("frobnicate", "NO_COLOR", "").find(error), std::string::npos)
+        << "an empty variable counts as not set";
     for (const char* words : {"frobnicate", "test --help", "--help"}) {
         EXPECT_EQ(shown(words, "NO_COLOR", "1").find('\x1b'), std::string::npos) << words;
         EXPECT_EQ(shown(words, "TERM", "dumb").find('\x1b'), std::string::npos) << words;
@@ -377,7 +378,7 @@ TEST_F(CommandLines, ProgressIsShownOnATerminalAloneAndGoneInTheEnd) {
     fmt::print("  drawn or taken away {} times in {:.2f} s\n", drawn, answer.seconds);
     EXPECT_GE(drawn, 2U);
     EXPECT_LE(static_cast<double>(drawn), 5.0 * answer.seconds + 12.0) << "at most five times a second, and the stages";
-    // Nothing of the line stays: what follows the last redraw is the result.
+    // The line is removed completely: only the result follows the last redraw.
     const std::string rest = answer.shown.substr(answer.shown.rfind(redraw) + 4);
     EXPECT_TRUE(rest.starts_with("circles, tension: the specimen failed")) << rest;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle elastic` as a user calls it.
+// Tests `crackle elastic` as called by a user.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST_F(CrackleElastic, AnswersInJsonWithWhatATestWouldHave) {
                        json["time_step"].get<double>() / json["stable_time_step"].get<double>(), 0.8, 1e-12));
     for (const char* key : {"youngs_modulus", "poissons_ratio", "stable_time_step", "first_break_stress"})
         EXPECT_TRUE(json["units"].contains(key) && json[key].is_number()) << key;
-    EXPECT_EQ(snapshot().size(), 2U) << "nothing is written unasked";
+    EXPECT_EQ(snapshot().size(), 2U) << "nothing is written without a request";
 }
 
 TEST_F(CrackleElastic, SaysPascalWhereTheUnitsAreOfAnArea) {

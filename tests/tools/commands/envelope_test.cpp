@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle envelope` as a user calls it: what it reads from folders of tests and of campaigns, what it says of them,
-// what it draws, and what it refuses.
+// Tests `crackle envelope` as called by a user: what it reads from folders of tests and campaigns, prints, draws and
+// refuses.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -32,14 +32,14 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<double, 6> pressures{0.0, 50.0, 100.0, 200.0, 350.0, 500.0};  // N/m
 
-/// What a made-up test is.
+/// Properties of a generated test.
 struct MadeUp {
     int seed = 1;
-    double pressure = 0.0;           ///< of a biaxial one
-    std::optional<double> strength;  ///< of one that failed, N/m
-    std::string kind = {};           ///< empty: compression, or biaxial where there is a pressure
-    std::string case_text = {};      ///< "" : that of the rock
-    Json further = Json::object();   ///< keys of summary.json
+    double pressure = 0.0;           ///< pressure of a biaxial test
+    std::optional<double> strength;  ///< N/m, for a test that failed
+    std::string kind = {};           ///< if empty, compression, or biaxial if there is a pressure
+    std::string case_text = {};      ///< if empty, the case of the rock
+    Json further = Json::object();   ///< further keys of summary.json
 };
 
 std::string kind_of(const MadeUp& test) {
@@ -63,7 +63,7 @@ class EnvelopeCommand : public ProgramCall {
   protected:
     EnvelopeCommand() : ProgramCall("envelope") {}
 
-    /// Writes one. @return its folder
+    /// Writes a generated test. @return its folder
     std::string sample(const MadeUp& wanted) const {
         const std::string kind = kind_of(wanted);
         const std::string name = fmt::format("{}{}_{:.0f}", kind.front(), wanted.seed, wanted.pressure);
@@ -82,7 +82,7 @@ class EnvelopeCommand : public ProgramCall {
         return name;
     }
 
-    /// Three packings that scatter by 5 % of their strength, at the first `count` pressures. @return their folders
+    /// Writes three packings whose strengths scatter by 5 %, at the first `count` pressures. @return their folders
     template <class Law>
     std::string three_packings(Law&& law, std::size_t count = pressures.size()) const {
         std::string folders;
@@ -138,7 +138,7 @@ TEST_F(EnvelopeCommand, SaysWhatItsNumbersAreWorth) {
     EXPECT_TRUE(whole["notices"].empty()) << whole["notices"];
     EXPECT_TRUE(agrees("mean of the tensions", whole["tension"]["mean"], 52.0, 1e-12));
     EXPECT_TRUE(agrees("their deviation", whole["tension"]["deviation"], 1.0, 1e-12));
-    const double half = 4.302653 / std::sqrt(3.0);  // t of two degrees of freedom
+    const double half = 4.302653 / std::sqrt(3.0);  // t for two degrees of freedom
     EXPECT_TRUE(agrees("lower end of their interval", whole["tension"]["low"], 52.0 - half, 1e-6));
     EXPECT_TRUE(agrees("upper end", whole["tension"]["high"], 52.0 + half, 1e-6));
     EXPECT_TRUE(agrees("strength over tension", whole["tension"]["strength_ratio"], 1000.0 / 52.0, 1e-6));
@@ -177,7 +177,7 @@ TEST_F(EnvelopeCommand, TakesTestsThatHardenByAnotherStress) {
     EXPECT_TRUE(agrees("N", largest["mohr_coulomb"]["slope"]["value"], 4.0, 1e-9));
     EXPECT_NE(call(folders + "--figure largest_stress").out.find("largest stresses of 3 packings in kN/m"),
               std::string::npos);
-    // All of these have the same curve: its stress at a strain, at every pressure.
+    // All generated tests have the same curve, so its stress at a strain is the same at every pressure.
     const Json at_strain = fitted(folders + "--strain 5e-4");
     EXPECT_EQ(at_strain["measure"]["strain"], 5e-4);
     EXPECT_TRUE(within("N", at_strain["mohr_coulomb"]["slope"]["value"], 0.0, 1e-6));
@@ -229,7 +229,7 @@ TEST_F(EnvelopeCommand, RefusesTestsThatAreNotOfOneRock) {
     expect_refused(folders + bare, bare + "/case.toml");
 }
 
-/// The gap between cells that a case does not state follows from their number, which seeds change.
+/// If a case does not state the gap between cells, it depends on the number of cells, which changes with the seed.
 TEST_F(EnvelopeCommand, TakesGapsThatWereDerivedForNoDifference) {
     const auto meshed = [&](int seed, double pressure, double thick) {
         MadeUp test{seed, pressure, on_line(pressure)};
@@ -245,7 +245,7 @@ TEST_F(EnvelopeCommand, TakesGapsThatWereDerivedForNoDifference) {
     expect_refused(folders + meshed(3, 100.0, 1e-3), "mesh.thick: found 0.001, expected no value, as in c1_0");
 }
 
-/// A campaign's ledger as `crackle campaign` leaves it, with figures of our own.
+/// A campaign's ledger like those of `crackle campaign`, with results set by the test.
 class EnvelopeOfCampaign : public EnvelopeCommand {
   protected:
     std::string campaign(const std::string& more = "", int packings = 3) const {
@@ -263,7 +263,7 @@ class EnvelopeOfCampaign : public EnvelopeCommand {
         std::vector<std::string> identities;
         for (const PlanRow& row : plan.rows) identities.push_back(identity_of(plan.test_of(row), files));
         ledger.set_plan(plan, identities);
-        for (std::size_t k = 0; k + 1 < plan.rows.size(); ++k) {  // the last one has not been run
+        for (std::size_t k = 0; k + 1 < plan.rows.size(); ++k) {  // the last test has not been run
             const TestCase test = plan.test_of(plan.rows[k]);
             const double pressure = test.confinement.pressure.value_or(0.0);
             RowResult result;
@@ -300,7 +300,7 @@ TEST_F(EnvelopeOfCampaign, FitsTheTestsOfItsLedgerAndOfFoldersBesideIt) {
 }
 
 TEST_F(EnvelopeOfCampaign, OfAnAxisOverTheRockIsRefused) {
-    // A reader of a ledger leaves SQLite's own files beside it.
+    // Reading a ledger leaves SQLite's own files beside it.
     for (const char* axis : {"values = [20.0, 27.0]", "values = [20.0]\ntests = [\"free\"]"}) {
         const Answer answer = call(campaign(fmt::format("[[axis]]\nkey = \"material.friction_angle\"\n{}\n", axis)));
         EXPECT_EQ(answer.code, 2) << axis;
@@ -313,7 +313,7 @@ TEST_F(EnvelopeOfCampaign, OfAnAxisOverTheRockIsRefused) {
               3);
 }
 
-/// A line of an SVG: its points in pt, by its colour.
+/// A line of an SVG: its points in pt, and its colour.
 struct SvgLine {
     std::string style;
     std::vector<std::pair<double, double>> points;
@@ -347,7 +347,7 @@ TEST_F(EnvelopeCommand, DrawsRoundCirclesThatBothEnvelopesTouch) {
     const Answer answer = call(folders + "-o envelope.svg");
     ASSERT_EQ(answer.code, 0) << answer.err;
     std::vector<SvgLine> circles;
-    std::optional<SvgLine> line;  // the last dashed one
+    std::optional<SvgLine> line;  // the last dashed line
     for (const SvgLine& one : svg_lines(read("envelope.svg"))) {
         if (one.points.size() >= 2 && one.style.find("dasharray") != std::string::npos) line = one;
         if (one.points.size() != 201) continue;
@@ -363,7 +363,7 @@ TEST_F(EnvelopeCommand, DrawsRoundCirclesThatBothEnvelopesTouch) {
     ASSERT_TRUE(line);
     const auto [x1, y1] = line->points.front();
     const auto [x2, y2] = line->points.back();
-    // tan φ = (N - 1)/(2 sqrt N) = 3/4 at equal scales, and the line touches each circle of its own law.
+    // With equal scales tan φ = (N - 1)/(2 sqrt N) = 3/4, and the line touches each circle of its own law.
     EXPECT_TRUE(agrees("slope of the line", (y1 - y2) / (x2 - x1), 0.75, 1e-3));
     for (const SvgLine& circle : circles) {
         const double cx = 0.5 * (circle.points.front().first + circle.points.back().first);

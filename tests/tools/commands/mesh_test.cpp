@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle mesh` as a user calls it: what it writes, and its messages for input it cannot use.
+// Tests `crackle mesh` as called by a user: what it writes, and its messages for invalid input.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -99,7 +99,7 @@ TEST_F(CrackleMesh, WritesBothFilesWhereNoKindIsGiven) {
     EXPECT_EQ(read("in_gm_volo.dat"), read("volo.dat"));
     for (const char* line : {"(delaunay)", "written          in_gm_tri.dat", "written          in_gm_volo.dat"})
         EXPECT_NE(answer.out.find(line), std::string::npos) << answer.out;
-    // 2n - 2 - h triangles, h centres along the outer chain.
+    // There are 2n - 2 - h triangles, for h centres along the outer chain.
     const std::size_t triangles = read_geometry(scratch_ / "in_gm_tri.dat").bodies.size();
     EXPECT_GT(triangles, 50U);
     EXPECT_LT(triangles, 98U);
@@ -186,7 +186,7 @@ TEST_F(CrackleMesh, DestroysNoFileThatItsJointsAreReadFrom) {
     expect_refused("in_gm.dat --kind delaunay --thick 0 --joints absent.toml", "absent.toml");
 }
 
-// Centres near a trace make way for it: with it cells may stand that are destroyed without.
+// Centres near a trace are omitted, so cells may survive that are destroyed in the mesh without traces.
 TEST_F(CrackleMesh, MeshesAlongJointsWhatHasNoMeshWithout) {
     std::string seeds = "0.5 0.5\n0.5 0.50001\n";
     for (int k = 0; k < 100; ++k)

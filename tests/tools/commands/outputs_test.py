@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where commands write: the same files however their path is written, nothing of anybody else's touched, one line where that cannot be."""
+"""Tests where commands write: the same files for all forms of a path, no change of foreign files, and an error of one line if that is not
+possible."""
 
 import os
 import shutil
@@ -50,7 +51,7 @@ from = 5e6
 to = 2e7
 """
 JOINTED = CASE + "[[trace]]\npoints = [0.05, 0.05, 0.15, 0.2]\n"
-# Commands that write a file: its extension, their words.
+# Commands that write a file: extension and words.
 FILES = {
     "pack": ("dat", PACK + " -o"), "mesh": ("dat", "mesh in_gm.dat --kind voronoi --thick 1e-3 -q -o"),
     "elastic": ("csv", "elastic case.toml -q --bonds"), "view": ("html", "view in_gm.dat -q -o"),
@@ -58,7 +59,7 @@ FILES = {
     "plot": ("svg", "plot out -q -o"), "plot of a campaign": ("svg", "plot campaign -q -o"), "plot of a deck": ("svg", "plot ran -q -o"),
     "joints": ("svg", "joints jointed.toml --box-width 0.1 --box-height 0.1 -q -o"), "traces": ("csv", "joints jointed.toml --box-width 0.1 --box-height 0.1 -q --traces"),
 }
-# And those that fill a folder.
+# Commands that fill a folder.
 FOLDERS = {"test": "test case.toml -q -o", "run": "run deck -q -o", "campaign": "campaign plan.toml -q -o"}
 PAGES = ("view", "report", "report of a campaign")
 
@@ -132,7 +133,7 @@ class Outputs(unittest.TestCase):
             with self.subTest(command=command):
                 self.refused(words, "expected svg" if extension == "svg" else "the name of a folder", f"absent.{extension}/")
                 (self.work / f"folder.{extension}").mkdir(exist_ok=True)
-                if command != "mesh":  # which names its file by itself there
+                if command != "mesh":  # which chooses the file's name in an existing folder
                     self.refused(words, "found a folder", f"folder.{extension}")
 
     def test_links_are_not_followed(self):
@@ -158,7 +159,7 @@ class Outputs(unittest.TestCase):
         self.assertEqual(stranger.read_text(), "mine\n")
 
     def test_devices_are_not_replaced(self):
-        os.mkfifo(self.work / "pipe")  # no device of the machine's: a program that replaces it would do so here
+        os.mkfifo(self.work / "pipe")  # not a real device, since a faulty program would replace it
         self.refused(PACK + " --force -o pipe", "found a device or a pipe")
         self.assertTrue((self.work / "pipe").is_fifo())
 
@@ -173,7 +174,7 @@ class Outputs(unittest.TestCase):
 
     def test_folders_of_inputs_are_refused(self):
         for words in ("test case.toml -q -o", "test case.toml -q --force -o", "campaign plan.toml -q -o", "calibrate rock.toml -q -o"):
-            for above in (".", "./", str(self.work), str(self.work.parent), "deck/.."):  # of "/": output_path_test.cpp, which writes nothing
+            for above in (".", "./", str(self.work), str(self.work.parent), "deck/.."):  # "/" is tested by output_path_test.cpp, which writes nothing
                 with self.subTest(words=words, above=above):
                     self.refused(words, "in this folder, expected a folder for results only", above)
         self.refused("run deck -q -o", "expected a new or empty folder", ".")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle pack` as a user calls it: what it writes, and its messages for input it cannot use.
+// Tests `crackle pack` as called by a user: what it writes, and its messages for invalid input.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle plot` of decks' runs: what its figures hold is what the files say.
+// Tests `crackle plot` for deck runs: its figures must show what the files contain.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace {
 using namespace testing;
 namespace fs = std::filesystem;
 
-/// Curves of decks: runs of the shipped chain of 20 discs and of the circle that falls.
+/// Curves of runs of the shipped chain of 20 discs and of the falling circle.
 class PlotDecks : public ProgramCall {
   protected:
     PlotDecks() : ProgramCall("plot") {
@@ -39,8 +39,8 @@ class PlotDecks : public ProgramCall {
         EXPECT_EQ(answer.out, file + "\n");
         return read(file);
     }
-    /// Lines from the left end of a frame to the end of its data, 6 % before the right one, in the order of their
-    /// drawing; a straight one has two points.
+    /// Lines from the left end of a frame to the end of its data, 6 % before the right end, in drawing order; a
+    /// straight line has two points.
     static std::vector<std::vector<Vec2>> curves_of(const std::string& svg) {
         const std::vector<std::vector<Vec2>> frames = frames_of(svg);
         std::vector<std::vector<Vec2>> curves;
@@ -62,7 +62,8 @@ TEST_F(PlotDecks, DisplacementsOfWatchedBodiesAreThoseOfTheFile) {
     const std::vector<std::vector<Vec2>> frames = frames_of(svg), curves = curves_of(svg);
     ASSERT_EQ(frames.size(), 2U)
         << "energy, and displacement along the chain: nothing moves across it, nothing is driven";
-    // Bodies 11 and 13 are drawn last. Heights of their peaks above their starts, in the ratio of the file's.
+    // Bodies 11 and 13 are drawn last. The heights of their peaks above their starts must have the ratio of the values
+    // in the file.
     const auto rise_drawn = [&](std::size_t from_end) {
         const std::vector<Vec2>& curve = curves[curves.size() - from_end];
         double highest = curve.front().y;
@@ -80,11 +81,11 @@ TEST_F(PlotDecks, DisplacementsOfWatchedBodiesAreThoseOfTheFile) {
     EXPECT_NEAR(got, expected, 1e-3);
     EXPECT_EQ(curves_of(drawn("wave --what displacement", "figure.svg")).size(), 8U)
         << "of four bodies, along the chain and across it";
-    EXPECT_EQ(frames_of(drawn("wave --what displacement", "figure.svg")).size(), 2U) << "asked for: across it, too";
+    EXPECT_EQ(frames_of(drawn("wave --what displacement", "figure.svg")).size(), 2U) << "on request, also across it";
 }
 
 TEST_F(PlotDecks, PartsOfTheEnergyThatAreZeroAreLeftOutButTheError) {
-    // Potential, kinetic and strain energy and the error of a circle that falls and bounces without loss.
+    // Potential, kinetic and strain energy and the closing error of a circle that falls and bounces without losses.
     EXPECT_EQ(curves_of(drawn("falling --what energy", "figure.svg")).size(), 4U);
     EXPECT_EQ(curves_of(drawn("wave --what energy", "figure.svg")).size(), 3U) << "no gravity";
     EXPECT_EQ(frames_of(drawn("wave falling --what energy", "figure.svg")).size(), 2U) << "a panel a run";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle plot` as a user calls it: what its figures hold, by reading them back.
+// Tests `crackle plot` as called by a user, by reading its figures.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -50,7 +50,7 @@ std::uint32_t png_number(const std::string& bytes, std::size_t at) {
     return number;
 }
 
-/// The pixels of a PNG of red, green and blue, row by row.
+/// The pixels of an RGB PNG, row by row.
 std::vector<std::vector<unsigned char>> png_rows(const std::string& bytes) {
     const std::size_t width = png_number(bytes, 16), height = png_number(bytes, 20), row = 3 * width;
     EXPECT_EQ(bytes.at(25), 2) << "expected red, green, blue";
@@ -86,7 +86,7 @@ double distance_from(Vec2 point, Vec2 a, Vec2 b) {
     return norm(point - a - std::clamp(share, 0.0, 1.0) * along);
 }
 
-/// Ticks to the left of an axis.
+/// Number of ticks to the left of an axis.
 int ticks_of(const std::string& svg, const std::vector<Vec2>& frame) {
     int count = 0;
     for (const std::vector<Vec2>& line : lines_of(svg)) {
@@ -98,7 +98,7 @@ int ticks_of(const std::string& svg, const std::vector<Vec2>& frame) {
     return count;
 }
 
-/// Shapes of an SVG that are filled with a colour, as Cairo writes it.
+/// Number of shapes in an SVG that are filled with a colour, as Cairo writes it.
 int shapes_filled(const std::string& svg, std::array<int, 3> rgb) {
     pugi::xml_document document;
     EXPECT_TRUE(document.load_string(svg.c_str()));
@@ -119,7 +119,7 @@ int shapes_filled(const std::string& svg, std::array<int, 3> rgb) {
 
 constexpr std::array<int, 3> grain{0xe3, 0xe0, 0xd9};
 
-/// The longest line of a figure.
+/// The longest line in a figure.
 std::vector<Vec2> curve_in(const std::string& svg) {
     const std::vector<std::vector<Vec2>> lines = lines_of(svg);
     return *std::ranges::max_element(lines, {}, &std::vector<Vec2>::size);
@@ -159,7 +159,7 @@ TEST_F(PlotCommand, AnSvgHasAShapeForEachParticleAndNoFontButItsOwnOutlines) {
 
 TEST_F(PlotCommand, BarsOfBreaksAddUpToTheEventsOfEachMode) {
     const std::string svg = drawn("pulled --what ae --width 200", "figure.svg");
-    // Heights of bars, in breaks: each mode's sum over the other's.
+    // Compares the total heights of the bars of the two modes.
     pugi::xml_document document;
     ASSERT_TRUE(document.load_string(svg.c_str()));
     std::array<double, 2> sums{};
@@ -173,7 +173,7 @@ TEST_F(PlotCommand, BarsOfBreaksAddUpToTheEventsOfEachMode) {
         const auto [low, high] = std::minmax_element(y.begin(), y.end());
         sums[shear ? 1 : 0] += *high - *low;
     }
-    // The legend's samples are as high as each other.
+    // The samples in the legend have equal heights.
     const double sample = 5.0, expected = static_cast<double>(counts_.shear_breaks) / counts_.tension_breaks;
     const double got = (sums[1] - sample) / (sums[0] - sample);
     fmt::print("  shear over tension: expected {:.4f}, got {:.4f}\n", expected, got);
@@ -187,13 +187,14 @@ TEST_F(PlotCommand, MagnitudesOfAllTestsAreDrawnTogetherWithTheirLine) {
     heard.emission = 80;
     write_sample_results(folder_ / "heard_too", heard);
     const std::string svg = drawn("heard heard_too --what emission --width 200", "figure.svg");
-    // A disc an event on the curve (and one in the legend), and one on a map.
+    // One disc per event on the curve (plus one in the legend), and one on a map.
     EXPECT_EQ(shapes_filled(svg, {29, 33, 37}), 200 + 1);
     std::vector<std::vector<Vec2>> fitted;
     for (const std::vector<Vec2>& line : lines_of(svg))
         if (line.size() == 2 && line[0].x < line[1].x - 20.0 && line[0].y < line[1].y - 20.0) fitted.push_back(line);
     ASSERT_EQ(fitted.size(), 1U) << "the line, downwards";
-    // In units of the axes: magnitudes are as quantiles of b = 1, whose tail a maximum likelihood of 60 takes as it is.
+    // In axis units: magnitudes are quantiles of the law with b = 1, for which the maximum-likelihood fit of 60 events
+    // gives the same tail.
     const std::vector<std::vector<Vec2>> frames = frames_of(svg);
     ASSERT_EQ(frames.size(), 1U);
     EXPECT_GT(fitted[0][0].x, frames[0][1].x);
@@ -250,7 +251,7 @@ TEST_F(PlotCommand, OfASpecimenWithoutSidesHasNoAreaStrain) {
     }
     std::ofstream(folder_ / "squeezed" / "curve.csv") << table;
     expect_refused("squeezed --force -o figure.pdf --what strain", "found no lateral strain");
-    EXPECT_FALSE(drawn("squeezed", "figure.svg").empty()) << "of all that there is";
+    EXPECT_FALSE(drawn("squeezed", "figure.svg").empty()) << "of all bodies";
 }
 
 TEST_F(PlotCommand, CracksLieOnTheFacesThatTheyParted) {
@@ -259,7 +260,7 @@ TEST_F(PlotCommand, CracksLieOnTheFacesThatTheyParted) {
         std::system(
             fmt::format("cd '{}' && '{}' test case.toml -o parted -q", folder_.string(), CRACKLE_PROGRAM).c_str()),
         0);
-    // Magnified, so that parted faces are far from each other, and from their mean.
+    // Magnified, so that separated faces are far from each other and from their mean.
     const std::string svg = drawn("parted --what specimen --at end --magnify 50 --width 150", "figure.svg");
     pugi::xml_document document;
     ASSERT_TRUE(document.load_string(svg.c_str()));
@@ -268,7 +269,7 @@ TEST_F(PlotCommand, CracksLieOnTheFacesThatTheyParted) {
         const std::string style = node.node().attribute("style").value();
         std::vector<Vec2> corners = corners_of(node.node().attribute("d").value());
         const bool closed = std::string(node.node().attribute("d").value()).find('Z') != std::string::npos;
-        if (closed && style.find("fill:rgb(89") != std::string::npos) {  // a grain
+        if (closed && style.find("fill:rgb(89") != std::string::npos) {  // a particle
             corners.push_back(corners.front());
             surfaces.push_back(corners);
         } else if (style.find("stroke:rgb(29.4") != std::string::npos) {  // a platen
@@ -277,7 +278,7 @@ TEST_F(PlotCommand, CracksLieOnTheFacesThatTheyParted) {
             cracks.push_back(corners);
         }
     }
-    cracks.pop_back();  // the key's
+    cracks.pop_back();  // removes that of the key
     double worst = 0.0;
     for (const std::vector<Vec2>& crack : cracks) {
         const Vec2 middle = 0.5 * (crack[0] + crack[1]);
@@ -291,7 +292,7 @@ TEST_F(PlotCommand, CracksLieOnTheFacesThatTheyParted) {
     fmt::print("  {} faces of cracks, {} surfaces: at most {:.3f} pt from one\n", cracks.size(), surfaces.size(),
                worst);
     EXPECT_GT(cracks.size(), 10U);
-    EXPECT_LT(worst, 0.5);  // half the gap of 1.08 mm at some 600 pt a metre, and single precision
+    EXPECT_LT(worst, 0.5);  // half the gap of 1.08 mm at about 600 pt per metre, plus single precision
 }
 
 /// Straight lines of a colour, as Cairo writes it.
@@ -307,7 +308,7 @@ std::vector<std::vector<Vec2>> lines_in(const std::string& svg, const std::strin
     return lines;
 }
 
-/// Runs a small jointed or mineral rock of cells. @param tables of traces or minerals
+/// Runs a test of a small rock of cells with joints or minerals. @param tables TOML tables of traces or minerals
 void test_cells(const fs::path& folder, const std::string& name, const std::string& tables) {
     write_small_case(folder, {.kind = "compression",
                               .mesh = "voronoi",
@@ -326,7 +327,7 @@ TEST_F(PlotCommand, OpenJointsAreDrawnFromTheStart) {
         test_cells(folder_, name, tables);
         return drawn(name + " --what specimen --at start --width 150", "figure.svg");
     };
-    // The trace rises by half of what it goes along.
+    // The trace has a slope of one half.
     const auto on_trace = [](const std::string& svg, const std::string& stroke) {
         return std::ranges::count_if(lines_in(svg, stroke), [](const std::vector<Vec2>& line) {
             const double along = line[1].x - line[0].x, up = line[0].y - line[1].y;
@@ -364,7 +365,7 @@ TEST_F(PlotCommand, SignsOfCracksHideNeitherTheCurveNorEachOther) {
         summary["crack_damage_stress"] = damage * summary["peak_stress"].get<double>();
         std::ofstream(folder_ / "marked/summary.json") << summary.dump(2) << '\n';
         const std::string svg = drawn("marked --what curve --width 120", "figure.svg");
-        // The sign's σ is the only letter of its font and size: of each label one.
+        // The symbol σ is the only letter in its font and size, so each label has one.
         std::map<std::string, std::vector<Vec2>> by_glyph;
         pugi::xml_document document;
         EXPECT_TRUE(document.load_string(svg.c_str()));
@@ -413,7 +414,7 @@ TEST_F(PlotCommand, TheSameResultsGiveTheSameBytes) {
 }
 
 TEST_F(PlotCommand, APngIsWhiteUpToItsLastPixels) {
-    // At these widths a figure is no whole number of pixels wide.
+    // At these widths the figure is not a whole number of pixels wide.
     for (const char* words : {"--width 85", "--width 85.02", "--width 60 --dpi 97"}) {
         const auto rows = png_rows(drawn(fmt::format("pulled --what curve {}", words), "figure.png"));
         int right = 255, below = 255;
@@ -429,7 +430,7 @@ TEST_F(PlotCommand, APngIsWhiteUpToItsLastPixels) {
 
 TEST_F(PlotCommand, AnAxisOfCountsHasATickBesideThatAtZero) {
     for (const int most : {1, 2, 3, 4, 9, 11, 43, 46, 430}) {
-        // Enough broken bonds in all to make a single round step too large for the axis.
+        // Enough broken bonds in total that a single round interval would be too large for the axis.
         for (const char* folder : {"pulled", "squeezed"}) {
             std::istringstream lines(read(std::string(folder) + "/curve.csv"));
             std::string line, table;
@@ -469,7 +470,7 @@ TEST_F(PlotCommand, ACurveThatWouldBeASliverHasAnInset) {
         double highest = (*inset)[1].y;
         int inside = 0;
         for (const std::vector<Vec2>& line : lines_of(svg)) {
-            if (line.size() < 30) continue;  // a curve
+            if (line.size() < 30) continue;  // a curve, not a mark
             const bool of_inset = line.front().x > (*inset)[0].x - 1.0 && line.front().y < (*inset)[1].y + 1.0 &&
                                   line.front().y > (*inset)[0].y;
             for (const Vec2 point : line) {
@@ -496,7 +497,7 @@ TEST_F(PlotCommand, FragmentsAreDrawnWholeOrLeftOut) {
         0);
     const std::string svg = drawn("burst --what specimen --at end", "figure.svg");
     const int shown = shapes_filled(svg, grain);
-    // Cairo writes a clip around what reaches beyond a drawing's place: the platens, and no particle.
+    // Cairo clips what extends beyond the area of a drawing: the platens, but no particle.
     pugi::xml_document document;
     ASSERT_TRUE(document.load_string(svg.c_str()));
     int clipped = 0, cut = 0;
@@ -510,11 +511,11 @@ TEST_F(PlotCommand, FragmentsAreDrawnWholeOrLeftOut) {
     EXPECT_EQ(clipped, 2) << "platens";
     EXPECT_EQ(cut, 0);
     EXPECT_GT(shown, 180);
-    EXPECT_LT(shown, 304) << "this test is of fragments that fly off";
+    EXPECT_LT(shown, 304) << "this test needs fragments that fly off";
 }
 
 TEST_F(PlotCommand, TheNearestFrameIsDrawn) {
-    // Frames at 0, the peak (1e-3) and the end (1.5e-3).
+    // There are frames at strain 0, the peak (1e-3) and the end (1.5e-3).
     const auto at = [&](const std::string& strain) {
         return drawn("pulled --what specimen --at " + strain, "figure.svg");
     };
@@ -554,9 +555,9 @@ TEST_F(PlotCommand, LettersOfTheGuidesFirstFigureAreTheGuides) {
     const std::string svg = read("figures/figure26.svg");
     const std::vector<Vec2> letters = letters_of(svg);
     ASSERT_EQ(letters.size(), 4U) << "(a) packing, (b) what is left, (c) curve, (d) breaks";
-    EXPECT_EQ(letters[0].y, letters[1].y) << "in a row of drawings";
+    EXPECT_EQ(letters[0].y, letters[1].y) << "drawings in one row";
     EXPECT_GT(letters[1].x, letters[0].x + 50.0);
-    // The curve's frame is the first, the breaks' the last.
+    // The first frame is that of the curve, the last that of the breaks.
     const std::vector<std::vector<Vec2>> frames = frames_of(svg);
     ASSERT_GE(frames.size(), 3U);
     fmt::print("  (c) at {:.1f} pt, its frame from {:.1f}; (d) at {:.1f}, its frame from {:.1f}\n", letters[2].y,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle plot` where the system lends too little memory for fonts and the sheet.
+// Tests `crackle plot` with too little memory for fonts and the sheet.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -27,10 +27,10 @@ class PlotWithoutRoom : public ProgramCall {
 };
 
 #ifndef __SANITIZE_ADDRESS__  // which takes terabytes of addresses
-// Fonts and sheets end the process by a signal where they find no room.
+// Libraries for fonts and drawing end the process by a signal if they run out of memory.
 TEST_F(PlotWithoutRoom, EndsByALineAndExitCode4) {
     int drawn = 0, refused = 0;
-    for (int limit = 70; limit <= 310; limit += 20) {  // MiB of addresses
+    for (int limit = 70; limit <= 310; limit += 20) {  // MiB of address space
         for (const char* kind : {"svg", "png"}) {
             const int status = std::system(
                 fmt::format("cd '{}' && ulimit -c 0 && ulimit -v {} && '{}' plot pulled --what curve ae specimen -o "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle report` as a user calls it: what it writes, what it refuses, what it leaves alone.
+// Tests `crackle report` as called by a user: what it writes, refuses and leaves unchanged.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -57,7 +57,7 @@ class Report : public ::testing::Test {
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(log)};
     }
 
-    /// Exit code 2, one line that holds every given text, and no page.
+    /// Expects exit code 2, one line with every given text, and no page.
     void expect_refused(const std::string& arguments, const std::vector<std::string>& texts) const {
         const Outcome outcome = run(arguments);
         EXPECT_EQ(outcome.code, 2) << outcome.output;
@@ -206,7 +206,7 @@ TEST_F(Report, NamesAnImpossibleKind) {
 
 TEST_F(Report, RefusesResultsThatAreHalfReplaced) {
     fs::create_directories(root / "test.new");
-    std::ofstream(root / "test.new/replaces-older-results") << "";  // a forced test that is still running
+    std::ofstream(root / "test.new/replaces-older-results") << "";  // a test with --force that is still running
     EXPECT_EQ(run("test -o first.html").code, 0);
     std::ofstream(root / "test.new/replaces-older-results") << "complete, being moved\nparticles_00000.vtp\n";
     for (const char* name : {"test", "test/"})

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A test that is stopped at any moment, by Ctrl-C or by force, and resumed by the command that the program prints,
-// leaves the very files of an uninterrupted one. A few moments of each kind are tried in every run of the tests, many
-// where slow tests run (tests/tools/CMakeLists.txt).
+// Tests that a test stopped at any moment, by Ctrl-C or by SIGKILL, and resumed by the command that the program prints,
+// leaves exactly the files of an uninterrupted one. Each run of the tests tries a few moments of each kind; slow tests
+// try many (tests/tools/CMakeLists.txt).
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ constexpr int circles = 40;
 constexpr int circles = 150;
 #endif
 
-/// A packing of its own, so that making the specimen takes its share of the time. Frames and checkpoints come as often
-/// as possible, so that a kill falls among them.
+/// The case has its own packing, so that making the specimen takes some of the time. Frames and checkpoints are as
+/// frequent as possible, so that a kill occurs during them.
 std::string case_of(const std::string& specimen) {
     std::string text =
         fmt::format("[packing]\ncount = {}\n", circles) +
@@ -52,7 +52,7 @@ std::string case_of(const std::string& specimen) {
 
 struct Series {
     const char* specimen;
-    int kills;  ///< moments of each kind
+    int kills;  ///< number of moments of each kind
 };
 
 void PrintTo(const Series& series, std::ostream* out) { *out << series.specimen << ", " << series.kills << " kills"; }
@@ -72,7 +72,7 @@ class Resume : public testing::ProgramCall, public ::testing::WithParamInterface
         seconds_ = std::chrono::duration<double>(Clock::now() - begun).count();
         whole_ = contents(folder_ / "whole/out");
         fmt::print("  uninterrupted: {:.2f} s, {} files\n", seconds_, whole_.size());
-        ASSERT_GT(whole_.size(), 20U) << "frames are written on the way";
+        ASSERT_GT(whole_.size(), 20U) << "frames are written during the test";
     }
 
     Answer call_in(const std::string& place, const std::string& words) const {
@@ -82,7 +82,7 @@ class Resume : public testing::ProgramCall, public ::testing::WithParamInterface
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
     }
 
-    /// Starts the program in cut/ without waiting for it.
+    /// Starts the program in cut/ without waiting for it to end.
     pid_t start(const std::vector<const char*>& words) const {
         const pid_t child = fork();
         if (child != 0) return child;
@@ -97,7 +97,7 @@ class Resume : public testing::ProgramCall, public ::testing::WithParamInterface
         _exit(127);
     }
 
-    /// Ends it by the signal after `seconds`, unless it has ended by itself. @return its exit code or -signal
+    /// Ends the process by the signal after `seconds`, unless it has ended before. @return its exit code or -signal
     static int stop(pid_t child, int signal, double seconds) {
         const auto until = Clock::now() + std::chrono::duration<double>(seconds);
         int status = 0;
@@ -112,7 +112,7 @@ class Resume : public testing::ProgramCall, public ::testing::WithParamInterface
 
     static int ended(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status); }
 
-    /// What a user does after an interrupt: --resume, and its message where there is nothing to go on from.
+    /// Resumes as a user would after an interrupt, and checks the message if there is nothing to resume.
     std::string go_on() const {
         const Answer resumed = call_in("cut", "--resume out -q");
         if (resumed.code == 0) return "resumed";
@@ -140,7 +140,7 @@ class Resume : public testing::ProgramCall, public ::testing::WithParamInterface
 void try_moments(int kills, const std::function<std::string(double)>& at, int signal) {
     std::mt19937_64 generator(static_cast<std::uint64_t>(signal));
     for (int k = 0; k < kills; ++k) {
-        // One in each part of the run and a little beyond: all of it is met, whatever the luck.
+        // One moment in each part of the run and slightly beyond, so that all parts are covered.
         const double within = static_cast<double>(generator() >> 11) * 0x1p-53;
         const double share = 1.05 * (k + within) / kills;
         fmt::print("  signal {} at {:.3f} of the run: {}\n", signal, share, at(share));
@@ -168,7 +168,7 @@ TEST_P(Resume, AfterCtrlCAtAnyMomentEndsWithTheBytesOfAnUninterruptedTest) {
         [&](double share) {
             clear();
             const int code = stop(start({"case.toml", "-o", "out", "-q"}), SIGINT, share * seconds_);
-            // Before the program has begun to listen the signal ends it as any other.
+            // Before the program handles signals, the signal ends it in the usual way.
             EXPECT_TRUE(code == 130 || code == 0 || code == -SIGINT) << code;
             if (code == 130 && fs::exists(folder_ / "cut/out")) {
                 const auto summary = nlohmann::json::parse(read("cut/out/summary.json"));
@@ -218,7 +218,7 @@ TEST_P(Resume, ATestThatWentOnLeavesNoSummaryOfWhereItWasInterrupted) {
     expect_the_whole("interrupted, gone on and killed");
 }
 
-/// A window of a few milliseconds, met by waiting for the file that opens it; this is one that has no name yet.
+/// A time window of a few milliseconds, found by waiting for a file that still has a temporary name.
 const std::string temporary = "temporary";
 
 TEST_P(Resume, AfterAKillWhileAFileIsWrittenEndsWithTheBytesOfAnUninterruptedTest) {
@@ -248,9 +248,9 @@ TEST_P(Resume, AfterAKillWhileAFileIsWrittenEndsWithTheBytesOfAnUninterruptedTes
     }
 }
 
-/// Results that new ones are to replace are whole at any moment: the old ones or, after a resume, the new ones.
+/// Results that are being replaced must be complete at any moment: the old ones or, after resuming, the new ones.
 TEST_P(Resume, OfAForcedTestKeepsTheEarlierResultsUntilTheNewOnesHaveTakenTheirPlace) {
-    // Earlier results of another case, and of the new one what an uninterrupted --force makes.
+    // Earlier results of another case, and the results of the new case from an uninterrupted --force.
     write("earlier.toml", case_of(GetParam().specimen));
     replace("earlier.toml", "frames = 200", "frames = 30");
     ASSERT_EQ(call_in("forced", "../earlier.toml -o out -q").code, 0);
@@ -290,11 +290,11 @@ TEST_P(Resume, OfAForcedTestKeepsTheEarlierResultsUntilTheNewOnesHaveTakenTheirP
         if (!replaced) {
             expect_same(contents(folder_ / "cut/out"), earlier, std::string(stage) + ", earlier results");
             EXPECT_NE(resumed.err.find("out.new"), std::string::npos)
-                << "names the place of the new ones: " << resumed.err;
+                << "the message names the folder of the new results: " << resumed.err;
             ASSERT_EQ(call_in("cut", "--resume out.new -q").code, 0);
         }
         expect_same(contents(folder_ / "cut/out"), forced, stage);
-        // Its last act is to take its empty folder away.
+        // At the very end, the program removes its empty folder.
         EXPECT_TRUE(!exists("cut/out.new") || fs::is_empty(folder_ / "cut/out.new")) << stage;
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle run` as a user calls it: exit codes, what is written, and an interrupt that costs nothing.
+// Tests `crackle run` as called by a user: exit codes, outputs, and an interrupt without loss.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ using namespace testing;
 
 class RunCommand : public ::testing::Test {
   protected:
-    /// Exit code; stdout and stderr go to `printed()`.
+    /// Runs crackle and returns its exit code; stdout and stderr go to `printed()`.
     int crackle(const std::string& words) const {
         const std::string line =
             fmt::format("'{}' {} > '{}' 2>&1", CRACKLE_PROGRAM, words, (scratch_ / "printed").string());
@@ -60,7 +60,7 @@ TEST_F(RunCommand, TheGuidesLawIsAnOptionThatARunKeeps) {
               std::string::npos)
         << printed();
 
-    // Two segments, one thrown onto the other's end: there the laws differ.
+    // Two segments, one of which hits the end of the other, where the laws differ.
     const auto two = scratch_ / "two";
     std::filesystem::create_directories(two);
     std::ofstream(two / "in_gm.dat") << "1 0 0\n1e-5 0 0\n1\n2.5 1e8 0 0 0 0\n-10 10 -10 10 0.1\n0 2 0\n"
@@ -71,7 +71,7 @@ TEST_F(RunCommand, TheGuidesLawIsAnOptionThatARunKeeps) {
     EXPECT_NE(energy("a"), energy("b"));
     ASSERT_EQ(run(quoted(two) + " --law demseg --steps 133", "part"), 0) << printed();
     ASSERT_EQ(run(quoted(scratch_ / "part") + " --continue", "rest"), 0) << printed();
-    EXPECT_EQ(energy("part") + energy("rest"), energy("b")) << "it goes on under the law it began with";
+    EXPECT_EQ(energy("part") + energy("rest"), energy("b")) << "the law of the first run is kept";
     EXPECT_EQ(run(quoted(scratch_ / "part") + " --continue --law rounded", "other"), 2);
     EXPECT_NE(printed().find("--law: found rounded, expected demseg, which "), std::string::npos) << printed();
 }
@@ -89,7 +89,7 @@ TEST_F(RunCommand, TheIntegratorIsAnOptionThatARunKeeps) {
     EXPECT_NE(energy("plain"), energy("consistent"));
     ASSERT_EQ(run(deck + " --integrator consistent --steps 7777", "part"), 0) << printed();
     ASSERT_EQ(run(quoted(scratch_ / "part") + " --continue", "rest"), 0) << printed();
-    EXPECT_TRUE(energy("consistent").ends_with(energy("rest"))) << "it goes on with the integrator it began with";
+    EXPECT_TRUE(energy("consistent").ends_with(energy("rest"))) << "the integrator of the first run is kept";
     EXPECT_EQ(run(quoted(scratch_ / "part") + " --continue --integrator leapfrog", "other"), 2);
     EXPECT_NE(printed().find("--integrator: found leapfrog, expected consistent, which "), std::string::npos)
         << printed();
@@ -160,7 +160,7 @@ TEST_F(RunCommand, AnInterruptedRunGoesOnAsIfNothingHadHappened) {
     const std::string deck = shipped_deck("chain_hanging").string(), out = (scratch_ / "out").string(),
                       whole = (scratch_ / "whole").string();
     ASSERT_EQ(crackle(fmt::format("run -q '{}' -o '{}'", deck, whole)), 0) << printed();
-    const auto begun = std::filesystem::path(out) / "velocity_y.dat";  // the last one that is opened
+    const auto begun = std::filesystem::path(out) / "velocity_y.dat";  // the last file to be opened
     ASSERT_EQ(testing::interrupted_call(scratch_ / "", {"run", "-q", deck, "-o", out}, SIGINT,
                                         [&] { return std::filesystem::exists(begun); }),
               130);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle test` as a user calls it: exit codes, messages for input it cannot use, Ctrl-C and resuming.
+// Tests `crackle test` as called by a user: exit codes, messages for invalid input, Ctrl-C and resuming.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -34,7 +34,8 @@ class CrackleTest : public testing::ProgramCall {
   protected:
     CrackleTest() : ProgramCall("test") { write_small_case(folder_, {}); }
 
-    /// Ctrl-C as soon as standard error holds a text. @return code -1: it was ended by a signal, or never began
+    /// Sends Ctrl-C as soon as standard error contains a text. @return code -1 if a signal ended the program, or if it
+    /// did not start
     Answer interrupted_at(const std::string& text, std::vector<std::string> words) const {
         int errors[2];
         if (pipe(errors) != 0) return {};
@@ -81,7 +82,7 @@ TEST_F(CrackleTest, CheckPrintsWhatToExpectAndWritesNothing) {
     EXPECT_NE(answer.err.find("bonded "), std::string::npos) << "stages: " << answer.err;
     const Answer quiet = call("case.toml --check -q");
     EXPECT_EQ(quiet.code, 0);
-    EXPECT_EQ(quiet.err, "") << "nothing but the result";
+    EXPECT_EQ(quiet.err, "") << "only the result";
     EXPECT_NE(quiet.out.find("strength       about "), std::string::npos);
     EXPECT_TRUE(snapshot() == before) << "files were made";
 }
@@ -286,7 +287,7 @@ TEST_F(CrackleTest, ProfileAccountsForTheLoopAndChangesNoNumber) {
     for (const auto& row : profile["phases"])
         EXPECT_NEAR(row["seconds"].get<double>(), row["share"].get<double>() * seconds, 1e-9 * seconds) << row["phase"];
     const double steps = summary["steps"];
-    // The first pass is made at bonding, the last one is followed by no drift.
+    // The first force pass is made at bonding, and no drift follows the last one.
     EXPECT_EQ(profile["force_passes"].get<double>(), steps);
     EXPECT_GE(calls["force"], steps);
     EXPECT_GE(calls["integrate"], steps);
@@ -323,7 +324,7 @@ TEST_F(CrackleTest, ShowsTheLargerStressAfterThePeakAndMegapascalWhereThereIsATh
     const Answer deep = call("rubble.toml -o deep");
     EXPECT_EQ(deep.code, 0) << deep.err;
     const auto largest = read_json(folder_ / "deep/summary.json");
-    EXPECT_EQ(largest["peak_stress"], summary["largest_stress"]) << "by a drop that only the end has";
+    EXPECT_EQ(largest["peak_stress"], summary["largest_stress"]) << "with a drop that occurs only at the end";
     EXPECT_EQ(deep.out.find("largest stress"), std::string::npos) << deep.out;
     EXPECT_EQ(deep.out.find("MPa"), std::string::npos) << deep.out;
     EXPECT_TRUE(largest["out_of_plane_thickness"].is_null());
@@ -336,7 +337,7 @@ TEST_F(CrackleTest, VerifyStatesTheErrorOfTheStrength) {
     for (const char* part : {"time_step", "rate", "damping", "resolution", "stated"})
         EXPECT_TRUE(stress[part].is_number()) << part;
     EXPECT_GE(stress["stated"].get<double>(), 3.0 * stress["rate"].get<double>());
-    const double spacing = 0.005 / 2000 / summary["peak_strain"].get<double>();  // of the rows; a step may be longer
+    const double spacing = 0.005 / 2000 / summary["peak_strain"].get<double>();  // of rows; a step may be longer
     const double resolution = summary["numerical_errors"]["peak_strain"]["resolution"].get<double>();
     EXPECT_GE(resolution, 0.99 * spacing);
     EXPECT_LE(resolution, 2.0 * spacing);
@@ -411,7 +412,7 @@ TEST_F(CrackleTest, BondsDeeperThanTheirFacesAreSaid) {
 }
 
 TEST_F(CrackleTest, SignalsToEndEndCleanlyAndResumeEndsWithTheSameCurve) {
-    // Slow enough that the signal meets it while it loads, whatever the machine.
+    // Slow enough that the signal arrives during loading on any machine.
     write_small_case(folder_, {.rate = 2e-4, .max_strain = 0.005});
     EXPECT_EQ(call("case.toml -o whole -q").code, 0);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {

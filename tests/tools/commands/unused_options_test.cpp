@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An option that a command would not use for its input is an error, whatever follows it: even a file that is missing.
+// Tests that an option without effect for the given input is an error, even if the input file is missing.
 
 #include <gtest/gtest.h>
 

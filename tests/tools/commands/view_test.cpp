@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle view` and the pages it fills: what moves on the page is what the files hold, to the page's own quanta.
+// Tests `crackle view` and its pages: what moves on the page must be what the files contain, to within the page's
+// resolution.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -37,7 +38,7 @@ class ViewCommand : public ProgramCall {
     }
 };
 
-/// Numbers that differ by at most `most`; prints the largest difference.
+/// Expects numbers that differ by at most `most`; prints the largest difference.
 void expect_near(const std::string& what, const std::vector<double>& expected, const std::vector<double>& got,
                  double most) {
     ASSERT_EQ(expected.size(), got.size()) << what;
@@ -49,14 +50,14 @@ void expect_near(const std::string& what, const std::vector<double>& expected, c
 
 constexpr double growth = 0x1p-7, force_growth = 0x1p-6;  // as tools/page/page_data.hpp describes
 
-/// Numbers of which each differs by at most half a step of the page's scale at that value; prints the largest
-/// difference as a share of what is allowed.
+/// Expects numbers that each differ by at most half a step of the page's scale at that value; prints the largest ratio
+/// of difference to allowed difference.
 void expect_as_finely_as_told(const std::string& what, const std::vector<double>& expected,
                               const std::vector<double>& got, double quantum, double with_growth) {
     ASSERT_EQ(expected.size(), got.size()) << what;
     double worst = 0.0;
     for (std::size_t k = 0; k < expected.size(); ++k) {
-        // Within half a step of n the scale's slope is at most cosh(g/2) + sinh(g/2) < 1 + g times that at n.
+        // Within half a step of n, the slope of the scale is at most cosh(g/2) + sinh(g/2) < 1 + g times that at n.
         const double allowed = 0.5 * (1.0 + with_growth) * std::hypot(quantum, with_growth * expected[k]);
         worst = std::max(worst, std::abs(expected[k] - got[k]) / allowed);
     }
@@ -134,7 +135,7 @@ TEST_F(ViewCommand, ADecksBodiesAreWhereItsOutputsSay) {
         }
         EXPECT_EQ(shown.test()["frames"][f]["step"], frames[f].step);
     }
-    // Half a quantum, and the centres in single precision.
+    // Half a quantum, plus single precision of the centres.
     const double most = 0.5 * quantum * (1.0 + 1e-6) + 0x1p-24 * std::max(largest(x), largest(y));
     expect_near("x", expected_x, got_x, most);
     expect_near("y", expected_y, got_y, most);
@@ -145,7 +146,7 @@ TEST_F(ViewCommand, ADecksBodiesAreWhereItsOutputsSay) {
 }
 
 TEST_F(ViewCommand, ATurningPolygonIsCountedInWholeTurns) {
-    // A bare square, spinning at 40 rad/s: 8 turns in 1.2566 s, a frame every sixteenth of a turn.
+    // A single square spinning at 40 rad/s: 8 turns in 1.2566 s, a frame every sixteenth of a turn.
     std::filesystem::create_directories(folder_ / "deck");
     write(
         "deck/in_gm.dat",
@@ -156,14 +157,14 @@ TEST_F(ViewCommand, ATurningPolygonIsCountedInWholeTurns) {
     const PageContents shown = page("run");
     const std::size_t last = shown.test()["frames"].size() - 1;
     const double time = shown.test()["frames"][last]["time"];
-    // Positions and velocities are half a step apart; the deck's first kick is a full one, which without forces changes
-    // nothing.
+    // Positions and velocities are half a step apart. The deck's first kick is a full one, which has no effect without
+    // forces.
     const double expected = 40.0 * time, got = shown.row("angle", last)[0];
     fmt::print("  angle: expected {:.6f} rad ({:.3f} turns), got {:.6f}\n", expected,
                expected / (2.0 * std::numbers::pi), got);
     EXPECT_GT(got, 49.0);
     EXPECT_NEAR(got, expected, 1e-5);
-    // Also where whole turns lie between the frames that are shown.
+    // This must hold even if there are whole turns between the frames shown.
     const PageContents few = page("run --frames 4");
     ASSERT_EQ(few.test()["frames"].size(), 4U);
     EXPECT_NEAR(few.row("angle", 3)[0], 40.0 * few.test()["frames"][3]["time"].get<double>(), 1e-5);
@@ -171,7 +172,7 @@ TEST_F(ViewCommand, ATurningPolygonIsCountedInWholeTurns) {
 }
 
 TEST_F(ViewCommand, ADecksBondsAndBreaksAreThoseOfItsOutputs) {
-    // The guide's chain, pulled ten times as fast: its bonds break at different times.
+    // The guide's chain, pulled at ten times the speed, so that its bonds break at different times.
     std::filesystem::create_directories(folder_ / "deck");
     for (const char* name : {"in_gm.dat", "in_cf0.dat"})
         std::filesystem::copy_file(shipped_deck("chain_pulled") / name, folder_ / "deck" / name);
@@ -218,13 +219,13 @@ TEST_F(ViewCommand, ADecksBondsAndBreaksAreThoseOfItsOutputs) {
     EXPECT_EQ(body.size(), broken);
     EXPECT_EQ(shown.plain("events.shear").size(), broken);
     EXPECT_TRUE(std::ranges::is_sorted(time));
-    EXPECT_FALSE(shown.test()["arrays"].contains("events.axial_strain")) << "a deck has none";
+    EXPECT_FALSE(shown.test()["arrays"].contains("events.axial_strain")) << "a deck has no strains";
     EXPECT_FALSE(shown.test()["arrays"].contains("curve.axial_strain"));
 }
 
 TEST_F(ViewCommand, APolygonsBondsAreToldApartByTheirPlaces) {
-    // Two squares face to face, four bonds of one back-tension by symmetry; the upper one is tilted until those at one
-    // end are gone.
+    // Two squares face to face with four bonds of equal back-tension by symmetry; the upper one is tilted until those
+    // at one end are broken.
     std::filesystem::create_directories(folder_ / "deck");
     write("deck/in_gm.dat",
           "1 0 0\n1e-4 0 0\n1\n2.5 1e8 0 0 0 0\n-10 10 -10 10 0.1\n0 2 0\n"
@@ -239,7 +240,7 @@ TEST_F(ViewCommand, APolygonsBondsAreToldApartByTheirPlaces) {
     ASSERT_EQ(x.size(), 4U);
     ASSERT_EQ(testing::read_frames(folder_ / "run" / "cont2.dat").back().rows.size(), 2U) << "two are left";
     for (std::size_t bond = 0; bond < x.size(); ++bond) {
-        // Turned counter-clockwise the upper one lifts its right end.
+        // Rotating counter-clockwise, the upper square lifts its right end.
         EXPECT_EQ(state[bond], static_cast<double>(x[bond] > 0.0 ? BondState::broken : BondState::intact))
             << "bond at x = " << x[bond];
     }
@@ -248,14 +249,14 @@ TEST_F(ViewCommand, APolygonsBondsAreToldApartByTheirPlaces) {
 }
 
 TEST_F(ViewCommand, StressOfASqueezedDecksDiscIsItsForceOverItsDiameter) {
-    // A disc of radius 1 between two walls 1.98 apart: overlap 0.01 each, force 1e6, no other load.
+    // A disc of radius 1 between two walls at a distance of 1.98: overlap 0.01 each, force 1e6, no other load.
     std::filesystem::create_directories(folder_ / "deck");
     write("deck/in_gm.dat",
           "1 0 0\n1e-5 0 0\n1\n2.5 1e8 0.25e8 0 0 0\n-0.99 0.99 -10 10 0\n1 0 0\n1 1 1\n0 0 0\n1 1\n0 0 0\n");
     write("deck/in_bc.dat", "0 0 10 10 10\n0\n0\n");
     ASSERT_EQ(crackle("run -q deck -o run").code, 0) << read(err_);
     const PageContents shown = page("run");
-    // -1/A Σ f·x: two forces of 1e6 that act in the middle of the overlap, 0.995 from the centre.
+    // -1/A Σ f·x for two forces of 1e6 that act in the middle of the overlap, 0.995 from the centre.
     const double expected = 2.0 * 1e6 * 0.995 / std::numbers::pi, got = shown.row("sxx", 0)[0];
     fmt::print("  stress: expected {:.1f}, got {:.1f}\n", expected, got);
     EXPECT_NEAR(got, expected, 0.5 * growth * (1.0 + growth) * expected);
@@ -291,7 +292,7 @@ TEST_F(ViewCommand, ATestsCellsAndForcesAreThoseOfItsFrames) {
                                   normal.begin() + static_cast<std::ptrdiff_t>(fn.size()));
             got_force.insert(got_force.end(), fn.begin(), fn.end());
         }
-        // Half a quantum, and corners in single precision.
+        // Half a quantum, plus single precision of the corners.
         expect_near(mesh + " displacement", expected_x, got_x,
                     0.5 * shown.coded("ux", 0).quantum * (1.0 + 1e-6) + 0x1p-24 * largest(shown.plain("cells.x")));
         expect_as_finely_as_told(mesh + " normal force", expected_force, got_force, quantum_of(shown, "fn"),
@@ -312,7 +313,7 @@ TEST_F(ViewCommand, AnOutputStandsForItsRun) {
     }
     const Answer answer = call("run/output.dat");
     EXPECT_EQ(answer.out, "run/view.html\n") << answer.err;
-    EXPECT_EQ(page("run/new_in_gm.dat").test()["kind"], "particles") << "a particle file, which it is";
+    EXPECT_EQ(page("run/new_in_gm.dat").test()["kind"], "particles") << "a particle file";
     std::filesystem::create_directories(folder_ / "kept");
     std::filesystem::rename(folder_ / "run" / "output.dat", folder_ / "kept" / "stage1.dat");
     expect_refused("kept/stage1.dat",
@@ -340,7 +341,7 @@ TEST_F(ViewCommand, SeveralRunsStandSideBySide) {
     const std::string deck = shipped_deck("clump").string();
     const PageContents shown = page(fmt::format("'{0}/in_gm.dat' '{0}'", deck));
     EXPECT_EQ(shown.manifest["tests"].size(), 2U);
-    EXPECT_EQ(shown.test(1)["name"], "in_gm.dat (2)") << "a deck that has not run: the same file again";
+    EXPECT_EQ(shown.test(1)["name"], "in_gm.dat (2)") << "a deck that has not run: the same file";
 }
 
 TEST_F(ViewCommand, RefusesWhatItCannotShow) {
@@ -369,9 +370,9 @@ TEST_F(ViewCommand, NamesFileAndLineOfADamagedOutput) {
     expect_refused("run", fmt::format("run/output.dat:{}: body: found 'x", line));
     damaged = whole;
     write("run/output.dat",
-          damaged.insert(damaged.find(' ', damaged.find(" 4.98") + 1), "e250"));  // finite, but nowhere
+          damaged.insert(damaged.find(' ', damaged.find(" 4.98") + 1), "e250"));  // finite, but far outside
     expect_refused("run", "run: output.dat:2 to output.dat:");
-    write("run/output.dat", whole.substr(0, second_frame + 30));  // a killed run
+    write("run/output.dat", whole.substr(0, second_frame + 30));  // as left by a killed run
     EXPECT_EQ(page("run").test()["frames"].size(), 1U);
 }
 

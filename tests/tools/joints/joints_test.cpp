@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle joints` as a user calls it: the report, its JSON, the figure and the table of traces, and refusals.
+// Tests `crackle joints` as called by a user: the report, its JSON, the figure and the table of traces, and refusals.
 
 #include <gtest/gtest.h>
 
@@ -90,7 +90,8 @@ TEST_F(CrackleJoints, ASurveyIsCleanedByTheGrainOrSnapThatIsGiven) {
             EXPECT_NE(answer.out.find(text), std::string::npos) << text << '\n' << answer.out;
         const auto json = nlohmann::json::parse(call(std::string(words) + " --json").out);
         EXPECT_TRUE(agrees("snap", json["snap"].get<double>(), 0.01, 1e-12));
-        EXPECT_EQ(json["brought_together"], 1) << "the point 1e-5 m off the node of the first two rows";
+        EXPECT_EQ(json["brought_together"], 1)
+            << "the point at a distance of 1e-5 m from the node of the first two rows";
         EXPECT_EQ(json["points_left_out"], 0) << "each row turns at its points";
         EXPECT_TRUE(
             testing::within("largest displacement", json["largest_displacement"].get<double>(), 3.1622e-6, 1e-9));

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every file that states the version states the same one; tools/package/debian_changelog on CHANGELOG.md and on made-up ones."""
+"""Tests that all files state the same version; tests tools/package/debian_changelog on CHANGELOG.md and on generated texts."""
 import re
 import subprocess
 import tempfile

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of energy.dat, f-d_curve.dat and velocity_y.dat come back as curves over time, and stand so on the page.
+// Tests that rows of energy.dat, f-d_curve.dat and velocity_y.dat are read as curves over time, and appear as such on
+// the page.
 
 #include "specimens/recordings/deck_curves.hpp"
 
@@ -41,7 +42,7 @@ class DeckCurvesTest : public ProgramCall {
         }
         return "read without complaint";
     }
-    // The step was lowered to a half at step 100.
+    // The time step was halved at step 100.
     const std::vector<DeckFrameFile::Head> frames_{
         {0, 0.0, {}, 0, 0, 1}, {100, 0.01, {}, 0, 0, 2}, {200, 0.015, {}, 0, 0, 3}};
 };
@@ -89,7 +90,7 @@ TEST_F(DeckCurvesTest, AreOverStepsWhereASingleFrameTellsNoTime) {
 
 TEST_F(DeckCurvesTest, WhatIsMissingOrWasCutShortHasNoRows) {
     std::filesystem::remove(folder_ / "run" / "f-d_curve.dat");
-    write("run/energy.dat", read("run/energy.dat") + "100 1 2 3 4 5 6 7 8 9");  // killed while it was written
+    write("run/energy.dat", read("run/energy.dat") + "100 1 2 3 4 5 6 7 8 9");  // as if killed while writing
     const DeckCurves read = curves(frames_);
     EXPECT_TRUE(read.bodies.empty());
     EXPECT_EQ(read.energy.time.size(), 2U);
@@ -109,7 +110,7 @@ TEST_F(DeckCurvesTest, DamageIsNamedByFileAndLine) {
     EXPECT_NE(refusal().find("f-d_curve.dat:5: body: found '7'"), std::string::npos) << "the same body and step twice";
 }
 
-/// The shipped chain of 20 discs, of which four are watched at every step of 400.
+/// The shipped chain of 20 discs, four of which have a row at each of 400 steps.
 TEST_F(DeckCurvesTest, ThePageHasThemAndThinsThemToTheirExtremes) {
     ASSERT_EQ(call(fmt::format("run -q '{}' -o wave --steps 1700", shipped_deck("wave_chain").string())).code, 0);
     ASSERT_EQ(call("view wave -o page.html").code, 0) << read(err_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A recording made by hand, packed and taken apart again: every number within half its step, in its own column and
-// frame. Slips of a test: every row of its file, and nothing of them where there is no file.
+// Tests a recording made by hand, packed and unpacked again: every number must be within half its step, in its own
+// column and frame. For slips of a test, every row of the file must be present, and nothing if there is no file.
 
 #include "tools/page/page_data.hpp"
 
@@ -31,7 +31,7 @@ testing::PageContents packed_into(const std::filesystem::path& file, const tools
 }
 
 TEST(PageData, HoldsEveryNumberToHalfAStep) {
-    constexpr std::size_t cells = 5, frames = 20;  // more than one block
+    constexpr std::size_t cells = 5, frames = 20;  // the frames need more than one block
     Recording recording;
     for (std::size_t k = 0; k < cells; ++k) {
         RecordedCell cell;
@@ -63,7 +63,7 @@ TEST(PageData, HoldsEveryNumberToHalfAStep) {
                 const std::vector<double>& expected = all[seen + f].*field;
                 ASSERT_EQ(table.rows[f].size(), cells);
                 for (std::size_t k = 0; k < cells; ++k) {
-                    // Within half a step the scale's slope is at most 1 + growth times that at the number.
+                    // Within half a step, the slope of the scale is at most 1 + growth times that at the number.
                     const double step = (1.0 + table.growth) * std::hypot(table.quantum, table.growth * expected[k]);
                     EXPECT_NEAR(table.rows[f][k], expected[k], 0.5 * step) << "frame " << seen + f << ", cell " << k;
                 }
@@ -74,7 +74,7 @@ TEST(PageData, HoldsEveryNumberToHalfAStep) {
     EXPECT_EQ(seen, frames);
 }
 
-/// A recording of two discs and an open chain in which no two arrays are alike.
+/// A recording of two discs and an open chain in which all arrays differ.
 Recording unlike_in_everything(std::vector<RecordedFrame>& all) {
     Recording recording;
     recording.kind = Recording::Kind::test;
@@ -161,7 +161,7 @@ TEST(PageData, HoldsEveryArrayUnderItsName) {
                                                              {"events.orientation", {0.25, -0.5}},
                                                              {"events.energy", {6.0, 7.0}}};
     for (const auto& [name, expected] : plain) EXPECT_EQ(shown.plain(name), expected) << name;
-    // Eighty numbers, each 5 % above the one before: known to 2 % they are distinguished.
+    // Eighty numbers, each 5 % larger than the previous one, so a tolerance of 2 % distinguishes them.
     const auto near = [](const std::string& name, const Numbers& got, const Numbers& expected) {
         ASSERT_EQ(got.size(), expected.size()) << name;
         for (std::size_t k = 0; k < got.size(); ++k)
@@ -192,7 +192,7 @@ TEST(PageData, HoldsEveryArrayUnderItsName) {
     EXPECT_EQ(shown.coded("contacts.count", 0).rows[0], (Numbers{2.0, 2.0}));
 }
 
-/// Column `at` of a table of numbers, read here by itself.
+/// Column `at` of a table of numbers, read independently of the program.
 std::vector<double> column_of(const std::filesystem::path& file, std::size_t at) {
     std::ifstream in(file);
     std::vector<double> values;
@@ -235,7 +235,7 @@ TEST(PageData, HoldsNothingOfSlipsThatWereNotRecorded) {
     const tools::PageData without = blocks(false), with = blocks(true);
     for (const auto& [name, place] : without.manifest["arrays"].items()) {
         EXPECT_FALSE(name.starts_with("slips.")) << name;
-        EXPECT_EQ(with.manifest["arrays"][name], place) << name << ": slips stand behind all else";
+        EXPECT_EQ(with.manifest["arrays"][name], place) << name << ": slips are drawn behind everything else";
     }
     EXPECT_EQ(with.manifest["arrays"].size(), without.manifest["arrays"].size() + 5);
 }

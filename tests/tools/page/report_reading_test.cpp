@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames and tables come back as they were written; damage is found, never believed.
+// Tests that frames and tables are read as they were written, and that damage is detected.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -97,7 +97,7 @@ TEST(Base64, RefusesWhatIsNotBase64) {
         EXPECT_FALSE(decode_base64(text)) << text;
 }
 
-/// What of a point a file holds.
+/// A point with the precision of a file.
 Vec2 in_single_precision(Vec2 place) {
     return {static_cast<double>(static_cast<float>(place.x)), static_cast<double>(static_cast<float>(place.y))};
 }
@@ -123,7 +123,7 @@ TEST(ReadFrames, BodiesComeBackBitForBit) {
 }
 
 TEST(ReadFrames, ReadsArraysInSeveralBlocksAsVtkWritesThem) {
-    // 600 doubles in blocks of 1000 bytes: four full ones and a shorter fifth.
+    // 600 doubles in blocks of 1000 bytes: four full blocks and a shorter fifth one.
     std::vector<double> values(600);
     for (std::size_t k = 0; k < values.size(); ++k) values[k] = 0.1 * static_cast<double>(k);
     std::vector<unsigned char> bytes(4800), packed;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ticks, units and places of axes, by hand.
+// Tests ticks, units and positions of axes against results by hand.
 
 #include "tools/plot/axes.hpp"
 
@@ -84,7 +84,7 @@ TEST(Axes, TheNumberAtTheLastTickStaysWithinThePanel) {
         const double last = x.ticks().back();
         const double end = axes.at(last, 0.0).x + 0.5 * canvas.size_of(x.label(last)).width;
         EXPECT_LE(end, room + 1e-9) << x.label(last);
-        EXPECT_TRUE(right == 4.0 || end > room - 1e-9) << "no more than that: " << x.label(last);
+        EXPECT_TRUE(right == 4.0 || end > room - 1e-9) << "no other output: " << x.label(last);
     }
 }
 

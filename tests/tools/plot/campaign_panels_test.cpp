@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The band of several curves, by hand.
+// Tests the band of several curves against results by hand.
 
 #include "tools/plot/campaign_panels.hpp"
 
@@ -21,7 +21,7 @@ TEST(Band, IsTheMedianAndTheMiddleOfStraightLines) {
     ASSERT_EQ(band.strain.size(), 11U);
     for (std::size_t k = 0; k < band.strain.size(); ++k) {
         EXPECT_NEAR(band.median[k], 6.0 * band.strain[k], 1e-12);
-        EXPECT_NEAR(band.low[k], 2.0 * band.strain[k], 1e-12) << "a tenth of eleven lies below";
+        EXPECT_NEAR(band.low[k], 2.0 * band.strain[k], 1e-12) << "one of eleven is smaller";
         EXPECT_NEAR(band.high[k], 10.0 * band.strain[k], 1e-12);
     }
 }
@@ -43,7 +43,7 @@ TEST(Band, InterpolatesBetweenRows) {
     EXPECT_EQ(band.low[1], band.high[1]);
 }
 
-/// Places of the glyphs of an SVG.
+/// Positions of the glyphs in an SVG.
 std::vector<Point> glyphs_of(const std::string& svg) {
     pugi::xml_document document;
     EXPECT_TRUE(document.load_string(svg.c_str()));
@@ -54,7 +54,7 @@ std::vector<Point> glyphs_of(const std::string& svg) {
 }
 
 TEST(Distributions, LongLabelsAreBrokenBehindCommasAndStayOnTheSheet) {
-    constexpr double width = 241.0;  // pt, a column
+    constexpr double width = 241.0;  // pt, width of a journal column
     const auto drawn = [](const std::string& label) {
         return glyphs_of(figure({distributions("peak stress", "Pa", {{label, {1e7, 2e7}, 1.5e7, 1.2e7, 1.8e7}})}, "",
                                 width, Format::svg, {}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where figures have their marks: counted from marks of the same figure whose places are known.
+// Tests the positions of marks in figures, relative to marks of the same figure whose positions are known.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ using testing::frames_of;
 using testing::lines_of;
 
 constexpr double width = 400.0;   // pt
-constexpr double written = 2e-3;  // pt: an SVG has four digits
+constexpr double written = 2e-3;  // pt, since numbers in an SVG have four digits
 
 std::string drawn(const Panel& panel) { return figure({panel}, "", width, Format::svg, {}); }
 
@@ -42,7 +42,7 @@ struct Box {
     Vec2 middle() const { return {0.5 * (left + right), 0.5 * (top + bottom)}; }
 };
 
-/// Shapes of an SVG that are filled with a colour, in order of their drawing.
+/// Shapes of an SVG that are filled with a colour, in drawing order.
 std::vector<Box> filled(const std::string& svg, const Colour& fill) {
     pugi::xml_document document;
     EXPECT_TRUE(document.load_string(svg.c_str()));
@@ -67,7 +67,7 @@ std::vector<Box> filled(const std::string& svg, const Colour& fill) {
     return boxes;
 }
 
-/// A test of which only these columns are known.
+/// Results of a test with only these columns.
 TestResults results_of(const std::string& summary, NumberTable curve) {
     TestResults results;
     results.summary = parse_summary(summary);
@@ -75,7 +75,7 @@ TestResults results_of(const std::string& summary, NumberTable curve) {
     return results;
 }
 
-// Four magnitudes of -6.34 and two of -5.84: their bins are -6.4 to -6.3 and -5.9 to -5.8.
+// Four magnitudes of -6.34 and two of -5.84, in the intervals -6.4 to -6.3 and -5.9 to -5.8.
 TEST(MagnitudeFrequency, RingsLieAtTheMiddleOfTheirBinAndDiscsAtTheNumberAtLeastSoLarge) {
     TestResults results = results_of("{}", {});
     results.emission = NumberTable{{"moment_magnitude"}, {{-6.34, -5.84, -6.34, -6.34, -5.84, -6.34}}};
@@ -87,19 +87,19 @@ TEST(MagnitudeFrequency, RingsLieAtTheMiddleOfTheirBinAndDiscsAtTheNumberAtLeast
     const double magnitude = (high.x - low.x) / 0.5, decade = (high.y - low.y) / std::log10(6.0);
     EXPECT_NEAR(rings[1].middle().x, low.x - 0.01 * magnitude, written);
     EXPECT_NEAR(rings[2].middle().x, high.x - 0.01 * magnitude, written);
-    // From 6 at the first to 1 at the last, whose logarithm is 0.
+    // The numbers fall from 6 at the first to 1 at the last, whose logarithm is 0.
     EXPECT_NEAR(rings[1].middle().y, high.y - std::log10(4.0) * decade, written);
     EXPECT_NEAR(rings[2].middle().y, high.y - std::log10(2.0) * decade, written);
     for (int k = 1; k <= 6; ++k)
         EXPECT_NEAR(discs[static_cast<std::size_t>(k)].middle().y, high.y - std::log10(7.0 - k) * decade, written) << k;
-    // The axis: magnitudes of 0.5 take what the frame has of its scale, and its foot lies below 0.
+    // On the axis, a magnitude of 0.5 has the length given by the frame's scale, and its lower end is below 0.
     const auto frames = frames_of(svg);
     ASSERT_EQ(frames.size(), 1U);
     EXPECT_GT(frames[0][1].y, high.y);
     EXPECT_LT(frames[0][0].x, low.x);
 }
 
-// Events of the sample come from the lower end upwards.
+// Events of the sample move from the lower end upwards.
 TEST(EmissionMap, EarlyEventsAreVioletAndLateOnesYellow) {
     const testing::ScratchFolder scratch;
     testing::SampleTest heard;
@@ -113,7 +113,7 @@ TEST(EmissionMap, EarlyEventsAreVioletAndLateOnesYellow) {
     EXPECT_GT(early[0].middle().y, late[0].middle().y + 50.0) << "the lower end is the larger y";
 }
 
-// Intervals of 0.1 thousandths: breaks at 2 and at 4 thousandths belong to those that end there.
+// With intervals of 0.1 thousandths, breaks at 2 and at 4 thousandths belong to the intervals that end there.
 TEST(Breaks, BarsStandAtTheirIntervals) {
     TestResults results =
         results_of(R"({"kind": "compression"})", {{"axial_strain", "bonds_broken"}, {{0.0, 3e-3, 6e-3}, {0, 1, 2}}});
@@ -128,9 +128,9 @@ TEST(Breaks, BarsStandAtTheirIntervals) {
     EXPECT_NEAR(bars[0].right - bars[0].left, 0.9 * 0.1 * thousandth, 10.0 * written);
 }
 
-// Under the pressure p the stress is p + Eε, and the sides move by νε + 50ε². The area's strain is (1-ν)ε - 50ε², of
-// which (1-ν)ε is elastic and -50ε² is of cracks: 3.2e-3 and -0.8e-3 at ε = 4e-3. With p in the elastic part the curves
-// would begin apart by (1-ν)p/E = 8e-4.
+// Under a pressure p the stress is p + Eε, and the sides move by νε + 50ε². The area strain is (1-ν)ε - 50ε², of which
+// (1-ν)ε is elastic and -50ε² is due to cracks: 3.2e-3 and -0.8e-3 at ε = 4e-3. If p were included in the elastic part,
+// the curves would be (1-ν)p/E = 8e-4 apart at the beginning.
 TEST(AreaStrain, OfCracksCountsFromThePressure) {
     constexpr double modulus = 1e9, ratio = 0.2, pressure = 1e6;
     NumberTable curve{{"axial_strain", "lateral_strain", "axial_stress"}, {{}, {}, {}}};
@@ -147,14 +147,14 @@ TEST(AreaStrain, OfCracksCountsFromThePressure) {
     std::vector<std::vector<Vec2>> curves;
     for (const std::vector<Vec2>& line : lines_of(drawn(area_strain({{&results, "one"}}))))
         if (line.size() > 10) curves.push_back(line);
-    ASSERT_EQ(curves.size(), 2U) << "of the area, then of the cracks";
+    ASSERT_EQ(curves.size(), 2U) << "first the area, then the cracks";
     const double unit = (curves[0].front().y - curves[0].back().y) / 2.4e-3;
-    EXPECT_GT(unit * 2.4e-3, 50.0) << "pt, many times what is written";
+    EXPECT_GT(unit * 2.4e-3, 50.0) << "pt, many times the written size";
     EXPECT_NEAR(curves[1].front().y, curves[0].front().y, written);
     EXPECT_NEAR(curves[1].back().y - curves[1].front().y, 0.8e-3 * unit, 2.0 * written);
 }
 
-// Circles as those of the program's own test: from σ3 to σ1, and from -T to 0.
+// Circles as in the test of the program: from σ3 to σ1, and from -T to 0.
 TEST(MohrCircles, OfTensionsEndAtMinusTheirStrength) {
     std::vector<StrengthPoint> tests;
     for (const double pressure : {0.0, 10e6, 20e6})
@@ -176,7 +176,7 @@ TEST(MohrCircles, OfTensionsEndAtMinusTheirStrength) {
     EXPECT_NEAR(circles[3].right - circles[0].left, 0.0, 10.0 * written);
 }
 
-// Means 1, 2, 3 over 1, 2, 3; the second interval reaches farther up.
+// Means 1, 2, 3 at x = 1, 2, 3; the second interval extends farther upwards.
 TEST(OverAxis, TheLineGoesThroughTheMeans) {
     const Series series{
         "one",
@@ -191,7 +191,7 @@ TEST(OverAxis, TheLineGoesThroughTheMeans) {
     EXPECT_LT(lines[0][2].y, lines[0][0].y - 20.0);
 }
 
-// A parabola with its peak in row 10, and cracks that begin at the stress of row 4.
+// A parabola with its peak in row 10; cracks begin at the stress of row 4.
 TEST(StressStrain, MarksLieOnTheCurve) {
     NumberTable curve{{"axial_strain", "axial_stress", "bonds_broken"}, {{}, {}, {}}};
     for (int k = 0; k <= 20; ++k) {
@@ -214,7 +214,7 @@ TEST(StressStrain, MarksLieOnTheCurve) {
         EXPECT_NEAR(at.x, on.x, written) << row;
         EXPECT_NEAR(at.y, on.y, written) << row;
     }
-    // Its own place by the axes: strain and stress 0 are their corner.
+    // Its position from the axes: strain and stress 0 are at their corner.
     const std::vector<Vec2> frame = frames_of(svg)[0];
     EXPECT_NEAR(lines[0][0].x, frame[1].x, written);
     EXPECT_NEAR(lines[0][0].y, frame[1].y, written);
@@ -270,7 +270,7 @@ TEST(TraceMap, TracesLieInTheirBox) {
     const std::string svg = drawn(trace_map(one_trace()));
     const std::vector<Vec2> frame = frames_of(svg)[0];
     const double metre = 0.5 * (frame[2].x - frame[1].x);
-    EXPECT_NEAR(frame[1].y - frame[0].y, metre, written) << "both axes at one scale";
+    EXPECT_NEAR(frame[1].y - frame[0].y, metre, written) << "both axes have the same scale";
     bool found = false;
     for (const std::vector<Vec2>& line : lines_of(svg)) {
         if (line.size() != 2) continue;
@@ -282,7 +282,7 @@ TEST(TraceMap, TracesLieInTheirBox) {
     EXPECT_TRUE(found);
 }
 
-// All traces at 30 degrees, in the bin from 25 to 35: two petals, whose outer edges lie there and opposite.
+// All traces are at 30 degrees, in the interval from 25 to 35: two petals, with outer edges there and opposite.
 TEST(TraceRose, PetalsPointAlongTheTraces) {
     JointReport report;
     report.sources.resize(1);

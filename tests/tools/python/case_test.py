@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Cases in Python are those of the command line: the same keys, defaults and refusals."""
+"""Tests that cases in Python have the same keys, defaults and error messages as on the command line."""
 import ast
 import copy
 import inspect
@@ -133,7 +133,7 @@ class Cases(InScratch):
 
 class Importing(unittest.TestCase):
     def test_importing_loads_no_numpy(self):
-        # What makes an import slow; a notebook that only reads a summary need not wait for it.
+        # Modules that make an import slow are loaded only when needed.
         script = "import crackle, sys; print('numpy' in sys.modules, 'IPython' in sys.modules)"
         told = subprocess.run([sys.executable, "-c", script],
                               capture_output=True, text=True, check=True, env=os.environ).stdout
@@ -162,11 +162,11 @@ class Importing(unittest.TestCase):
 
 
 class Stubs(unittest.TestCase):
-    """What editors complete by is what there is."""
+    """The stubs that editors use for completion agree with the module."""
 
     @staticmethod
     def arguments(function):
-        """Names, of a definition in the stubs."""
+        """Names of the parameters of a definition in the stubs."""
         return [one.arg for one in function.args.args if one.arg != "self"]
 
     def assert_same_arguments(self, name, stub, function):
@@ -188,7 +188,7 @@ class Stubs(unittest.TestCase):
             told = {part.target.id if isinstance(part, ast.AnnAssign) else part.name: part for part in stub.body}
             told.pop("__init__", None)
             if name == "World":
-                own["stop"] = None  # never comes back, which the stub says
+                own["stop"] = None  # NoReturn in the stub, which the engine's signature cannot state
             self.assertEqual(sorted(told), sorted(own), name)
             for part, value in own.items():
                 method = isinstance(told[part], ast.FunctionDef) and not told[part].decorator_list

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Commands as functions: the same files and numbers as the command line's, the same options, the same refusals."""
+"""Tests that functions have the same files, numbers, options and error messages as the commands."""
 import inspect
 import json
 import os
@@ -21,12 +21,12 @@ from small import CASE, PLAN, ROCK_KEYS, ROCK_KINDS, TOP, InScratch, program, ro
 
 PACKING = dict(count=60, radius_min=0.01333, radius_max=0.02667, mean_overlap=7.74e-5)
 WORDS = ("--count", 60, "--radius-min", 0.01333, "--radius-max", 0.02667, "--mean-overlap", 7.74e-5)
-# What a function of Python has no need of.
+# Options that Python functions do not need.
 OF_A_TERMINAL = {"quiet", "verbose", "help", "keys", "files", "json", "dry-run"}
 
 
 class Options(unittest.TestCase):
-    """A keyword for each option, so that neither grows without the other."""
+    """Functions have a keyword for each option of their command, and no others."""
 
     def test_keywords_are_the_options(self):
         others = {"pack": set(), "mesh": set(), "joints": set(), "elastic": {"bonds", "force"},
@@ -61,7 +61,7 @@ class Particles(InScratch):
         x1, x2, y1, y2 = made.domain
         area = numpy.pi * (circles["radius"] ** 2).sum()
         self.assertAlmostEqual(((x2 - x1) * (y2 - y1) - area) / area, made.facts["void_ratio"], delta=1e-12)
-        # Every pair, and every wall, by hand.
+        # Overlaps of all pairs and walls, computed directly.
         x, y, radius = circles["centre"]["x"], circles["centre"]["y"], circles["radius"]
         apart = radius[:, None] + radius[None, :] - numpy.hypot(x[:, None] - x[None, :], y[:, None] - y[None, :])
         touches = (apart > 0) & ~numpy.eye(60, dtype=bool)
@@ -82,13 +82,13 @@ class Particles(InScratch):
         self.assertAlmostEqual(facts["anisotropy"], abs(of_x - of_y) / (of_x + of_y), delta=1e-9)
         self.assertEqual((facts["radius_min"], facts["radius_max"]), (radius.min(), radius.max()))
         self.assertEqual((facts["width"], facts["height"]), (x2 - x1, y2 - y1))
-        self.assertEqual(facts["radius_scale"], 1.0, "of a count that is given")
+        self.assertEqual(facts["radius_scale"], 1.0, "the given count is kept")
         pairs = numpy.triu(numpy.where(touches, apart, 0.0))
         overlaps = {"all": [pairs[pairs > 0], *(one[one > 0] for one in walls.values())],
                     "platens'": [pairs[pairs > 0], *(walls[name][walls[name] > 0] for name in ("bottom", "top"))]}
         mean = {name: numpy.concatenate(each).mean() for name, each in overlaps.items()}
         self.assertAlmostEqual(facts["mean_overlap"] / mean["platens'"], 1.0, delta=1e-9)
-        # Forces over the mean one, with a stiffness of 1.
+        # Forces divided by the mean force, for a stiffness of 1.
         way = numpy.hypot(x[:, None] - x[None, :], y[:, None] - y[None, :]) + numpy.eye(60)
         push = numpy.where(touches, apart / way, 0.0)
         force_x = (push * (x[:, None] - x[None, :])).sum(axis=1) + walls["left"] - walls["right"]
@@ -328,7 +328,7 @@ class Tables(InScratch):
         self.assertEqual(f"crackle: {refused.exception}\n", program("envelope", folders[0], "--json").stderr)
 
     def test_a_calibration_is_the_programs(self):
-        # What a laboratory would find of the known rock: the means of the packings that the search fits.
+        # The target values are means over the packings of the search, for a rock with known keys.
         solved = [crackle.elastic(rock_case("compression") | {"packing": {**rock_case("compression")["packing"],
                                                                           "seed": seed}}) for seed in range(1, 5)]
         write_rock({figure: float(numpy.mean([one[figure] for one in solved]))

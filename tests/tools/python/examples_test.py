@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The examples of specimens/python run, and print what stands at their ends: lines that begin with #>."""
+"""Tests that the examples of specimens/python run and print the expected output, which is given at the end of each file in lines that begin
+with #>."""
 import os
 import subprocess
 import sys

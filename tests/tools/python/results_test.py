@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Results read from their folders: numbers as they were written, figures and pages as the program draws them."""
+"""Tests results that are read from folders: the numbers are those of the files, and figures and pages those of the program."""
 import base64
 import contextlib
 import csv
@@ -59,7 +59,7 @@ class Results(InScratch):
         self.assertEqual(len(end.uy), len(cells.id))
         moved = end.uy[cells.platen]
         strain = recording.frames[-1]["axial_strain"]
-        # Single precision of the points in a frame.
+        # Points in a frame have single precision.
         numpy.testing.assert_allclose(moved.max() - moved.min(), strain * self.result.summary["initial_height"],
                                       rtol=1e-3)
         self.assertEqual((end.bond_state == 2).sum(), self.result.summary["bonds_broken"])
@@ -92,10 +92,10 @@ class Results(InScratch):
         for name in ("time", "axial_strain", "axial_stress"):
             self.assertEqual(recording.frames[-1][name], float(particles[name][0]), name)
         self.assertEqual(recording.frames[-1]["roles"], ["end"])
-        # The bonds come first, then what else touches.
+        # Bonds come first, followed by other contacts.
         bonds = squeezed.summary["bonds_initial"]
         self.assertEqual(len(end.bond_state), bonds)
-        self.assertGreater(len(contacts["state"]), bonds + 2, "something touches anew")
+        self.assertGreater(len(contacts["state"]), bonds + 2, "some contacts are not bonds")
         numpy.testing.assert_array_equal(end.bond_state, contacts["state"][:bonds])
         numpy.testing.assert_array_equal(ids[recording.bonds.i], contacts["body_i"][:bonds])
         numpy.testing.assert_array_equal(ids[recording.bonds.j], contacts["body_j"][:bonds])
@@ -105,7 +105,7 @@ class Results(InScratch):
             numpy.testing.assert_array_equal(end["bond_" + name], contacts[name][:bonds], name)
             numpy.testing.assert_array_equal(end["contact_" + name], contacts[name][bonds:], name)
         for k, name in enumerate(("contact_x", "contact_y")):
-            places = contacts["points"][-len(contacts["state"]):]  # behind the particles'
+            places = contacts["points"][-len(contacts["state"]):]  # after those of the particles
             numpy.testing.assert_allclose(end[name], places[bonds:, k], rtol=1e-6)
 
     def test_a_result_shows_itself(self):
@@ -126,7 +126,7 @@ class Results(InScratch):
         words = ("-o", "by_program.svg", "--what", "curve", "--width", 90)
         self.assertEqual(program("plot", self.result.folder, *words).returncode, 0)
 
-        def drawn(text):  # cairo counts its surfaces
+        def drawn(text):  # cairo numbers its surfaces
             return re.sub(r"(surface|glyph|clip|image|source|mask)-?[0-9]+(-[0-9]+)?", r"\1", text)
         by_program = drawn(Path("by_program.svg").read_text())
         self.assertEqual(drawn(Path("by_python.svg").read_text()), by_program)
@@ -173,7 +173,7 @@ class Results(InScratch):
 
 
 class Ledgers(InScratch):
-    """A small campaign or calibration, in a folder that an address would take apart."""
+    """A small campaign or calibration, in a folder whose name contains characters with a meaning in URIs."""
 
     def setUp(self):
         super().setUp()

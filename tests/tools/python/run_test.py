@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests run from Python are the command line's to the byte; callbacks see, stop and drive them; what goes wrong in
-between ends them with what was written kept."""
+"""Tests virtual tests that are run from Python. They give the same bytes as the command line. Callbacks observe, stop and drive
+them. After an error, the files written so far are kept."""
 import contextlib
 import gc
 import io
@@ -103,7 +103,7 @@ class SameBytes(InScratch):
         self.assertTrue(crackle.read(folder).summary["interrupted"])
         self.assertFalse(crackle.resume(folder).summary["interrupted"])
         self.assert_same_results("by_program", folder)
-        # A test that has not begun leaves nothing.
+        # A test that is refused before it begins leaves no files.
         with self.assertRaises(crackle.InputError) as refused:
             crackle.test(small(loading={"axial_strain_rate": 1e-12}))
         self.assertFalse(hasattr(refused.exception, "__notes__"))
@@ -155,7 +155,8 @@ class Callbacks(InScratch):
                 self.assertEqual(again.curve.axial_strain[-1], last)
 
     def test_the_platen_goes_where_it_is_driven(self):
-        # A saw-tooth below the strength: down the way that it went up, up to what dashpots and inertia make of it.
+        # A saw-tooth below the strength: unloading follows the path of loading, except for forces of dashpots and
+        # inertia.
         turns = iter([(0.00006, -1.0), (0.00002, 1.0), (0.0001, None)])
         self.turn = next(turns)
 
@@ -176,7 +177,7 @@ class Callbacks(InScratch):
         self.assertLess(strain[top:].min(), 0.000025)
         self.assertTrue(any("speed is the caller's from strain" in text for text in result.summary["notices"]))
         modulus = result.summary["youngs_modulus"]
-        # Loaded at 0.02 1/s from rest: the platen's jump of speed sends a wave of stress sqrt(E ρ) v each way.
+        # Loading at 0.02 1/s begins from rest: the jump of the platen's speed v sends a wave of stress sqrt(E ρ) v.
         wave = 2.0 * (modulus * CASE["material"]["density"]) ** 0.5 * 0.02 * result.summary["initial_height"]
         self.assertLess(numpy.abs(stress[1:] - modulus * strain[1:]).max(), 3.0 * wave)
 
@@ -275,7 +276,7 @@ class Callbacks(InScratch):
 
 
 class Progress(InScratch):
-    """How far it is: on a terminal, in a notebook, nowhere else."""
+    """Progress is shown on a terminal and in a notebook, and nowhere else."""
 
     SCRIPT = f"""
 import sys
@@ -286,7 +287,7 @@ crackle.test(small(packing={{"count": 300}}))
 """
 
     def on_a_terminal(self, script):
-        """What a terminal is sent while a script runs."""
+        """The output of a script on a terminal."""
         pid, terminal = os.forkpty()
         if pid == 0:
             os.environ["TERM"] = "xterm"
@@ -349,7 +350,7 @@ crackle.test(small(packing={{"count": 300}}))
         told = io.StringIO()
         display.display = lambda shown, display_id: Handle()
         sys.modules.update({"IPython": fake, "IPython.display": display})
-        fast = small(packing={"count": 300}, loading={"axial_strain_rate": 0.02})  # of which there is a notice
+        fast = small(packing={"count": 300}, loading={"axial_strain_rate": 0.02})  # this rate causes a notice
         try:
             with contextlib.redirect_stderr(told):
                 result = crackle.test(fast)
@@ -401,7 +402,7 @@ except KeyboardInterrupt:
 world = crackle.World(case)
 try:
     print("running", flush=True)
-    while True:  # a signal between the calls is heard as well
+    while True:  # a signal between two calls is handled too
         world.step(10**9)
 except KeyboardInterrupt:
     before = world.steps
@@ -483,7 +484,7 @@ except KeyboardInterrupt as interrupt:
             asked = world.threads
             child = os.fork()
             if child == 0:
-                signal.alarm(30)  # ends one that hangs
+                signal.alarm(30)  # ends a process that hangs
                 try:
                     use(world)
                     os._exit(0 if asked == 1 else 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the tests of the module share: a small rock, the program, the shipped specimens."""
+"""Shared by the tests of the module: a small rock, the program, the shipped specimens."""
 import copy
 import os
 import subprocess
@@ -21,7 +21,7 @@ CASE = {
 
 
 def small(**tables):
-    """The small case with keys of its tables changed."""
+    """The small case with changed keys."""
     case = copy.deepcopy(CASE)
     for table, keys in tables.items():
         if isinstance(keys, dict):
@@ -44,7 +44,7 @@ values = [0.02, 0.04]
 count = 2
 """
 
-# A rock of a hundred circles whose keys are known, and the kinds of its tests.
+# A rock of a hundred circles with known keys, and the kinds of its tests.
 ROCK_KEYS = {"material.contact_modulus": 2e10, "material.stiffness_ratio": 2.5}
 ROCK_KINDS = {"compression": 0.03, "tension": 0.008}
 
@@ -60,7 +60,7 @@ def rock_case(kind):
 
 
 def write_rock(targets):
-    """compression.toml, tension.toml, and rock.toml with targets of the compression and the elastic keys free."""
+    """Writes compression.toml, tension.toml, and rock.toml, in which the elastic keys are free and the targets are those of the compression test."""
     for kind in ROCK_KINDS:
         Path(kind + ".toml").write_text(toml(rock_case(kind)), encoding="utf-8")
     lines = ['title = "Circles"']
@@ -89,7 +89,7 @@ def program(*words):
 
 
 class InScratch(unittest.TestCase):
-    """In an empty folder of its own."""
+    """Runs each test in an empty folder of its own."""
 
     def setUp(self):
         self._before = os.getcwd()

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Worlds that Python steps: the same motion as the program's, arrays over the engine's memory, bonds and laws changed
-while it runs, and no way to crash it."""
+"""Tests worlds that Python steps: the same motion as in the program, arrays that view the engine's memory, changes of bonds and laws
+between steps, and errors instead of crashes."""
 import gc
 import subprocess
 import sys
@@ -21,7 +21,7 @@ class Worlds(InScratch):
         one, other = crackle.World(CASE), crackle.World(CASE)
         one.step(5000)
         for _ in range(50):
-            views = other.bodies, other.pairs, other.shear_forces  # held over steps
+            views = other.bodies, other.pairs, other.shear_forces  # kept while the world steps
             other.step(100)
         self.assertEqual(one.state_hash(), other.state_hash())
         self.assertEqual((one.steps, other.steps), (5000, 5000))
@@ -42,12 +42,12 @@ class Worlds(InScratch):
     def test_own_loading_follows_the_modulus(self):
         world = crackle.World(CASE)
         linear = crackle.elastic(CASE)
-        target = 0.5 * linear["first_slip"]["strain"]  # below it the solution is exact
+        target = 0.5 * linear["first_slip"]["strain"]  # below the strain of the first slip, the linear solution is exact
         world.platen_speed = 5e-5 * target * world.length / world.time_step
         while world.axial_strain < target:
             world.step(100)
         world.platen_speed = 0.0
-        world.step(100_000)  # rests, except a particle that nothing holds
+        world.step(100_000)  # comes to rest, except for unbonded particles
         row = world.row()
         self.assertEqual((row["bonds_slid"], row["bonds_broken"]), (0, 0))
         self.assertAlmostEqual(row["axial_stress"] / (linear["youngs_modulus"] * row["axial_strain"]), 1.0, delta=1e-3)
@@ -94,7 +94,7 @@ class Arrays(InScratch):
         late_copy = late.copy()
         del world
         gc.collect()
-        numpy.zeros(10**6)  # takes the memory that is free
+        numpy.zeros(10**6)  # reuses freed memory
         self.assertEqual(view.tobytes(), copy.tobytes())
         self.assertEqual(late.tobytes(), late_copy.tobytes())
         self.assertNotEqual(view.tobytes(), late.tobytes())
@@ -127,7 +127,7 @@ class Arrays(InScratch):
         total = numpy.array([forces["fx"][inner].sum(), forces["fy"][inner].sum()])
         driven = numpy.array([forces["fx"][~inner].sum(), forces["fy"][~inner].sum()])
         scale = numpy.abs(world.contacts()["normal_force"]).sum()
-        self.assertLess(numpy.abs(total + driven).max(), 1e-12 * scale)  # action is reaction, to rounding
+        self.assertLess(numpy.abs(total + driven).max(), 1e-12 * scale)  # forces cancel, except for rounding
 
     def test_contacts_are_those_of_the_world(self):
         world = crackle.World(CASE)
@@ -144,7 +144,7 @@ class Arrays(InScratch):
         i, j = contacts["body_i"][circles], contacts["body_j"][circles]
         apart = numpy.hypot(bodies["x"][j] - bodies["x"][i], bodies["y"][j] - bodies["y"][i])
         numpy.testing.assert_allclose(radii[i] + radii[j] - apart, contacts["overlap"][circles], atol=1e-14)
-        # Where both surfaces are as far off: half the overlap behind that of i, along the normal from i to j.
+        # The contact point is halfway between both surfaces, half the overlap inside the surface of i.
         way = radii[i] - 0.5 * contacts["overlap"][circles]
         for axis in ("x", "y"):
             numpy.testing.assert_allclose(contacts["position"][axis][circles], bodies[axis][i] + way * normals[axis][circles],
@@ -165,7 +165,7 @@ class Arrays(InScratch):
         self.assertAlmostEqual(world.platen_speed / (rate * world.length), 1.0, delta=1e-12)
         self.assertAlmostEqual(world.axial_strain / (rate * world.time), 1.0, delta=1e-9)
         self.assertAlmostEqual((world.bodies["y"][top] - before["y"][top]) / (world.axial_strain * world.length), 1.0, delta=1e-6)
-        self.assertAlmostEqual(world.time / (2000 * world.time_step), 1.0, delta=0.05)  # the step follows the bound
+        self.assertAlmostEqual(world.time / (2000 * world.time_step), 1.0, delta=0.05)  # the time step follows its bound
         self.assertAlmostEqual(world.forces["fy"][top] / (-world.row()["stress_top"] * world.section), 1.0, delta=1e-12)
         discs = ~numpy.isin(world.names["id"], world.platens)
         radius = world.bodies["shape"][discs, 0]
@@ -182,8 +182,9 @@ class Arrays(InScratch):
             numpy.testing.assert_array_equal(contacts[name], (flags & flag) != 0, name)
         numpy.testing.assert_array_equal(contacts["bond_overlap"], world.bond_overlaps[at])
         bonded = contacts[contacts["bonded"]]
-        self.assertTrue((bonded["bond_overlap"] != bonded["overlap"]).any(), "they have moved")
-        # Springs and back-tension alone bear what a body has: the sum over its points, shear along the normal turned left.
+        self.assertTrue((bonded["bond_overlap"] != bonded["overlap"]).any(), "bodies have moved")
+        # A body's force is the sum over its points of the forces of springs and back-tension; positive shear is along
+        # the normal turned left by 90 degrees.
         normal, shear = contacts["normal_force"], contacts["shear_force"]
         nx, ny = contacts["normal"]["x"], contacts["normal"]["y"]
         self.assertGreater(numpy.abs(shear).sum(), 0.05 * numpy.abs(normal).sum())
@@ -194,7 +195,7 @@ class Arrays(InScratch):
                                       atol=1e-2 * numpy.abs(circles["normal_force"]).max())
 
     def test_the_first_arrays_of_several_threads(self):
-        # numpy is loaded with the first array, which gives up the interpreter's lock.
+        # The first array imports numpy, which releases the interpreter's lock.
         done = subprocess.run([sys.executable, "-c", f"""
 import sys, threading
 sys.path.insert(0, {str(Path(__file__).parent)!r})
@@ -219,7 +220,7 @@ print("looked")
 
 class Changes(InScratch):
     def unbonded(self):
-        """@return world of a packing's discs, ids of the two that overlap most, their contact"""
+        """@return world of a packing, ids of the two discs with the largest overlap, their contact"""
         particles = crackle.pack(count=40, radius_min=0.01, radius_max=0.02, mean_overlap=1e-4)
         world = crackle.World(particles, walls=False)
         contacts = world.contacts()
@@ -234,15 +235,15 @@ class Changes(InScratch):
     def test_an_added_bond_holds_and_breaks_at_its_back_tension(self):
         world, i, j, contact = self.unbonded()
         self.assertEqual(world.add_bond(i, j), 1)
-        self.assertEqual(world.add_bond(i, j), 0, "has one already")
+        self.assertEqual(world.add_bond(i, j), 0, "the pair is already bonded")
         self.assertEqual((world.bonds_initial, world.bonds_broken), (1, 0))
         bonded = world.contacts()
         bonded = bonded[bonded["bonded"]][0]
         self.assertEqual(bonded["normal_force"], 0.0)
         self.assertEqual(bonded["bond_overlap"], contact["overlap"])
-        # Everything else aside, and j pulled along the normal at a speed that the step resolves.
+        # All other bodies are fixed, and j is pulled along the normal with a small displacement per step.
         for body in world.names["id"]:
-            world.drive(int(body), 0.0, 0.0)  # may turn
+            world.drive(int(body), 0.0, 0.0)  # may rotate
         nx, ny = float(bonded["normal"]["x"]), float(bonded["normal"]["y"])
         speed = 1e-4 * bonded["overlap"] / world.time_step
         world.drive(j, speed * nx, speed * ny)
@@ -251,7 +252,7 @@ class Changes(InScratch):
         pull = world.contacts()
         pull = pull[pull["bonded"]][0]["normal_force"]
         stiffness = float(world.laws["normal_stiffness"][0])
-        # Back-tension: f = -k (δ0 - δ), and it is lost at δ = 0, k δ0.
+        # Back-tension: f = -k (δ0 - δ); the bond breaks at δ = 0, with a force of k δ0.
         self.assertAlmostEqual(pull / (-stiffness * 0.999 * contact["overlap"]), 1.0, delta=2e-4)
         world.step(20)
         self.assertEqual(len(world.events), 1)
@@ -287,7 +288,7 @@ class Changes(InScratch):
         before, energy = world.time_step, world.bonds_initial
         world.set_property("normal_stiffness", 4.0e7)
         self.assertEqual(world.laws["normal_stiffness"][0], 4.0e7)
-        # All springs in the normal direction four times as stiff: the step falls, by half at most.
+        # All normal springs become four times as stiff, which reduces the time step to half at most.
         self.assertLess(world.time_step, 0.75 * before)
         self.assertGreaterEqual(world.time_step, 0.5 * before)
         self.assertEqual(world.bonds_initial, energy)
@@ -379,7 +380,7 @@ class Changes(InScratch):
             world.step(100_000)
         self.assertGreater(unstable.exception.step, 0)
         self.assertEqual(unstable.exception.body, world.names["id"][10])
-        self.assertEqual(len(world.bodies), 62)  # still there to be looked at
+        self.assertEqual(len(world.bodies), 62)  # the bodies can still be read
 
     def test_two_threads_on_one_world(self):
         world = crackle.World(small(packing={"count": 300}))

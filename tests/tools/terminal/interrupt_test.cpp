@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a first and a second signal do to work that polls for none.
+// Tests the effect of a first and a second signal on work that does not poll for interrupts.
 #include "tools/terminal/interrupt.hpp"
 
 #include <gtest/gtest.h>
@@ -14,10 +14,10 @@
 namespace crackle::tools {
 namespace {
 
-/// A process that gets a signal and works on for so long, as one in a call of a library.
+/// A process that receives a signal and continues to work for some time, as in a library call.
 class DeafWork {
   public:
-    /// @param last_words of end_unheard() @param asks  whether it asks for interrupts once, at first
+    /// @param last_words as for end_unheard() @param asks whether it polls for interrupts once, at the beginning
     DeafWork(int signal, std::chrono::milliseconds longer, const char* last_words = nullptr, bool asks = false) {
         int errors[2];
         EXPECT_EQ(pipe(errors), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What reaches a terminal is text: none of its commands, whatever names hold.
+// Tests that a terminal receives only text and no control sequences, whatever names contain.
 
 #include "tools/terminal/printable.hpp"
 
@@ -32,10 +32,10 @@ TEST(Printable, WhatIsNoUtf8IsSpelledOut) {
                         "n"),
               "gr\\xfcn");
     EXPECT_EQ(printable("\xe2\x82"), "\\xe2\\x82") << "cut off";
-    EXPECT_EQ(printable("\xc0\x9b"), "\\xc0\\x9b") << "too long a form";
+    EXPECT_EQ(printable("\xc0\x9b"), "\\xc0\\x9b") << "an overlong encoding";
     EXPECT_EQ(printable("\xe0\x82\x9b"), "\\xe0\\x82\\x9b") << "likewise";
-    EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80") << "a half of UTF-16";
-    EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80") << "beyond the last letter";
+    EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80") << "an unpaired UTF-16 surrogate";
+    EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80") << "beyond the last character";
 }
 
 TEST(Printable, ProgressIsCutOnlyAfterwards) { EXPECT_EQ(progress_text({.detail = "\x1b\x1b\x1b"}, 6), "\\x1b\\x"); }

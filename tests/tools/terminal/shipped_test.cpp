@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shipped cases are found from any folder, by the built program and by one that was installed and moved. Calls run in
-// a scratch folder.
+// Tests that shipped cases are found from any folder, by the built program and by an installed program that was moved.
+// Programs run in a temporary folder.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -343,13 +343,13 @@ class Page {
         this.goTo(({test}) => panel.members.some((member) => member.test === test), 'strain', strain);
     }
 
-    /// @param ofPanel  whether the panel that was clicked shows this test
+    /// @param ofPanel returns whether the panel that was clicked shows a test
     private goTo(ofPanel: (view: SpecimenView) => boolean, axis: 'strain' | 'time', value: number): void {
         const {viewer} = this;
         if (!viewer) return;
         let view = viewer.chosen.find(ofPanel);
         if (!view) {
-            // If no test of the panel is shown, its first one is.
+            // If no test of the panel is shown, the panel's first test is shown.
             view = viewer.tests.find(ofPanel);
             if (!view) return;
             viewer.choose({test: viewer.tests.indexOf(view)});

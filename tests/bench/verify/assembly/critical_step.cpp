@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Critical steps: one spring and dashpot, chains and lattices of equal discs. Whether the exact step of a specimen
-// is right is shown by exact_step.cpp.
+// Critical time steps: one spring with a dashpot, chains and lattices of equal discs. The exact step of whole specimens
+// is checked in exact_step.cpp.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -27,15 +27,15 @@ namespace critical_step_scenes {
 namespace {
 
 constexpr double radius = 0.02, overlap = 8e-5, kn = 1e7;
-constexpr double lever = 1.0 - overlap / (2.0 * radius);  // of a contact's shear spring, over the radius
+constexpr double lever = 1.0 - overlap / (2.0 * radius);  // of the shear spring, relative to the radius
 
-/// Largest way from rest of a disc that hangs deep in a floor, m, stopped at 1e-5.
+/// Largest displacement of a disc that is pressed deep into a floor, m; the run stops at 1e-5.
 double excursion(double h, double time_step, double& bound) {
     Scene scene;
     scene.materials = {rock(0.0)};
     scene.materials[0].damping_ratio = h;
     scene.domain = {-10.0, 10.0, 0.0, 10.0, {false, false, true, false}};
-    scene.gravity = {0.0, -9.81e3};  // so deep that it never parts
+    scene.gravity = {0.0, -9.81e3};  // large enough that the contact never opens
     scene.add_circle_body(1, 0, {{0.0, radius}, radius, 0.0});
     const double rest = radius - mass_properties(scene, scene.bodies[0]).mass * 9.81e3 / kn;
     scene.circles[0].centre.y = rest;
@@ -60,9 +60,10 @@ std::vector<ClaimRow> critical_step_of_a_spring_and_dashpot() {
         double bound = 0.0;
         const double below = excursion(h, 0.99 * limit, bound), above = excursion(h, 1.01 * limit, bound);
         rows.relative(fmt::format("h {}: the engine's bound, s", h), bound, limit, 1e-9, "rounding");
-        // The first swing of 1e-7 m/s is 1e-7 √(m/k) = 6e-11 m; at 0.99 it can grow by beats, not by 1e4.
-        rows.at_most(fmt::format("h {}: largest way at 0.99 of it, m", h), below, 1e-6, "bounded");
-        rows.at_least(fmt::format("h {}: largest way at 1.01 of it, m", h), above, 1e-5, "diverges");
+        // The initial velocity of 1e-7 m/s gives an amplitude of 1e-7 √(m/k) = 6e-11 m. At 0.99 it can grow by beats,
+        // but not by a factor of 1e4.
+        rows.at_most(fmt::format("h {}: largest displacement at 0.99 of it, m", h), below, 1e-6, "bounded");
+        rows.at_least(fmt::format("h {}: largest displacement at 1.01 of it, m", h), above, 1e-5, "diverges");
     }
     return rows.take();
 }
@@ -106,7 +107,8 @@ std::vector<ClaimRow> critical_step_of_a_chain() {
     Rows rows;
     for (const double share : {0.25, 1.0}) {
         const World world = bonded(disc_chain(40, radius, 2.0 * radius - overlap, rock(45.0, share)));
-        // Turning and sliding across couple at general wavelengths; the closed form takes the purely turning one.
+        // Rotation and transverse displacement are coupled at general wavelengths; the closed form is for pure
+        // rotation.
         check(rows, fmt::format("k_s/k_n {}", share), world, kn * std::max(4.0, 8.0 * share * lever * lever));
     }
     return rows.take();
@@ -117,7 +119,7 @@ std::vector<ClaimRow> one_disc_among_held_neighbours_overestimates() {
     for (const double share : {0.0, 0.25, 1.0}) {
         Scene scene = triangular_lattice(3, 3, radius, overlap, rock(45.0, share));
         const DofControl held{Drive::velocity, 0.0};
-        const int middle = 4;  // rows of 3, 2 and 3 discs; the second row's left one has six neighbours with one more
+        const int middle = 4;  // in rows of 3, 2 and 3 discs, the left disc of the second row has six neighbours
         scene.add_circle_body(99, 0, {{-radius + 0.5 * overlap, scene.circles[3].centre.y}, radius, 0.0});
         for (int k = 0; k < static_cast<int>(scene.bodies.size()); ++k) {
             if (scene.bodies[static_cast<std::size_t>(k)].id != middle)
@@ -145,24 +147,24 @@ std::vector<Claim> critical_step_claims() {
     return {
         {.name = "critical_step_of_a_spring_and_dashpot",
          .group = group,
-         .statement = "dt_c = 2√(m/k)(√(h²+1) - h) with the lagged dashpot: 0.99 bounded, 1.01 diverges",
+         .statement = "dt_c = 2√(m/k)(√(h²+1) - h) with the lagged dashpot; bounded at 0.99 of it, divergent at 1.01",
          .check = critical_step_of_a_spring_and_dashpot},
         {.name = "critical_step_of_a_triangular_lattice",
          .group = group,
-         .statement = "2/ω_max, ω²m = max(6k_n+2k_s, 24k_s): 0.99 bounded, 1.01 diverges",
+         .statement = "2/ω_max, ω²m = max(6k_n+2k_s, 24k_s); bounded at 0.99 of it, divergent at 1.01",
          .check = critical_step_of_a_triangular_lattice,
-         .note = "24k_s holds for arms of R; here they are R - δ/2."},
+         .note = "24k_s holds for lever arms of R; here they are R - δ/2."},
         {.name = "critical_step_of_a_square_lattice",
          .group = group,
-         .statement = "2/ω_max, ω²m = max(4k_n+4k_s, 16k_s): 0.99 bounded, 1.01 diverges",
+         .statement = "2/ω_max, ω²m = max(4k_n+4k_s, 16k_s); bounded at 0.99 of it, divergent at 1.01",
          .check = critical_step_of_a_square_lattice},
         {.name = "critical_step_of_a_chain",
          .group = group,
-         .statement = "2/ω_max, ω²m = max(4k_n, 8k_s): 0.99 bounded, 1.01 diverges",
+         .statement = "2/ω_max, ω²m = max(4k_n, 8k_s); bounded at 0.99 of it, divergent at 1.01",
          .check = critical_step_of_a_chain},
         {.name = "one_disc_among_held_neighbours_overestimates",
          .group = group,
-         .statement = "step of one disc among held neighbours over the lattice's: "
+         .statement = "step of one disc between fixed neighbours over that of the lattice: "
                       "√(max(6k_n+2k_s, 24k_s)/max(3k_n+3k_s, 12k_s)), up to √2",
          .check = one_disc_among_held_neighbours_overestimates},
     };

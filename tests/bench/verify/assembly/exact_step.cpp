@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The exact stable step: against dense matrices of finite differences of the force routine, and against runs of bonded
-// specimens between platens just below and just above it.
+// Checks the exact stable step against dense matrices from finite differences of the force routine. Also checks it
+// against runs of bonded specimens between platens just below and just above it.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <Eigen/Dense>
@@ -29,7 +29,7 @@
 namespace crackle::verification {
 namespace {
 
-/// Bonds hold whatever the finite differences move.
+/// Bonds are unbreakable, since finite differences move the bodies.
 World bonded(Scene scene, double thick) {
     scene.intact = {true, true, true};
     World world = build_world(std::move(scene));
@@ -43,7 +43,7 @@ Material damped(double ratio) {
     return material;
 }
 
-/// Every other body of a second material with much more damping, so that no modes are shared by K and C.
+/// Every other body has a second material with much more damping, so that K and C have no common modes.
 Scene unevenly_damped(Scene scene) {
     scene.materials = {damped(0.05), damped(0.6)};
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) scene.bodies[b].material = static_cast<int>(b % 2);
@@ -103,7 +103,7 @@ Dense dense_of(const World& rest, double move) {
     return {inverse.asDiagonal() * dense_stiffness(undamped, move), inverse.asDiagonal() * dense_damping(rest)};
 }
 
-/// Where 4 - 2Δt C - Δt² K becomes singular: with s = 1/Δt the largest real root of s² - sC/2 - K/4.
+/// Step at which 4 - 2Δt C - Δt² K becomes singular: 1/s, where s is the largest real root of s² - sC/2 - K/4.
 double dense_limit(const Dense& dense) {
     const Eigen::Index n = dense.stiffness.rows();
     Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(2 * n, 2 * n);
@@ -130,14 +130,14 @@ std::vector<ClaimRow> exact_step_is_that_of_a_dense_matrix() {
         const Dense dense = dense_of(rest, move);
         const double root = critical_step(rest, ClosedPoints::touching).root;
         rows.relative(name + ": exact step, s", root, dense_limit(dense), 1e-8, "finite differences");
-        // Growth leaves 1 as the root of the distance, so it loses digits by 1/√0.01.
+        // Growth above 1 increases with the square root of the distance, so it is less accurate by 1/√0.01.
         rows.relative(name + ": growth a step at 1.01 of it, less 1",
                       growth_per_step(rest, ClosedPoints::touching, 1.01 * root) - 1.0,
                       dense_growth(dense, 1.01 * root) - 1.0, 1e-6, "finite differences");
         rows.absolute(name + ": spectral radius at 0.99 of it", dense_growth(dense, 0.99 * root), 1.0, 1e-4,
                       "rigid motion is a double root, √1e-8");
     };
-    const World apart = build_world(disc_chain(20, 0.02, 0.041, rock()));  // listed, but not closed
+    const World apart = build_world(disc_chain(20, 0.02, 0.041, rock()));  // listed, but not in contact
     rows.at_least("discs apart: exact step, s", critical_step(apart, ClosedPoints::touching).root,
                   std::numeric_limits<double>::infinity(), "no stiffness");
     check("triangular lattice", bonded(triangular_lattice(5, 5, 0.02, 2e-4, rock(45.0)), 0.0), 2e-5);
@@ -201,22 +201,22 @@ std::vector<Claim> exact_step_claims() {
     return {
         {.name = "exact_step_is_that_of_a_dense_matrix",
          .group = group,
-         .statement = "critical_step() is where 4M - 2Δt·C - Δt²·K becomes singular, growth_per_step() the spectral "
-                      "radius of a step, K and C by finite differences of the forces",
+         .statement = "critical_step() is the step at which 4M - 2Δt·C - Δt²·K becomes singular, and growth_per_step() "
+                      "the spectral radius of a step; K and C are computed by finite differences of the forces",
          .check = exact_step_is_that_of_a_dense_matrix},
         {.name = "exact_step_of_specimens_between_platens",
          .group = group,
-         .statement = "at 0.99 of it random velocities stay bounded, at 1.01 its mode grows as predicted",
+         .statement = "at 0.99 of the exact step random velocities stay bounded; at 1.01 its mode grows as predicted",
          .check = exact_step_of_specimens_between_platens,
-         .note = "Bounded: H = ½v(M - Δt C/2 - Δt²K/4)v + ½x̄Kx̄ never grows; at 0.99 the matrix is at least M/100, so "
-                 "kinetic and strain energy together stay below 100 H + 121 H."},
+         .note = "H = ½v(M - Δt C/2 - Δt²K/4)v + ½x̄Kx̄ never grows. At 0.99 the matrix is at least M/100, so the sum of "
+                 "kinetic and strain energy stays below 100 H + 121 H."},
         {.name = "exact_step_where_materials_are_damped_unevenly",
          .group = group,
-         .statement = "the same with damping ratios of 0.05 and 0.6 side by side",
+         .statement = "the exact step, with damping ratios of 0.05 and 0.6 in one specimen",
          .check = exact_step_where_materials_are_damped_unevenly},
         {.name = "bound_under_the_guides_law_lies_below_the_limit_of_its_unsymmetric_stiffness",
          .group = group,
-         .statement = "step bound ≤ 2/√max|λ(M⁻¹K)|, K by finite differences of the force routine",
+         .statement = "step bound ≤ 2/√max|λ(M⁻¹K)|, with K by finite differences of the force routine",
          .check = bound_under_the_guides_law_lies_below_the_limit_of_its_unsymmetric_stiffness},
     };
 }

@@ -57,7 +57,7 @@ double area_of(std::span<const Point> outline) {
     return 0.5 * twice;
 }
 
-/// Edges of all cells from corner to corner; facing cells have the same corners to the bit before the inset.
+/// Edges of all cells, from corner to corner. Before the inset, facing cells have corners with identical coordinates.
 using EdgeKey = std::tuple<double, double, double, double>;
 class Edges {
   public:
@@ -70,7 +70,7 @@ class Edges {
             }
         }
     }
-    /// Calls `visit(cell, other, a, b)` once for every shared edge. @return edges without a partner
+    /// Calls `visit(cell, other, a, b)` once for every shared edge. @return number of edges without a partner
     template <class Visit>
     int visit_shared(const Visit& visit) const {
         int alone = 0;
@@ -104,7 +104,8 @@ std::vector<ClaimRow> cell_areas_sum_to_the_domains() {
     return rows.take();
 }
 
-/// Distance of the nearest edge of an outline from the line a-b, and how far its two nearest corners are from equal.
+/// Distance of an outline's nearest edge from the line a-b, and the difference of the distances of its two nearest
+/// corners.
 struct Nearest {
     double distance, slant;
 };
@@ -131,7 +132,7 @@ std::vector<ClaimRow> every_gap_equals_the_thickness() {
         Edges(whole).visit_shared([&](std::size_t i, std::size_t j, Point a, Point b) {
             const Nearest left = nearest_edge(apart.outline(apart.cells[i]), a, b),
                           right = nearest_edge(apart.outline(apart.cells[j]), a, b);
-            // An edge shorter than what the inset takes off its ends is gone on one side or both.
+            // An edge that is shorter than the length the inset removes vanishes on one side or both.
             if (std::max(left.slant, right.slant) > 1e-9) {
                 ++vanished;
                 return;
@@ -184,7 +185,7 @@ std::vector<ClaimRow> voronoi_edges_are_orthogonal_to_their_duals() {
         }
     });
     rows.at_least("Voronoi edges between seeds", edges, 1000.0, "seeds");
-    // A badly shaped triangle multiplies the rounding of its circumcentre.
+    // In a badly shaped triangle, the round-off of the circumcentre is multiplied.
     rows.absolute("rise of an edge along its dual, m", slant, 0.0, 1e-11 * scale, "rounding");
     rows.absolute("distance of its ends from the middle of its dual, m", off_middle, 0.0, 1e-11 * scale, "rounding");
     return rows.take();
@@ -197,19 +198,20 @@ std::vector<Claim> mesh_claims() {
     return {
         {.name = "cell_areas_sum_to_the_domains",
          .group = group,
-         .statement = "areas before the inset sum to the domain's",
+         .statement = "the areas of all cells before the inset add up to that of the domain",
          .check = cell_areas_sum_to_the_domains},
         {.name = "every_gap_equals_the_thickness",
          .group = group,
-         .statement = "facing edges of neighbours are `thick` apart",
+         .statement = "the distance between facing edges of neighbours is `thick`",
          .check = every_gap_equals_the_thickness},
         {.name = "no_cell_is_lost",
          .group = group,
-         .statement = "one Voronoi cell a seed; 2n - 2 - h triangles of n seeds, h of them on the outer chain",
+         .statement = "there is one Voronoi cell per seed, and there are 2n - 2 - h triangles for n seeds, h of them "
+                      "on the outer chain",
          .check = no_cell_is_lost},
         {.name = "voronoi_edges_are_orthogonal_to_their_duals",
          .group = group,
-         .statement = "a Voronoi edge halves the line between its two seeds at a right angle",
+         .statement = "a Voronoi edge lies on the perpendicular bisector of its two seeds",
          .check = voronoi_edges_are_orthogonal_to_their_duals},
     };
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small-strain stiffness of a specimen: the sparse solve against slow runs, and against the affine bound.
+// Small-strain stiffness of a specimen: the sparse solve is compared with slow runs and with the affine bound.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -28,7 +28,7 @@
 namespace crackle::verification {
 namespace {
 
-/// Force on the platens over the displacement of the upper one, N/m.
+/// Force on the platens divided by the displacement of the upper one, N/m.
 struct Stiffness {
     double solved, run;
     std::int64_t broken;
@@ -39,7 +39,7 @@ Stiffness stiffness_of(Kind kind, double sense, double strain, double duration) 
     World& world = loaded.world;
     const ElasticSolution solution =
         solve_elastic(world, {{loaded.low, {0.0, 0.0, 0.0}}, {loaded.high, {0.0, 1.0, 0.0}}});
-    // Mean of both platens over the last fifth, against the mean displacement there.
+    // Mean force of both platens during the last fifth of the run, divided by the mean displacement during that time.
     const double start = world.bodies.state[loaded.high].y;
     double force = 0.0, way = 0.0;
     while (world.stepping.time < duration) {
@@ -55,7 +55,7 @@ Stiffness stiffness_of(Kind kind, double sense, double strain, double duration) 
 
 std::vector<ClaimRow> slow_run_measures_the_stiffness_of_the_sparse_solve() {
     Rows rows;
-    // Half a second is many times a wave's way there and back, some 0.01 s.
+    // Half a second is many times the transit time of a wave, about 0.01 s.
     for (const Kind kind : {Kind::discs, Kind::polygons}) {
         for (const double sense : {-1.0, 1.0}) {
             const Stiffness got = stiffness_of(kind, sense, 1e-4, 0.5);
@@ -66,7 +66,8 @@ std::vector<ClaimRow> slow_run_measures_the_stiffness_of_the_sparse_solve() {
         }
     }
     for (const double sense : {-1.0, 1.0}) {
-        // At ten times the strain that breaks bonds the intact specimen is still linear up to its change of shape.
+        // At ten times the strain at which bonds would break, the intact specimen is still linear, apart from its
+        // change of shape.
         const Stiffness got = stiffness_of(Kind::discs, sense, 1e-2, 0.5);
         rows.relative(fmt::format("discs {}, strain 1e-2: platen force over displacement, N/m",
                                   sense > 0.0 ? "pulled" : "squeezed"),
@@ -79,12 +80,13 @@ std::vector<ClaimRow> intact_test_has_the_moduli_of_the_sparse_solve() {
     Rows rows;
     for (const bool meshed : {false, true}) {
         for (const LoadingKind kind : {LoadingKind::tension, LoadingKind::compression}) {
-            TestCase description = packed_case(1, kind, 0.002, 1e-4);  // small: the solve is linear
+            TestCase description = packed_case(1, kind, 0.002, 1e-4);  // a small strain; the solve is linear
             if (meshed) mesh_voronoi(description);
             description.numerics.intact = true;
             VirtualTest test = prepare_test(description);
             load_specimen(test);
-            // Over the upper half of the strain, where what starting to load set in motion has died away.
+            // Measured over the upper half of the strain, after the motion caused by the start of loading has died
+            // away.
             const CurveRow &half = test.state.rows[test.state.rows.size() / 2], &last = test.state.rows.back();
             const double strain = last.axial_strain - half.axial_strain;
             const double lateral = (last.lateral_strain - half.lateral_strain) / strain;
@@ -98,7 +100,7 @@ std::vector<ClaimRow> intact_test_has_the_moduli_of_the_sparse_solve() {
     return rows.take();
 }
 
-/// Lowest and highest bodies of the specimen, pulled apart, sheared and turned.
+/// Prescribes motion of the specimen's lowest and highest bodies, which are pulled apart, sheared and rotated.
 std::vector<Prescribed> grips(const World& world) {
     double low = 1e300, high = -1e300;
     for (const BodyState& b : world.bodies.state) low = std::min(low, b.y), high = std::max(high, b.y);
@@ -111,8 +113,8 @@ std::vector<Prescribed> grips(const World& world) {
     return held;
 }
 
-/// The sparse solve against a dense stiffness of finite differences of the force routine: displacements and reactions,
-/// largest difference over the largest value; energies; and the dense matrix's asymmetry.
+/// Compares the sparse solve with a dense stiffness from finite differences of the force routine. Rows: largest
+/// relative differences of displacements and reactions, energies, and the dense matrix's asymmetry.
 void compare_with_dense(Rows& rows, const std::string& name, Scene scene, double thick, double move) {
     scene.intact = {true, true, true};
     const bool symmetric = scene.segment_law == SegmentLaw::rounded;
@@ -153,12 +155,13 @@ void compare_with_dense(Rows& rows, const std::string& name, Scene scene, double
                             std::abs(sparse.reaction[k].y - reactions[row + 1])});
         largest_f = std::max({largest_f, std::abs(reactions[row]), std::abs(reactions[row + 1])});
     }
-    // Central differences with Richardson's step err by the fourth power of the move and by rounding over it. Under the
-    // guide's law the move is to stay within one of its cases, so it is a tenth of the other polygons'.
+    // Central differences with Richardson extrapolation have an error of fourth order in the move, plus round-off
+    // divided by the move. Under the guide's law the move must stay within one case, so it is a tenth of that for other
+    // polygons.
     const double tolerance = symmetric ? 1e-8 : 1e-7;
-    rows.absolute(name + ": displacements off, over the largest", worst_u / largest_u, 0.0, tolerance,
+    rows.absolute(name + ": error of displacements, over the largest", worst_u / largest_u, 0.0, tolerance,
                   "finite differences");
-    rows.absolute(name + ": reactions off, over the largest", worst_f / largest_f, 0.0, tolerance,
+    rows.absolute(name + ": error of reactions, over the largest", worst_f / largest_f, 0.0, tolerance,
                   "finite differences");
     rows.relative(name + ": energy, J", sparse.energy, 0.5 * u.dot(reactions), tolerance, "finite differences");
     const double asymmetry =
@@ -206,8 +209,9 @@ std::vector<ClaimRow> sparse_solve_is_that_of_the_force_routine_under_the_guides
     return rows.take();
 }
 
-/// The least energy of u = (a x, ε y) without rotation over all bonds, as a modulus. With platens at their own place
-/// (held laterally) it is admissible, so the true energy lies below, whatever the fabric. x from the domain's middle.
+/// The least energy of u = (a x, ε y) without rotation, summed over all bonds and expressed as a modulus. With the
+/// platens at their positions (held laterally) this motion is admissible, so the true energy is lower for any fabric. x
+/// is measured from the domain's middle.
 double affine_modulus(const VirtualTest& test) {
     const World& world = test.world;
     const auto face = [&](BodyIndex platen) { return element_positions(world, platen)[0].y; };
@@ -232,11 +236,12 @@ double affine_modulus(const VirtualTest& test) {
     }
     const double twice_energy = ee - ae * ae / aa,
                  rise = face(test.setup.apparatus.top) - face(test.setup.apparatus.bottom);
-    // Energy ½ R D with R = E W D/H.
+    // The energy is ½ R D with R = E W D/H.
     return twice_energy * test.setup.specimen.height / (test.setup.specimen.width * rise * rise);
 }
 
-/// The affine modulus of an isotropic fabric in the bulk: M k_n(k_n+k_s)/(3k_n+k_s), M = Σl²/A over bonds of discs.
+/// The affine modulus of an isotropic fabric away from boundaries: M k_n(k_n+k_s)/(3k_n+k_s), M = Σl²/A over bonds of
+/// discs.
 double isotropic_modulus(const VirtualTest& test) {
     double sum = 0.0, kn = 0.0, ks = 0.0;
     for (PointIndex k = 0; k < test.world.points.size(); ++k) {
@@ -272,13 +277,12 @@ std::vector<Claim> stiffness_claims() {
     return {
         {.name = "sparse_solve_is_that_of_the_force_routine",
          .group = group,
-         .statement =
-             "K u = f of the specimen's own bonds and platens, exact: the same springs found by finite differences "
-             "of the forces that a step feels",
+         .statement = "K u = f for the specimen's bonds and platens is exact: finite differences of the forces in a "
+                      "step give the same springs",
          .check = sparse_solve_is_that_of_the_force_routine},
         {.name = "sparse_solve_is_that_of_the_force_routine_under_the_guides_law",
          .group = group,
-         .statement = "the same with the unsymmetric stiffness k b ∇δᵀ of the guide's contact of segments",
+         .statement = "K u = f with the unsymmetric stiffness k b ∇δᵀ of the guide's law for segments",
          .check = sparse_solve_is_that_of_the_force_routine_under_the_guides_law},
         {.name = "intact_test_has_the_moduli_of_the_sparse_solve",
          .group = group,
@@ -286,17 +290,15 @@ std::vector<Claim> stiffness_claims() {
          .check = intact_test_has_the_moduli_of_the_sparse_solve},
         {.name = "slow_run_measures_the_stiffness_of_the_sparse_solve",
          .group = group,
-         .statement =
-             "with bonds that neither break nor slip, platen force over displacement of a slow run is the sparse "
-             "solve's",
+         .statement = "if bonds neither break nor slip, the stiffness in a slow run (platen force over displacement) "
+                      "is that of the sparse solve",
          .check = slow_run_measures_the_stiffness_of_the_sparse_solve},
         {.name = "modulus_lies_below_the_affine_bound",
          .group = group,
-         .statement = "E ≤ the least energy of u = (a x, ε y) without rotation, over a, platen bonds included",
+         .statement = "E ≤ the minimum over a of the energy of u = (a x, ε y) without rotation, including platen bonds",
          .check = modulus_lies_below_the_affine_bound,
-         .note =
-             "Circle packings of 120 circles between bonded platens; any admissible motion stores at least the true "
-             "energy, so no tolerance is needed."},
+         .note = "Packings of 120 circles between bonded platens. Any admissible motion stores at least the true "
+                 "energy, so no tolerance is needed."},
     };
 }
 

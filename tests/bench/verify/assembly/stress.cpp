@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stability under stress: long runs, extreme ratios, impacts, stacks, degenerate shapes. Whatever is asked of the
-// engine, energy stays bounded, or a named error gives the place and the reason.
+// Stability under stress: long runs, extreme ratios, impacts, stacks, degenerate shapes. In every case the energy must
+// stay bounded, or an error must state place and reason.
 
 #include <fmt/format.h>
 
@@ -37,7 +37,7 @@ std::vector<ClaimRow> account_of(std::int64_t steps) {
         const Endured endured = endure(world, steps);
         rows.exactly(scene.name + (endured.error.empty() ? ": steps done" : ": " + endured.error),
                      static_cast<double>(endured.steps), static_cast<double>(steps));
-        rows.absolute(scene.name + ": account left open over the energy", endured.closing_error, 0.0, open_account,
+        rows.absolute(scene.name + ": closing error over the energy", endured.closing_error, 0.0, open_account,
                       "loose_step_share");
     }
     return rows.take();
@@ -59,13 +59,13 @@ std::vector<ClaimRow> given_steps_up_to_the_bound_are_bounded_or_named() {
                 endured.error = error.what();
             }
             const std::string name = fmt::format("{}, {} of the bound", scene.name, share);
-            if (share < 0.5) {  // errors grow with the step, from what a derived one leaves
+            if (share < 0.5) {  // errors grow with the step, beginning with that at a derived step
                 rows.exactly(name + (endured.error.empty() ? ": steps done" : ": " + endured.error),
                              static_cast<double>(endured.steps), 3000.0);
-                rows.at_most(name + ": account left open over the energy", endured.closing_error,
+                rows.at_most(name + ": closing error over the energy", endured.closing_error,
                              open_account * share / (0.9 * loose_step_share), "first order");
-            } else if (endured.error.empty()) {  // what check_health() lets pass: as much again as was ever put in
-                rows.at_most(name + ": account left open over the energy", endured.closing_error, 1.0, "or named");
+            } else if (endured.error.empty()) {  // check_health() accepts an error as large as the energy supplied
+                rows.at_most(name + ": closing error over the energy", endured.closing_error, 1.0, "or named");
             } else {
                 rows.exactly(name + ": " + endured.error,
                              endured.error.find("is above the stable bound") != std::string::npos ? 1.0 : 0.0, 1.0);
@@ -79,11 +79,12 @@ std::vector<ClaimRow> bound_stays_near_the_exact_step() {
     Rows rows;
     for (const StressScene& scene : stress_scenes()) {
         World world = scene.build();
-        if (world.points.size() < 10 || world.bodies.size() > 100) continue;  // nothing is near
+        if (world.points.size() < 10 || world.bodies.size() > 100) continue;  // no bodies are close to each other
         const CriticalStep exact = critical_step(world, ClosedPoints::listed);
         const double share = stable_step_bound(world) / exact.root;
         rows.at_most(scene.name + ": bound over the exact step, listed points closed", share, 1.0 + 1e-9, "a bound");
-        // Two equal bodies that meet point to point, each with the whole of the spring: 1/√2, of a dashpot: 1/2.
+        // If two equal bodies touch at a point, each block counts the whole spring, so the bound is 1/√2 of the exact
+        // step; for a dashpot it is 1/2.
         rows.at_least(scene.name + ": the same, from below", share, 0.5, "of use");
     }
     return rows.take();
@@ -93,11 +94,11 @@ std::vector<ClaimRow> bound_stays_near_the_exact_step() {
 
 struct Impact {
     const char* name;
-    bool polygon;  // the projectile
+    bool polygon;  // whether the projectile is a polygon
     enum class Target { same, segment, wall } target;
 };
 
-/// 1: on its own side in the end; 0: on the other; -1: a named error.
+/// 1: the projectile ends on its own side; 0: on the other side; -1: the run ended with an error.
 int after_impact(const Impact& impact, double speed, std::string& words) {
     Scene scene;
     scene.materials = {rock(0.0)};
@@ -140,7 +141,7 @@ int after_impact(const Impact& impact, double speed, std::string& words) {
 std::vector<ClaimRow> impacts_rebound_or_are_named() {
     Rows rows;
     using Target = Impact::Target;
-    constexpr double slow_impact = 1.0;  // m/s: pressed in by v sqrt(m/k), a tenth of any body here: must rebound
+    constexpr double slow_impact = 1.0;  // m/s; the depth v sqrt(m/k) is a tenth of any body here, so it must rebound
     for (const Impact& impact :
          {Impact{"disc on a disc", false, Target::same}, Impact{"disc on a segment", false, Target::segment},
           Impact{"disc on a wall", false, Target::wall}, Impact{"square on a square", true, Target::same},
@@ -161,9 +162,9 @@ std::vector<ClaimRow> impacts_rebound_or_are_named() {
 // ---- rest
 
 struct Rest {
-    double sunk = 0.0;   // m, largest way of any body from its start
-    double creep = 0.0;  // m, the same in the second half
-    double speed = 0.0;  // m/s, largest in the end
+    double sunk = 0.0;   // m, largest displacement of any body
+    double creep = 0.0;  // m, largest displacement in the second half of the run
+    double speed = 0.0;  // m/s, largest speed at the end
     std::string error;
 };
 
@@ -216,13 +217,14 @@ std::vector<ClaimRow> stacks_stay_at_rest() {
         const auto count = static_cast<double>(scene.bodies.size());
         const double mass = mass_properties(scene, scene.bodies[0]).mass;
         const Rest rest = stand(std::move(scene), 0.6);
-        // Every contact of a column gives way by the weight above it; a fall into it, twice. Sideways as much again.
+        // Every contact of a column is compressed by the weight above it, twice as much after a sudden start. The same
+        // amount is allowed sideways.
         const double settled = 4.0 * 0.5 * tallest * tallest * mass * 9.81 / 1e7 + 4.0 * mass * 9.81 / 1e7;
-        rows.at_most(name + (rest.error.empty() ? "" : ", " + rest.error) + ": way from the start, m", rest.sunk,
-                     settled, "its own weight");
-        // What a column's slowest mode still does after 0.3 s of damping, and rounding, 1e-16 of a metre each step.
+        rows.at_most(name + (rest.error.empty() ? "" : ", " + rest.error) + ": displacement from the start, m",
+                     rest.sunk, settled, "its own weight");
+        // The remaining motion of a column's slowest mode after 0.3 s of damping, and round-off, 1e-16 m per step.
         rows.at_most(name + ": creep in the second half, m", rest.creep, 1e-3 * settled, "no creep");
-        rows.at_most(name + ": largest speed in the end, m/s", rest.speed, 1e-6, "at rest");
+        rows.at_most(name + ": largest speed at the end, m/s", rest.speed, 1e-6, "at rest");
         rows.shown(name + ": bodies", count);
     };
     Scene column = floor_scene();
@@ -234,7 +236,7 @@ std::vector<ClaimRow> stacks_stay_at_rest() {
             add_brick(wall, ++id, {0.081 * k + 0.0405 * (row % 2), 0.041 * row}, 0.08, 0.04);
     }
     check("wall of bricks", std::move(wall), 6);
-    // Without rolling resistance a heap of more rows rolls apart; three discs hold from μ = tan 15° on.
+    // Without rolling resistance, a heap of more rows rolls apart; three discs are stable from μ = tan 15°.
     Scene heap = floor_scene();
     for (int k = 0; k < 2; ++k) heap.add_circle_body(k + 1, 0, {{0.04 * k, 0.02}, 0.02, 0.0});
     heap.add_circle_body(3, 0, {{0.02, 0.02 + 0.02 * std::numbers::sqrt3}, 0.02, 0.0});
@@ -276,11 +278,11 @@ std::vector<ClaimRow> degenerate_shapes_are_refused_or_handled() {
         const Endured endured = endure(world, 4000);
         rows.exactly(name + (endured.error.empty() ? ": steps done" : ": " + endured.error),
                      static_cast<double>(endured.steps), 4000.0);
-        rows.absolute(name + ": account left open over the energy", endured.closing_error, 0.0, open_account,
+        rows.absolute(name + ": closing error over the energy", endured.closing_error, 0.0, open_account,
                       "loose_step_share");
         const Momentum now = momentum_of(world);
-        // Against what moves now: at the start nothing may.
-        rows.absolute(name + ": momentum over what moves",
+        // Relative to the current momenta, since nothing may move at the start.
+        rows.absolute(name + ": momentum over that of the moving bodies",
                       std::hypot(now.x - start.x, now.y - start.y) / (now.scale + 1e-12), 0.0, 1e-10, "rounding");
     };
     const auto open_scene = [] {
@@ -304,7 +306,7 @@ std::vector<ClaimRow> degenerate_shapes_are_refused_or_handled() {
         Scene faces = open_scene();
         faces.segment_law = law;
         add_brick(faces, 1, {0.0, 0.0}, 0.04, 0.04);
-        add_brick(faces, 2, {0.01, 0.041}, 0.04, 0.04);  // exactly thick apart
+        add_brick(faces, 2, {0.01, 0.041}, 0.04, 0.04);  // gap equal to the thickness
         faces.bodies[1].velocity = {0.0, -0.1};
         handled("parallel faces" + by, std::move(faces));
     }
@@ -325,7 +327,7 @@ std::vector<ClaimRow> bonded_specimens_turn_round_unharmed() {
     Rows rows;
     for (const Kind kind : {Kind::discs, Kind::polygons}) {
         World world = free_specimen(kind, 27.0, 0.5);
-        const double spin = 4.0;  // rad/s: the centripetal pull ρω²R²/2 is some 600 N/m, bonds bear 20 000
+        const double spin = 4.0;  // rad/s; the centripetal stress ρω²R²/2 is about 600 N/m, and bonds withstand 20 000
         double mass = 0.0, x = 0.0, y = 0.0;
         for (std::size_t b = 0; b < world.bodies.size(); ++b) {
             mass += world.bodies.inertia[b].mass;
@@ -345,7 +347,7 @@ std::vector<ClaimRow> bonded_specimens_turn_round_unharmed() {
         rows.exactly(name + (endured.error.empty() ? ": steps done" : ": " + endured.error),
                      static_cast<double>(endured.steps), static_cast<double>(steps));
         rows.exactly(name + ": bonds broken", static_cast<double>(world.bonds.broken), 0.0);
-        rows.absolute(name + ": account left open over the energy", endured.closing_error, 0.0, 1e-3, "(ω dt)²");
+        rows.absolute(name + ": closing error over the energy", endured.closing_error, 0.0, 1e-3, "(ω dt)²");
         const double turn = spin * world.stepping.time;
         double off = 0.0, farthest = 0.0;
         for (std::size_t b = 0; b < before.size(); ++b) {
@@ -355,10 +357,10 @@ std::vector<ClaimRow> bonded_specimens_turn_round_unharmed() {
             farthest = std::max(farthest, norm(arm));
             off = std::max(off, norm(Vec2{world.bodies.state[b].x, world.bodies.state[b].y} - expected));
         }
-        // Let go, it stretches by up to twice the strain of its pull, and its moment grows by twice that, so that the
-        // turn lags.
+        // When released, it stretches by up to twice its static strain, and its moment of inertia grows by twice that,
+        // so that the rotation lags.
         const double strain = 2500.0 * spin * spin * farthest * farthest / 2.0 / 1e7;
-        rows.at_most(name + ": farthest body from its place after the turn, m", off,
+        rows.at_most(name + ": largest distance of a body from its place after the rotation, m", off,
                      (2.0 + 4.0 * pi) * strain * farthest, "stretched by its spin");
         rows.absolute(name + ": momenta", momentum_error(start, momentum_of(world)), 0.0, 1e-10, "rounding");
     }
@@ -372,43 +374,45 @@ std::vector<Claim> stress_claims() {
     return {
         {.name = "loose_bodies_in_a_box_keep_their_account",
          .group = group,
-         .statement = "discs and polygons thrown into a box: stiffness and mass 1 to 1e6, thickness 1e-4 to 0.5 of the "
-                      "size, needles, thousands at once; 4000 steps at 0.9 of the derived one leave at most 2 % open",
+         .statement = "discs and polygons thrown into a box have a closing error of at most 2 % after 4000 steps at "
+                      "0.9 of the derived step. Stiffness and mass ratios go up to 1e6, thicknesses from 1e-4 to 0.5 "
+                      "of the size; there are needles, and thousands of bodies",
          .check = loose_bodies_in_a_box_keep_their_account},
         {.name = "loose_bodies_in_a_box_keep_their_account_for_long",
          .group = group,
-         .statement = "the same for 50 000 steps; crackle-bench stress goes on for as long as wanted",
+         .statement = "as above for 50 000 steps; crackle-bench stress runs any number of steps",
          .check = loose_bodies_in_a_box_keep_their_account_for_long,
          .slow = true},
         {.name = "given_steps_up_to_the_bound_are_bounded_or_named",
          .group = group,
-         .statement =
-             "at 0.3 of the bound the same scenes keep their account, first order in the step; at 0.9 they do, or "
-             "end with an error that says that new contacts took the bound below the step, and where",
+         .statement = "at 0.3 of the bound, the energy balance of the same scenes closes to first order in the step. "
+                      "At 0.9 it closes too, or the run ends with an error: it states that new contacts lowered the "
+                      "bound below the step, and where",
          .check = given_steps_up_to_the_bound_are_bounded_or_named},
         {.name = "bound_stays_near_the_exact_step_at_extreme_ratios",
          .group = group,
-         .statement = "stiffnesses and masses a million times apart leave the guaranteed bound above half the exact "
-                      "step",
+         .statement = "the guaranteed bound is more than half the exact step even if stiffnesses and masses differ by "
+                      "a factor of a million",
          .check = bound_stays_near_the_exact_step},
         {.name = "impacts_rebound_or_are_named",
          .group = group,
-         .statement = "from 1 m/s to 1e6 m/s no body gets through another, a segment or a wall in silence",
+         .statement =
+             "at speeds from 1 m/s to 1e6 m/s, no body passes through another, a segment or a wall without an error",
          .check = impacts_rebound_or_are_named,
-         .note = "Two circles are not looked at; packing presses them deep."},
+         .note = "Pairs of circles are not checked, because packing overlaps them deeply."},
         {.name = "stacks_stay_at_rest",
          .group = group,
-         .statement = "a column, a wall and a heap settle by their own weight and creep no further",
+         .statement = "a column, a wall and a heap settle under their own weight and do not creep",
          .check = stacks_stay_at_rest},
         {.name = "degenerate_shapes_are_refused_or_handled",
          .group = group,
-         .statement = "what has no length or area is refused by name; corners, faces and centres that coincide neither "
-                      "make energy nor momentum",
+         .statement = "shapes without length or area are refused with their names; coinciding corners, faces and "
+                      "centres create neither energy nor momentum",
          .check = degenerate_shapes_are_refused_or_handled},
         {.name = "bonded_specimens_turn_round_unharmed",
          .group = group,
-         .statement = "a free bonded specimen turns by 360 degrees: no bond breaks, momenta to rounding, every body "
-                      "back at its place but for the stretch by its spin",
+         .statement = "after a free bonded specimen has rotated by 360 degrees, no bond is broken and momenta are kept "
+                      "to rounding. Every body is back in its place except for the stretch by the spin",
          .check = bonded_specimens_turn_round_unharmed},
     };
 }

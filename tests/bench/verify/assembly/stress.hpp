@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Scenes that are hard on the engine, and what it makes of them; the claims «Stability under stress» run them briefly,
-// `crackle-bench stress` for as long as wanted.
+// Scenes that are hard on the engine, and the results of running them. The claims «Stability under stress» run them
+// briefly, and `crackle-bench stress` for any number of steps.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
@@ -18,21 +18,22 @@ struct StressScene {
     World (*build)();
 };
 
-/// Loose bodies in a closed box, each at nine tenths of the step that would be derived.
+/// Loose bodies in a closed box, at nine tenths of the step that would be derived.
 const std::vector<StressScene>& stress_scenes();
 
-/// What became of a run.
+/// Outcome of a run.
 struct Endured {
-    std::int64_t steps = 0;      ///< done
-    double closing_error = 0.0;  ///< largest, over the energy that was ever there: kinetic, stored and lost
-    std::string error;           ///< an UnstableRun's words; empty: it went through
+    std::int64_t steps = 0;      ///< number of steps completed
+    double closing_error = 0.0;  ///< largest closing error, relative to the largest total of kinetic, stored and lost
+                                 ///< energy
+    std::string error;           ///< message of an UnstableRun; empty if the run was completed
 };
 
-/// Steps with the account of energy and the world's health looked at every `interval` steps.
+/// Runs steps, and checks the energy account and the world's health every `interval` steps.
 Endured endure(World& world, std::int64_t steps, int interval = 50);
 
-/// Share of the energy by which an account may stay open at the derived step of loose bodies: what loose_step_share
-/// asks for.
+/// Largest accepted closing error at the derived step of loose bodies, relative to the energy; loose_step_share is
+/// chosen for it.
 inline constexpr double open_account = 0.02;
 
 }  // namespace crackle::verification

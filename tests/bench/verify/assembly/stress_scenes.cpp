@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The scenes of stress.hpp. All are made by rule from a seed, so that they are the same everywhere.
+// The scenes of stress.hpp. All are generated from a seed, so that they are the same on every machine.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <algorithm>
@@ -21,19 +21,19 @@
 namespace crackle::verification {
 namespace {
 
-constexpr double size = 0.04;  // m, of an ordinary body
+constexpr double size = 0.04;  // m, size of an ordinary body
 
 enum class Shape { disc, polygon, needle };
 
-/// Bodies on a grid, wide enough apart not to touch, with random shapes, turns, velocities and spins.
+/// Bodies on a grid, far enough apart not to touch, with random shapes, rotations, velocities and spins.
 struct Box {
     Shape shape = Shape::disc;
     int columns = 6, rows = 6;
-    std::vector<Material> materials{rock()};  // in turn
+    std::vector<Material> materials{rock()};  // assigned to the bodies in turn
     double thick = 1e-3;
-    double smallest = 0.5;  // sizes between this and 1
+    double smallest = 0.5;  // relative sizes are between this value and 1
     double speed = 1.0;     // m/s
-    double room = 1.2;      // grid spacing over what the largest body needs
+    double room = 1.2;      // grid spacing relative to the space that the largest body needs
     std::uint64_t seed = 1;
 };
 
@@ -48,13 +48,13 @@ std::vector<Vec2> outline(Shape shape, double reach, Vec2 centre, std::mt19937_6
     const auto at = [&](double x, double y) {
         return centre + Vec2{std::cos(turn) * x - std::sin(turn) * y, std::sin(turn) * x + std::cos(turn) * y};
     };
-    if (shape == Shape::needle) {  // a thousand times as long as wide, rectangles and triangles
+    if (shape == Shape::needle) {  // rectangles and triangles, a thousand times as long as wide
         const double half = 1e-3 * reach;
         if (uniform_number(generator) < 0.5)
             return {at(-reach, -half), at(reach, -half), at(reach, half), at(-reach, half)};
         return {at(-reach, -half), at(reach, 0.0), at(-reach, half)};
     }
-    // Corners on a circle, at uneven angles: convex, now and then with a short edge.
+    // Corners on a circle at irregular angles: convex, sometimes with a short edge.
     const int corners = 3 + static_cast<int>(5.0 * uniform_number(generator));
     std::vector<Vec2> result;
     for (int k = 0; k < corners; ++k) {
@@ -75,7 +75,7 @@ World build(const Box& box) {
     for (int k = 0; k < box.columns * box.rows; ++k) {
         const int row = k / box.columns, column = k % box.columns;
         const Vec2 centre{spacing * (column + 0.5), spacing * (row + 0.5)};
-        // Sizes even in their logarithm, so that all decades are there.
+        // The logarithm of the size is uniformly distributed, so that all decades occur.
         const double reach = 0.5 * size * std::pow(box.smallest, uniform_number(generator));
         const int material = k % static_cast<int>(box.materials.size());
         if (box.shape == Shape::disc) {
@@ -92,15 +92,15 @@ World build(const Box& box) {
     return build_world(std::move(scene));
 }
 
-/// So hard that a fall presses no corner past the far side of another. With hardly any thickness, a corner that meets a
-/// corner gets in by the depth of the impact, a millimetre for the ordinary rock.
+/// Stiff enough that no fall presses a corner past the far side of another body. With a very small thickness, a corner
+/// that meets a corner enters it by the depth of the impact, a millimetre for the ordinary rock.
 Material hard_rock() {
     Material hard = damped_rock();
     hard.normal_stiffness *= 100.0, hard.shear_stiffness *= 100.0;
     return hard;
 }
 
-/// A hard and a soft material, k_n a million times apart.
+/// A stiff and a soft material, whose k_n differ by a factor of a million.
 std::vector<Material> hard_and_soft() {
     Material hard = damped_rock(), soft = damped_rock();
     soft.normal_stiffness = 1e5, soft.shear_stiffness = 2.5e4;
@@ -108,14 +108,14 @@ std::vector<Material> hard_and_soft() {
     return {soft, hard};
 }
 
-/// A million times apart in density.
+/// Two materials whose densities differ by a factor of a million.
 std::vector<Material> heavy_and_light() {
     Material heavy = damped_rock(), light = damped_rock();
     heavy.density = 2.5e5, light.density = 0.25;
     return {light, heavy};
 }
 
-/// A body set down on bodies a thousand times smaller, a millionth of its mass each.
+/// A body placed on bodies with a thousandth of its size and a millionth of its mass.
 World large_on_small(Shape shape) {
     Scene scene;
     std::mt19937_64 generator(1);
@@ -136,7 +136,7 @@ World large_on_small(Shape shape) {
     constexpr int count = 40;
     for (int k = 0; k < count; ++k) add(k + 1, 0.5 * small, {spacing * (k - 0.5 * (count - 1)), 0.5 * small});
     add(count + 1, 0.5 * size, {0.0, 1.01 * (small + scene.thick) + 0.5 * size});
-    scene.bodies.back().velocity = {0.0, -0.01};  // squeezes them by an eighth of their size: v sqrt(m/k) over 40 µm
+    scene.bodies.back().velocity = {0.0, -0.01};  // compresses them by an eighth of their size: v sqrt(m/k) over 40 µm
     scene.safety_factor = 0.9 * loose_step_share;
     return build_world(std::move(scene));
 }
@@ -193,7 +193,7 @@ Endured endure(World& world, std::int64_t steps, int interval) {
                 turned_over = std::max(turned_over, l.kinetic + l.strain + l.dashpot_loss + l.friction_loss);
                 open = std::max(open, std::abs(l.closing_error));
                 if (!std::isfinite(l.kinetic + l.strain + l.closing_error)) {
-                    open = std::numeric_limits<double>::infinity();  // unreported, which is what must not happen
+                    open = std::numeric_limits<double>::infinity();  // a failure without a report
                     break;
                 }
             }

@@ -35,11 +35,12 @@ struct Strain {
 };
 
 struct Section {
-    Vec2 across_x, across_y;  // N, pull on the right half across x = const, on the upper half across y = const
-    double affine_error;      // largest distance from the affine displacement over the largest displacement
+    Vec2 across_x, across_y;  // N, force on the right half across x = const, on the upper half across y = const
+    double affine_error;      // largest deviation from the affine displacement, relative to the largest displacement
 };
 
-/// Outer discs prescribed affinely without rotation, inner ones solved for; forces through the middle of the lattice.
+/// Outer discs are displaced affinely without rotation, and inner discs are solved for; returns the forces across the
+/// middle of the lattice.
 Section strained(int columns, int rows, double shear_share, const Strain& e) {
     const World world = lattice(columns, rows, shear_share);
     std::vector<Prescribed> held;
@@ -62,8 +63,8 @@ Section strained(int columns, int rows, double shear_share, const Strain& e) {
             std::max({section.affine_error, std::abs(got.x - expected.x), std::abs(got.y - expected.y)});
         if (shear_share > 0.0) section.affine_error = std::max(section.affine_error, radius * std::abs(got.rotation));
     }
-    section.affine_error /= largest;  // without shear springs a disc turns freely, and its turn means nothing
-    // Sections that pass between discs, not through centres.
+    section.affine_error /= largest;  // without shear springs discs rotate freely, so rotations are not compared
+    // Sections pass between discs, not through centres.
     const double x = spacing * (0.5 * columns + 0.2), y = spacing * std::sqrt(3.0) * 0.5 * (0.5 * rows + 0.2);
     for (std::size_t k = 0; k < held.size(); ++k) {
         const Vec2 force{solution.reaction[k].x, solution.reaction[k].y};
@@ -73,7 +74,7 @@ Section strained(int columns, int rows, double shear_share, const Strain& e) {
     return section;
 }
 
-/// Stress of the infinite lattice: two more rows, or one more column, add exactly their own share of the section force.
+/// Stress of the infinite lattice. Two more rows, or one more column, add exactly their own part of the section force.
 struct Stress {
     double xx, yy, xy, yx;
 };
@@ -100,9 +101,10 @@ std::vector<ClaimRow> stiffness_of_the_triangular_lattice() {
         rows.absolute(label + "ν", c12 / c11, (1.0 - share) / (3.0 + share), 1e-9, "rounding");
         rows.relative(label + "C22/k_n", across.yy / 1e-4 / kn, std::sqrt(3.0) / 4.0 * (3.0 + share), 1e-9, "rounding");
         rows.relative(label + "C33/k_n", shear.xy / 2e-4 / kn, std::sqrt(3.0) / 4.0 * (1.0 + share), 1e-9, "rounding");
-        rows.absolute(label + "shear stress, its two components apart, over C33ε", (shear.xy - shear.yx) / shear.xy,
-                      0.0, 1e-9, "rounding");
-        rows.absolute(label + "inner discs off the affine motion, over it", worst, 0.0, 1e-9, "rounding");
+        rows.absolute(label + "difference of the two shear stress components, over C33ε",
+                      (shear.xy - shear.yx) / shear.xy, 0.0, 1e-9, "rounding");
+        rows.absolute(label + "difference of inner discs from the affine motion, over it", worst, 0.0, 1e-9,
+                      "rounding");
     }
     return rows.take();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A bonded specimen free in space: what it must keep (momentum, angular momentum, energy, its bonds), what must not
-// pull at it (a rigid motion), and that leapfrog runs backwards.
+// A free bonded specimen: conserved quantities (momentum, angular momentum, energy, bonds), no forces due to rigid
+// motion, and reversibility of leapfrog.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -52,8 +52,8 @@ std::vector<ClaimRow> free_bonded_specimen_keeps_momentum_and_energy() {
         const std::string name = name_of(kind);
         rows.absolute(name + ": momentum and angular momentum over their scales",
                       std::max(coarse.momentum, fine.momentum), 0.0, 1e-12, "reference");
-        // (ω dt)²/4 of the energy a mode holds, ω dt at most 0.8 of leapfrog's 2 at 0.4 of the bound: 0.16, and less
-        // for all the others.
+        // The error is (ω dt)²/4 of a mode's energy. At 0.4 of the bound, ω dt is at most 0.8 (leapfrog's limit is 2),
+        // so the error is at most 0.16, and less for all other modes.
         rows.absolute(name + ": energy over that put in, at 0.4 of the bound", coarse.energy, 0.0, 0.16, "(ω dt)²/4");
         rows.converging({coarse.energy, fine.energy, 4.0, 2.0});
         rows.exactly(name + ": bonds broken", static_cast<double>(coarse.broken + fine.broken), 0.0);
@@ -62,7 +62,8 @@ std::vector<ClaimRow> free_bonded_specimen_keeps_momentum_and_energy() {
     return rows.take();
 }
 
-/// Largest spring force after a full turn imposed in equal steps about the origin, over k_n times the mean overlap.
+/// Largest spring force, relative to k_n times the mean overlap, after a full rotation about the origin imposed in
+/// equal steps.
 double force_after_turn(Kind kind, int steps, std::int64_t& broken) {
     World world = free_specimen(kind, 27.0);
     const Array<BodyState> start = world.bodies.state;
@@ -86,7 +87,7 @@ double force_after_turn(Kind kind, int steps, std::int64_t& broken) {
             }
         }
         world.stepping.drift = dt;
-        world.list.valid = n % 16 != 0;  // the list is found again along the way
+        world.list.valid = n % 16 != 0;  // the list is rebuilt several times
         world.stepping.forces_current = false;
         compute_forces(world);
         for (PointIndex k = 0; k < world.points.size(); ++k) {
@@ -100,9 +101,9 @@ double force_after_turn(Kind kind, int steps, std::int64_t& broken) {
 }
 
 std::vector<ClaimRow> rigid_turn_of_360_degrees_gives_no_force() {
-    // A step of angle α leads each centroid along its chord. Seen from the contact, the chord's slip is that of the
-    // exact turn up to (sin α - α)·D, D the distance of the centroids along the normal. This is α³D/6 a step, so πα²D/3
-    // in a full turn.
+    // A step by the angle α moves each centroid along a chord. The slip at a contact due to the chord equals that of
+    // the exact rotation up to (sin α - α)·D, where D is the distance of the centroids along the normal. This is α³D/6
+    // per step, and πα²D/3 for a full rotation.
     Rows rows;
     for (const Kind kind : {Kind::discs, Kind::polygons}) {
         std::int64_t broken = 0;
@@ -110,15 +111,15 @@ std::vector<ClaimRow> rigid_turn_of_360_degrees_gives_no_force() {
         const double by = 2.0 * std::numbers::pi / 8000, reach = 0.08;
         const double estimate = 2.5e6 * std::numbers::pi * by * by * reach / 3.0 / (1e7 * 8e-5);
         const std::string name = name_of(kind);
-        rows.absolute(name + ": largest force on the way over the mean strength, 8000 steps", fine, 0.0, estimate,
-                      "πα²D/3 a turn");
+        rows.absolute(name + ": largest force during the rotation over the mean strength, 8000 steps", fine, 0.0,
+                      estimate, "πα²D/3 a turn");
         rows.converging({coarse, fine, 8.0, 2.0});
         rows.exactly(name + ": bonds broken", static_cast<double>(broken), 0.0);
     }
     return rows.take();
 }
 
-/// Largest spring force of a specimen that spins freely from rest shape, N.
+/// Largest spring force of a specimen that starts to spin freely in its unstrained shape, N.
 double spinning_force(Kind kind, double spin, std::int64_t& broken) {
     World world = free_specimen(kind, 27.0, 0.2);
     for (BodyState& body : world.bodies.state) {
@@ -145,10 +146,10 @@ std::vector<ClaimRow> free_slow_spin_feels_the_centripetal_force_alone() {
         std::int64_t broken = 0;
         const double slow = spinning_force(kind, 0.05, broken), fast = spinning_force(kind, 0.1, broken);
         const std::string name = name_of(kind);
-        // Forces grow with ω², strains are 1e-8: what deviates is the turn during the run.
+        // Forces grow with ω². Strains are only 1e-8, so the deviation comes from the rotation during the run.
         rows.relative(name + ": largest force at twice the spin over it", fast / slow, 4.0, 5e-3, "turn of the axes");
-        // Twice the pull ρω²R²/2 over a disc's width is the most that a sudden start overshoots to where all bonds
-        // carry alike; half as much again for those that carry more.
+        // Twice the stress ρω²R²/2 times a disc's width is the largest force after a sudden start if all bonds carry
+        // equal loads. Half as much is added, since some bonds carry more.
         const double pull = 2500.0 * 0.01 * 0.17 * 0.17 / 2.0 * 0.04;
         rows.at_most(name + ": largest force over ρω²R²/2 × 0.04 m", fast / pull, 3.0, "sudden start");
         rows.exactly(name + ": bonds broken", static_cast<double>(broken), 0.0);
@@ -184,7 +185,7 @@ std::vector<ClaimRow> frictionless_motion_runs_backwards() {
         for (int n = 0; n < steps; ++n) step(world);
         const std::string name = name_of(kind);
         rows.at_least(name + fmt::format(": way after {} steps, m", steps), way, 1e-6, "it moves");
-        rows.absolute(name + ": distance from the start after going back, over 0.04 m", farthest() / 0.04, 0.0, 1e-10,
+        rows.absolute(name + ": distance from the start after running back, over 0.04 m", farthest() / 0.04, 0.0, 1e-10,
                       "reference");
         rows.absolute(name + ": the same over the way", farthest() / way, 0.0, 1e-8, "rounding");
     }
@@ -198,12 +199,12 @@ std::vector<Claim> conservation_claims() {
     return {
         {.name = "free_bonded_specimen_keeps_momentum_and_energy",
          .group = group,
-         .statement = "momentum and angular momentum to 1e-12, energy to second order, no bond breaks",
+         .statement = "momentum and angular momentum are kept to 1e-12, energy to second order, and no bond breaks",
          .check = free_bonded_specimen_keeps_momentum_and_energy},
         {.name = "rigid_turn_of_360_degrees_gives_no_force",
          .group = group,
          .statement =
-             "a rigid turn imposed step by step strains nothing and breaks nothing, to second order in the angle",
+             "an imposed rigid rotation causes no forces, to second order in the angle per step, and no breaks",
          .check = rigid_turn_of_360_degrees_gives_no_force},
         {.name = "free_slow_spin_feels_the_centripetal_force_alone",
          .group = group,
@@ -211,7 +212,7 @@ std::vector<Claim> conservation_claims() {
          .check = free_slow_spin_feels_the_centripetal_force_alone},
         {.name = "frictionless_motion_runs_backwards",
          .group = group,
-         .statement = "n steps, v := -(v + a dt), n steps: back at the start",
+         .statement = "n steps, v := -(v + a dt), n steps return to the initial state",
          .check = frictionless_motion_runs_backwards},
     };
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Physics does not depend on the order and numbers of the bodies, the handedness and direction of the axes, or the
-// units. Impacts with friction, dashpots, bonds that break, gravity and walls are compared body by body.
+// Results do not depend on the order and ids of the bodies, the handedness and direction of the axes, or the units.
+// Impacts with friction, dashpots, breaking bonds, gravity and walls are compared body by body.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <algorithm>
@@ -28,7 +28,7 @@ namespace crackle::verification {
 namespace invariance_scenes {
 namespace {
 
-/// A few bonded discs and a few bonded polygons, moving, near two walls, with a driven disc.
+/// Some bonded discs and some bonded polygons, in motion near two walls, with a driven disc.
 Scene busy_scene() {
     Material material = rock();
     material.damping_ratio = 0.1;
@@ -61,8 +61,8 @@ struct Fate {
     double turn, spin;
 };
 struct Story {
-    std::map<int, Fate> bodies;  // by id
-    double energy;               // kinetic and stored, J
+    std::map<int, Fate> bodies;  // keyed by id
+    double energy;               // kinetic and stored energy, J
     std::int64_t broken;
 };
 
@@ -89,7 +89,8 @@ Story story_of(Scene scene, double time_step, double bond_thick) {
     return story;
 }
 
-/// Largest difference over the scales of the plain story, after `back` has brought a fate to its axes and units.
+/// Largest difference from the reference run, relative to the scales, after `back` has transformed a result to the
+/// reference axes and units.
 double difference(
     const Story& plain, const Story& other, const std::function<Fate(const Fate&)>& back, double energy_unit,
     const std::function<int(int)>& id = [](int k) { return k; }) {
@@ -122,7 +123,8 @@ void check(Rows& rows, const std::string& name, double off, double tolerance = 1
     rows.absolute(name, off, 0.0, tolerance, estimate);
 }
 
-/// Scene with every point, velocity and wall mapped by a rotation or reflection, spins and moments by its determinant.
+/// The scene with every point, velocity and wall transformed by a rotation or reflection, and spins and moments
+/// multiplied by its determinant.
 Scene mapped(const Scene& scene, const std::function<Vec2(Vec2)>& map, double handedness) {
     Scene result = scene;
     for (CircleElement& c : result.circles) c.centre = map(c.centre);
@@ -141,7 +143,7 @@ Scene mapped(const Scene& scene, const std::function<Vec2(Vec2)>& map, double ha
 std::vector<ClaimRow> physics_does_not_depend_on_order_and_numbers() {
     Rows rows;
     const Scene scene = busy_scene();
-    rows.at_least("bonds that break on the way", static_cast<double>(plain_story().broken), 6.0, "not tame");
+    rows.at_least("bonds that break during the run", static_cast<double>(plain_story().broken), 6.0, "not tame");
     for (const std::uint64_t seed : {3u, 4u}) {
         std::mt19937_64 generator(seed);
         std::vector<std::size_t> order(scene.bodies.size());
@@ -187,7 +189,7 @@ std::set<std::pair<int, int>> roles_of(Scene scene) {
     return roles;
 }
 
-/// Pairs whose first and second body have traded places.
+/// Number of pairs whose first and second body are exchanged.
 double traded(const Scene& scene, const Scene& other) {
     const auto plain = roles_of(scene), now = roles_of(other);
     return static_cast<double>(std::count_if(plain.begin(), plain.end(), [&](const std::pair<int, int>& pair) {
@@ -208,7 +210,7 @@ std::vector<ClaimRow> physics_does_not_depend_on_the_axes() {
                   return Fate{mirror(f.centre), mirror(f.velocity), -f.turn, -f.spin};
               },
               1.0));
-    rows.at_least("bonded pairs of which i and j have traded places", traded(scene, mirrored), 10.0, "swapped");
+    rows.at_least("bonded pairs with i and j exchanged", traded(scene, mirrored), 10.0, "swapped");
     Scene turned = mapped(scene, perpendicular, 1.0);
     turned.controls[0].x = {Drive::force, -30.0};
     turned.controls[0].y = {Drive::velocity, 0.02};
@@ -224,7 +226,7 @@ std::vector<ClaimRow> physics_does_not_depend_on_the_axes() {
     for (CircleElement& c : shifted.circles) c.centre = c.centre + by;
     for (Vec2& v : shifted.vertices) v = v + by;
     shifted.domain.x1 += by.x, shifted.domain.x2 += by.x, shifted.domain.y1 += by.y, shifted.domain.y2 += by.y;
-    // Coordinates of 16 m have lost two digits of those of a few centimetres.
+    // Coordinates of 16 m have two fewer digits than those of a few centimetres.
     check(rows, "shifted by 18 m",
           difference(
               plain_story(), story_of(shifted, time_step, bond_thick),
@@ -272,13 +274,15 @@ std::vector<Claim> invariance_claims() {
     return {
         {.name = "physics_does_not_depend_on_order_and_numbers",
          .group = group,
-         .statement = "renumber and reorder bodies, start outlines elsewhere: the same to 1e-9",
+         .statement = "results do not change by more than 1e-9 if bodies are renumbered or reordered, or outlines "
+                      "start at another corner",
          .check = physics_does_not_depend_on_order_and_numbers,
-         .note = "Bodies are numbered along space inside the engine, so that the input's order leaves not even a bit."},
+         .note =
+             "The engine numbers bodies by their positions, so the order of the input does not change a single bit."},
         {.name = "physics_does_not_depend_on_the_axes",
          .group = group,
-         .statement =
-             "swap i and j, mirror, turn by 90 degrees, shift: the same to 1e-9 (shift: to the digits that are left)",
+         .statement = "results do not change by more than 1e-9 after swapping i and j, mirroring, rotating by 90 "
+                      "degrees, or shifting (shifts: to the remaining digits)",
          .check = physics_does_not_depend_on_the_axes},
         {.name = "physics_does_not_depend_on_the_units",
          .group = group,

@@ -46,7 +46,7 @@ struct Rebound {
     double restitution, contact_time;
 };
 
-/// @param phase share of a step by which the disc has come near the floor when a step ends, 0 to 1
+/// @param phase fraction of a step that remains at the beginning of the contact, 0 to 1
 Rebound rebound(double h, double speed, double steps_in_contact, double phase) {
     constexpr double stiffness = 1e7;
     const double dt = contact_time(stiffness, h) / steps_in_contact;
@@ -67,7 +67,7 @@ Rebound rebound(double h, double speed, double steps_in_contact, double phase) {
 
 constexpr int phases = 8;
 
-/// Largest error over where in a step the contact begins.
+/// Largest error over several phases of the step at which the contact begins.
 struct ReboundErrors {
     double restitution = 0.0, contact_time = 0.0;
     double worst_restitution = 0.0;
@@ -86,8 +86,9 @@ ReboundErrors rebound_errors(double h, double steps_in_contact, double speed = 0
     return errors;
 }
 
-/// What the lagged dashpot may cost, to first order in the step. c(v - ½a dt) for cv makes the oscillator lighter by
-/// ½c dt: ln e changes by -π²h²/(2n w⁴), n steps a contact. The first kick may come up to a step late: 2hπ/(n w).
+/// Error due to the lagged dashpot, to first order in the step. Using c(v - ½a dt) instead of cv reduces the
+/// oscillator's mass by ½c dt: ln e changes by -π²h²/(2n w⁴) for n steps per contact. The first kick may be up to a
+/// step late, which adds 2hπ/(n w).
 double lag_estimate(double h, double steps_in_contact) {
     const double w2 = 1.0 - h * h, pi = std::numbers::pi;
     const double change = (0.5 * pi * pi * h * h / (w2 * w2) + 2.0 * h * pi / std::sqrt(w2)) / steps_in_contact;
@@ -111,7 +112,8 @@ std::vector<ClaimRow> restitution_with_a_lagged_dashpot() {
     }
     for (const double h : {0.05, 0.215, 0.5}) {
         const ReboundErrors coarse = rebound_errors(h, 400.0), fine = rebound_errors(h, 3200.0);
-        // ω changes by half the relative change of the mass, ½hω₀dt, and both ends are found to a step.
+        // ω changes by half the relative change of the mass, ½hω₀dt, and both ends of the contact are found to within a
+        // step.
         rows.relative(fmt::format("contact time at h {}, t_c/400, s", h), coarse.mean.contact_time,
                       contact_time(1e7, h), 3.0 / 400.0, "a step at each end");
         rows.converging({coarse.contact_time, fine.contact_time, 8.0, 1.0});
@@ -139,20 +141,20 @@ std::vector<ClaimRow> restitution_with_a_clamped_dashpot() {
     return rows.take();
 }
 
-// ---- a disc dropped on a floor, gravity acting in the contact as well
+// ---- a disc dropped on a floor; gravity also acts during contact
 
-/// Height of the lowest point over the floor and its rate, m and m/s.
+/// Height of the lowest point above the floor, m, and its rate, m/s.
 struct Fall {
     double height, speed;
 };
 
-/// Piecewise analytic: parabolas, and in contact a damped oscillator about the sag mg/k.
+/// Piecewise analytic path: parabolas in flight, and a damped oscillation about the sag mg/k in contact.
 class AnalyticBounce {
   public:
     AnalyticBounce(double stiffness, double h, double drop, double gravity)
         : omega_(std::sqrt(stiffness / mass)), h_(h), gravity_(gravity), state_{drop, 0.0} {}
 
-    /// @param end s; moves on from where it stands
+    /// Continues from the last position. @param end time, s
     Fall at(double end) {
         while (true) {
             const double leave = contact_ ? contact_end() : fall_end();
@@ -173,11 +175,11 @@ class AnalyticBounce {
     }
     Fall in_contact(double t) const {
         const double w = omega_ * std::sqrt(1.0 - h_ * h_), decay = h_ * omega_, sag = gravity_ / (omega_ * omega_);
-        const double a = sag, b = (state_.speed + decay * a) / w;  // of the height over the sagged rest
+        const double a = sag, b = (state_.speed + decay * a) / w;  // of the height above the position at rest
         const double c = std::cos(w * t), s = std::sin(w * t), e = std::exp(-decay * t);
         return {e * (a * c + b * s) - sag, e * ((b * w - decay * a) * c - (a * w + decay * b) * s)};
     }
-    /// First return to height 0, by bisection beyond the lowest point; infinite where it comes to rest.
+    /// First return to height 0, by bisection after the lowest point; infinite if the disc comes to rest.
     double contact_end() const {
         const double half = std::numbers::pi / (omega_ * std::sqrt(1.0 - h_ * h_));
         double high = half;
@@ -200,7 +202,8 @@ class AnalyticBounce {
 
 constexpr double drop = 0.005, soft = 1e5, gravity = 9.81;
 
-/// Largest distance from the analytic path over the drop, at most `phases` starts apart by shares of a step's fall.
+/// Largest distance from the analytic path relative to the drop, over `starts` initial heights that differ by fractions
+/// of a step's fall.
 double bounce_error(double h, double steps_in_contact, double duration, int starts) {
     double worst = 0.0;
     for (int k = 0; k < starts; ++k) {
@@ -223,7 +226,7 @@ double bounce_error(double h, double steps_in_contact, double duration, int star
 
 std::vector<ClaimRow> free_fall_bounce_and_rest() {
     Rows rows;
-    // Undamped, contacts that begin and end within a step cost (ω dt)² a bounce.
+    // Without damping, a contact that begins or ends within a step causes an error of (ω dt)² per bounce.
     const double undamped = bounce_error(0.0, 500.0, 0.35, 4), undamped_fine = bounce_error(0.0, 2000.0, 0.35, 4);
     rows.absolute("no dashpot: distance from the path over the drop, 4 bounces, t_c/2000", undamped_fine, 0.0, 1e-4,
                   "reference");
@@ -247,13 +250,14 @@ struct Stack {
     BodyIndex low, high;
 };
 
-/// Squeezed by `squeeze` (m) in all, under gravity. @param apart how far both start from equilibrium, m
+/// Two discs compressed by `squeeze` (m) in total, under gravity. @param apart initial displacement of both from
+/// equilibrium, m
 Stack stacked(double h, double squeeze, Vec2 apart, double time_step) {
     Scene scene = above_floor(soft, h, 0.0);
     const double ceiling = 4.0 * radius - squeeze;
     scene.domain = {-10.0, 10.0, 0.0, ceiling, {false, false, true, true}};
     scene.gravity = {0.0, -gravity};
-    // Overlaps: floor (squeeze + 3w)/3 … each spring down the stack carries one weight more.
+    // The overlap with the floor is (squeeze + 3w)/3; each spring further down carries one more weight.
     const double third = squeeze / 3.0, sag = mass * gravity / soft;
     scene.circles[0].centre.y = radius - (third + sag) + apart.x;
     scene.add_circle_body(2, 0, {{0.0, ceiling - radius + (third - sag) + apart.y}, radius, 0.0});
@@ -263,7 +267,8 @@ Stack stacked(double h, double squeeze, Vec2 apart, double time_step) {
     return {std::move(world), low, high};
 }
 
-/// Largest distance from the two normal modes over the starting one, over 8 periods of the slower.
+/// Largest deviation from the two normal modes relative to the initial displacement, during 8 periods of the slower
+/// mode.
 double stack_error(double share) {
     const double omega = std::sqrt(soft / mass), squeeze = 3e-3;
     const Vec2 apart{2e-4, -0.7e-4};
@@ -291,7 +296,8 @@ std::vector<ClaimRow> two_discs_stacked_between_walls() {
     rows.relative("overlap of the discs, m", 2.0 * radius - (high.y - low.y), squeeze / 3.0, 1e-6, "reference");
     rows.relative("overlap with the ceiling, m", high.y + radius - stack.world.settings.domain.y2, squeeze / 3.0 - sag,
                   1e-6, "reference");
-    // Leapfrog's frequency is too high by (ω dt)²/24: over 8 periods √3·3·16π/24 (ω dt)² = 11 (ω dt)² of the amplitude.
+    // Leapfrog's frequency is too high by (ω dt)²/24; during 8 periods this gives √3·3·16π/24 (ω dt)² = 11 (ω dt)² of
+    // the amplitude.
     const double coarse = stack_error(1e-3), fine = stack_error(2.5e-4);
     rows.absolute("distance from both modes over the first one, 8 periods, ω₀dt 2.5e-4", fine, 0.0, 1e-6, "(ω dt)²/24");
     rows.converging({coarse, fine, 4.0, 2.0});
@@ -309,14 +315,15 @@ std::vector<Claim> one_body_claims() {
          .group = group,
          .statement = "e = exp(-πh/√(1-h²)) and contact time π/(ω₀√(1-h²)), whatever the speed; the dashpot may pull",
          .check = restitution_with_a_lagged_dashpot,
-         .note = "The dashpot sees v(n-½), as the guide's does: first order. Above h 0.215 the tolerance is the "
-                 "estimate of that lag, π²h²/(2n(1-h²)²) + 2πh/(n√(1-h²)) of e at n steps a contact."},
+         .note =
+             "The dashpot uses v(n-½), as in the guide, so the error is of first order. Above h 0.215 the tolerance is "
+             "the estimated effect of this lag on e, π²h²/(2n(1-h²)²) + 2πh/(n√(1-h²)) with n steps per contact."},
         {.name = "restitution_with_a_centred_dashpot",
          .group = group,
-         .statement = "the same to second order in dt",
+         .statement = "restitution as with a lagged dashpot, to second order in dt",
          .check = restitution_with_a_centred_dashpot,
          .offered = false,
-         .note = "The engine keeps to the guide's lagged dashpot alone."},
+         .note = "The engine offers only the guide's lagged dashpot."},
         {.name = "restitution_with_a_clamped_dashpot",
          .group = group,
          .statement = "f_n ≥ 0, w = √(1-h²): h < 1/√2: e = exp(-(h/w)(π - atan(2hw/(w²-h²)))), above: "
@@ -326,11 +333,12 @@ std::vector<Claim> one_body_claims() {
          .note = "The engine's dashpot may pull, as the guide's restitution formula assumes."},
         {.name = "free_fall_bounce_and_rest",
          .group = group,
-         .statement = "parabolas in flight, in contact a damped oscillator about the sag mg/k with gravity inside",
+         .statement = "parabolas in flight; in contact, a damped oscillator about the sag mg/k",
          .check = free_fall_bounce_and_rest},
         {.name = "two_discs_stacked_between_walls",
          .group = group,
-         .statement = "equilibrium overlaps s/3 + mg/k, s/3, s/3 - mg/k (s squeezed in all); modes √(k/m), √(3k/m)",
+         .statement =
+             "equilibrium overlaps s/3 + mg/k, s/3, s/3 - mg/k with the total overlap s; modes √(k/m), √(3k/m)",
          .check = two_discs_stacked_between_walls},
     };
 }

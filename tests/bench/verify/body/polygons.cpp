@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Polygons: mass properties, free spin, and collisions corner to corner, corner to edge and edge to edge. Contact
-// forces act at one point of both bodies and derive from ½k_n δ² with δ C¹ outside a convex outline. Momentum and
-// angular momentum are therefore kept to rounding. Without friction and dashpots, energy is kept to second order in the
-// step, corners passing corners included. Notched polygons and open chains as well.
+// forces act at one point of both bodies and have the potential ½k_n δ², where δ is continuously differentiable outside
+// a convex outline. Momentum and angular momentum are therefore conserved to round-off. Without friction and dashpots,
+// energy is conserved to second order in the step, even if corners pass corners. Notched polygons and open chains are
+// included.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -42,8 +43,8 @@ const std::vector<Vec2> notched{{0.03, -0.05}, {0.03, 0.03}, {-0.05, 0.03}, {-0.
 struct Collision {
     const char* name;
     std::vector<Vec2> left, right;
-    Vec2 velocity;  // of the left one, m/s
-    double spin;    // of the right one, rad/s
+    Vec2 velocity;  // velocity of the left body, m/s
+    double spin;    // spin of the right body, rad/s
     bool right_closed = true;
 };
 
@@ -87,10 +88,10 @@ std::vector<Collision> collisions() {
 
 struct Outcome {
     double momentum_error = 0.0, energy_error = 0.0, closing_error = 0.0;
-    double stored_at_start = 0.0, largest_stored = 0.0;  // over the kinetic energy at the start
+    double stored_at_start = 0.0, largest_stored = 0.0;  // relative to the initial kinetic energy
 };
 
-/// @param step_share step over the contact time of two squares, 1.4e-3 s
+/// @param step_share step relative to the contact time of two squares, 1.4e-3 s
 Outcome collide(const Collision& c, double step_share, double friction_angle, SegmentLaw law = SegmentLaw::rounded) {
     Scene scene;
     scene.materials = {rock(friction_angle)};
@@ -136,8 +137,8 @@ std::vector<ClaimRow> polygons_colliding_keep_momentum_and_energy() {
         check_touched(rows, c.name, fine);
         rows.absolute(fmt::format("{}: momenta", c.name), std::max(coarse.momentum_error, fine.momentum_error), 0.0,
                       1e-12, "reference");
-        // Within a contact leapfrog's energy swings by (ω dt)²/4 of what is stored, (π/50)²/4 at t_c/50, and as much
-        // again where a contact begins or ends within a step.
+        // During a contact, the energy under leapfrog oscillates by (ω dt)²/4 of the stored energy, (π/50)²/4 at
+        // t_c/50. The same amount is added if a contact begins or ends within a step.
         rows.absolute(fmt::format("{}: energy over the kinetic, t_c/50", c.name), coarse.energy_error, 0.0, 5e-3,
                       "(ω dt)²");
         rows.converging({coarse.energy_error, fine.energy_error, 8.0, 2.0});
@@ -174,8 +175,8 @@ std::vector<ClaimRow> polygons_colliding_under_the_guides_law_keep_momentum_and_
                       "reference");
         const Outcome coarse = collide(c, 0.02 / 4.0, 0.0, SegmentLaw::demseg),
                       fine = collide(c, 0.02 / 32.0, 0.0, SegmentLaw::demseg);
-        // The error is that under the rounded law, (π/1600)²/4 of what is stored; a jump of the overlap at a free end
-        // costs more.
+        // The error is that of the rounded law, (π/1600)²/4 of the stored energy; a jump of the overlap at a free end
+        // adds to it.
         rows.absolute(fmt::format("{}: closing error over the kinetic, t_c/1600", c.name), fine.closing_error, 0.0,
                       1e-5, "(ω dt)²");
         rows.converging({coarse.closing_error, fine.closing_error, 8.0, 2.0});
@@ -184,12 +185,12 @@ std::vector<ClaimRow> polygons_colliding_under_the_guides_law_keep_momentum_and_
 }
 
 struct SlideOff {
-    double taken = 0.0;          // by the law itself, over the largest strain energy
-    double closing_error = 0.0;  // over the same
-    double height = 0.0;         // m, of the block in the end
+    double taken = 0.0;          // energy removed by the law itself, relative to the largest strain energy
+    double closing_error = 0.0;  // relative to the largest strain energy
+    double height = 0.0;         // m, height of the block at the end
 };
 
-/// A block pressed onto the side of a held one slides along it and off its end, without friction or turning.
+/// A block pressed onto the side of a held one slides along it and off its end, without friction or rotation.
 SlideOff slide_off(SegmentLaw law, double time_step) {
     Scene scene;
     scene.materials = {rock(0.0)};
@@ -221,26 +222,27 @@ SlideOff slide_off(SegmentLaw law, double time_step) {
 }
 
 std::vector<ClaimRow> free_end_under_the_guides_law_takes_energy_whatever_the_step() {
-    // Towards the end the overlap runs down along (iii), the block sinks in, and beyond it (ii) begins at once: a force
-    // without potential. It takes energy here and makes as much on the way back. The springs' work is booked as it is,
-    // so that stands apart from the error of the step, which shrinks; under the rounded law there is nothing but that
-    // error.
+    // Near the end of the side, the overlap decreases as in rule (iii) and the block sinks in; beyond the end, rule
+    // (ii) begins with a jump. Such a force has no potential. It removes energy here, and adds as much on the way back.
+    // The work of the springs is computed as it occurs, so this loss is separate from the error of the step, which
+    // decreases with the step. Under the rounded law there is only that error.
     Rows rows;
     std::vector<SlideOff> guide, rounded;
     for (const double time_step : {4e-6, 1e-6, 0.25e-6}) {
         guide.push_back(slide_off(SegmentLaw::demseg, time_step));
         rounded.push_back(slide_off(SegmentLaw::rounded, time_step));
-        rows.shown(fmt::format("guide's law, step {:g} s: taken over the largest strain energy", time_step),
+        rows.shown(fmt::format("guide's law, step {:g} s: energy loss over the largest strain energy", time_step),
                    guide.back().taken);
     }
     for (const SlideOff& run : {guide[2], rounded[2]})
-        rows.at_least("the block has left the side: its height in the end, m", run.height, 0.04 + 2e-4, "geometry");
-    rows.at_least("guide's law: taken over the largest strain energy", std::abs(guide[2].taken), 0.1, "a jump of δ");
+        rows.at_least("the block has left the side: height at the end, m", run.height, 0.04 + 2e-4, "geometry");
+    rows.at_least("guide's law: energy loss over the largest strain energy", std::abs(guide[2].taken), 0.1,
+                  "a jump of δ");
     rows.relative("guide's law: the same at four times the step", guide[1].taken, guide[2].taken, 0.02,
                   "where the step meets the jump");
     rows.at_most("guide's law: closing error over that at 16 times the step",
                  guide[2].closing_error / guide[0].closing_error, 0.5, "shrinks");
-    rows.exactly("rounded law: taken", rounded[2].taken, 0.0);
+    rows.exactly("rounded law: energy loss", rounded[2].taken, 0.0);
     rows.absolute("rounded law: closing error over the largest strain energy", rounded[2].closing_error, 0.0, 1e-4,
                   "(ω dt)²");
     rows.converging({rounded[0].closing_error, rounded[2].closing_error, 16.0, 2.0});
@@ -262,7 +264,7 @@ std::vector<ClaimRow> polygon_spins_freely_about_its_centroid() {
     const int steps = 200000;
     for (int n = 0; n < steps; ++n) step(world);
     const double time = 1e-5 * steps, turn = 7.0 * time;
-    // Rounding of 2e5 additions, each at most ½ eps of the sum.
+    // Round-off of 2e5 additions, each at most ½ epsilon of the sum.
     rows.absolute("turn, rad", world.bodies.state[0].angle - std::atan2(-0.01, 0.04), turn, 1e-9, "rounding");
     rows.absolute("length of the body frame",
                   std::hypot(world.bodies.state[0].shape[0], world.bodies.state[0].shape[1]), 1.0, 1e-15, "rounding");
@@ -300,7 +302,7 @@ std::vector<ClaimRow> mass_centroid_and_moment_are_exact() {
         check("rectangle" + where, rho * 6.0, at + Vec2{1.5, 1.0}, rho * 6.0 * (9.0 + 4.0) / 12.0);
         scene.add_chain_body(1, 0, placed({{0, 0}, {3, 0}, {0, 4}}, 0.0, at), true);
         check("triangle" + where, rho * 6.0, at + Vec2{1.0, 4.0 / 3.0}, rho * 6.0 * (9.0 + 16.0 + 25.0) / 36.0);
-        // L of a 1 by 3 and a 2 by 1 rectangle side by side: centroid and parallel axes by hand.
+        // An L made of a 1 by 3 and a 2 by 1 rectangle; centroid and moment by the parallel-axis theorem.
         scene.add_chain_body(1, 0, placed({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}, 0.0, at), true);
         const Vec2 c = 0.2 * (3.0 * Vec2{0.5, 1.5} + 2.0 * Vec2{2.0, 0.5});
         const Vec2 a = Vec2{0.5, 1.5} - c, b = Vec2{2.0, 0.5} - c;
@@ -326,7 +328,7 @@ std::vector<ClaimRow> mass_centroid_and_moment_are_exact() {
     scene.materials = {rock()};
     scene.domain.wall_present = {false, false, false, false};
     scene.add_chain_body(1, 0, {{0, 0}, {0, 4}, {3, 0}}, true);
-    validate(scene);  // turns it
+    validate(scene);  // reverses the order of its corners
     check("triangle given clockwise", rho * 6.0, {1.0, 4.0 / 3.0}, rho * 6.0 * (9.0 + 16.0 + 25.0) / 36.0);
     return rows.take();
 }
@@ -346,24 +348,23 @@ std::vector<Claim> polygon_claims() {
          .check = polygon_spins_freely_about_its_centroid},
         {.name = "polygons_colliding_keep_momentum_and_energy",
          .group = group,
-         .statement =
-             "linear and angular momentum to rounding; without friction energy to second order in dt, no jump as "
-             "a corner passes a corner",
+         .statement = "linear and angular momentum are kept to rounding; without friction, energy to second order in "
+                      "dt, without a jump when a corner passes a corner",
          .check = polygons_colliding_keep_momentum_and_energy},
         {.name = "polygons_colliding_with_friction_close_the_account",
          .group = group,
-         .statement =
-             "momenta to rounding; kinetic + stored + lost to friction stays what it was, to the order in which a "
-             "contact's beginning and its slip are found",
+         .statement = "momenta are kept to rounding. The sum of kinetic energy, stored energy and friction loss is "
+                      "constant, to the order with which the start of a contact and its slip are resolved",
          .check = polygons_colliding_with_friction_close_the_account},
         {.name = "polygons_colliding_under_the_guides_law_keep_momentum_and_close_the_account",
          .group = group,
-         .statement = "momenta to rounding; with the springs' own work booked, energy to second order in dt",
+         .statement =
+             "momenta are kept to rounding; if the work of the springs is counted, energy to second order in dt",
          .check = polygons_colliding_under_the_guides_law_keep_momentum_and_close_the_account},
         {.name = "free_end_under_the_guides_law_takes_energy_whatever_the_step",
          .group = group,
-         .statement = "a block that slides off a free end loses what does not depend on dt under the guide's law, and "
-                      "nothing under the rounded one",
+         .statement = "a block that slides off a free end loses an energy that does not depend on dt under the guide's "
+                      "law, and none under the rounded law",
          .check = free_end_under_the_guides_law_takes_energy_whatever_the_step},
     };
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bonds: what breaks them, what does not, and that every break is booked once.
+// Bonds: which loads break them, which do not, and that every break is recorded once.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -51,7 +51,7 @@ std::vector<ClaimRow> bond_squeezed_to_ten_times_its_strength_holds() {
     return rows.take();
 }
 
-/// A disc thrown against another that it barely touches.
+/// A disc hits another that it barely overlaps.
 Array<BodyState> rebound(double overlap, bool bonded, std::int64_t& broken) {
     Scene scene;
     scene.materials = {rock()};
@@ -80,10 +80,10 @@ std::vector<ClaimRow> bond_of_vanishing_strength_equals_no_bond() {
                                   std::abs(with[b].vy - without[b].vy) / 0.01,
                                   0.02 * std::abs(with[b].omega - without[b].omega) / 0.01});
         }
-        // The bond pulls by k_n δ0 all through the contact, π√(m/2k_n): π√(2k_n/m)δ0 of velocity, of 0.01 m/s; and a
-        // shear limit of as little counts as much again.
+        // The bond pulls with k_n δ0 throughout the contact, π√(m/2k_n), which changes the velocity by π√(2k_n/m)δ0,
+        // relative to 0.01 m/s. The shear limit, which is equally small, adds the same amount.
         const double estimate = 2.0 * 3.2 * std::sqrt(2.0 * 1e7 / 3.14) * overlap / 0.01;
-        rows.absolute(fmt::format("overlap {} m: velocities apart, over that of impact", overlap), errors[k], 0.0,
+        rows.absolute(fmt::format("overlap {} m: velocity of separation over that of impact", overlap), errors[k], 0.0,
                       estimate, "k_n δ₀ × contact time");
         rows.exactly(fmt::format("overlap {} m: bonds broken", overlap), static_cast<double>(broken), 1.0);
     }
@@ -91,7 +91,7 @@ std::vector<ClaimRow> bond_of_vanishing_strength_equals_no_bond() {
     return rows.take();
 }
 
-/// What distinguishes bonds and breaks of the same bodies: an interface of polygons holds several.
+/// Identifies bonds and breaks between the same two bodies, since an interface of polygons has several.
 using Pair = std::pair<int, int>;
 std::vector<Pair> bonded_pairs(const World& world) {
     std::vector<Pair> pairs;
@@ -126,7 +126,7 @@ std::vector<ClaimRow> break_list_is_the_difference_of_bond_sets() {
         std::set_symmetric_difference(lost.begin(), lost.end(), broken.begin(), broken.end(), std::back_inserter(off));
         const std::string name = name_of(kind);
         rows.at_least(name + ": bonds broken", static_cast<double>(broken.size()), 20.0, "it bursts");
-        rows.at_least(name + ": bonds that hold", static_cast<double>(after.size()), 20.0, "not all of it");
+        rows.at_least(name + ": bonds that hold", static_cast<double>(after.size()), 20.0, "some bonds hold");
         rows.exactly(name + ": bonds lost without an event, or events without a lost bond",
                      static_cast<double>(off.size()), 0.0);
         rows.exactly(name + ": counted as broken", static_cast<double>(world.bonds.broken),
@@ -149,7 +149,7 @@ std::vector<ClaimRow> splitting_a_run_loses_no_break() {
         int parts = 0;
         for (int n = 0; n < burst_steps; ++n) {
             if (uniform_below(generator, 200) == 0) {
-                if (parts % 2 == 1) compute_forces(split);  // stopped after the force pass, or after the step
+                if (parts % 2 == 1) compute_forces(split);  // stopped either after the force pass or after the step
                 events.insert(events.end(), split.bonds.events.begin(), split.bonds.events.end());
                 split.bonds.events.clear();
                 split = load_world(save_world(split), "memory");
@@ -167,7 +167,7 @@ std::vector<ClaimRow> splitting_a_run_loses_no_break() {
         const std::string name = name_of(kind);
         rows.at_least(name + ": parts of the run", parts, 5.0, "it is split");
         rows.at_least(name + ": breaks", static_cast<double>(straight.bonds.events.size()), 20.0, "it bursts");
-        rows.exactly(name + ": breaks that differ from those of the run in one", static_cast<double>(off), 0.0);
+        rows.exactly(name + ": breaks that differ from those of the uninterrupted run", static_cast<double>(off), 0.0);
     }
     return rows.take();
 }
@@ -187,11 +187,12 @@ std::vector<Claim> bond_claims() {
          .check = bond_of_vanishing_strength_equals_no_bond},
         {.name = "break_list_is_the_difference_of_bond_sets",
          .group = group,
-         .statement = "one event for every bond that is gone, and for no other",
+         .statement = "there is one event for every broken bond, and no other",
          .check = break_list_is_the_difference_of_bond_sets},
         {.name = "splitting_a_run_loses_no_break",
          .group = group,
-         .statement = "a run stopped, saved and gone on with has the breaks of the run in one, to the bit",
+         .statement =
+             "a run that is stopped, saved and continued has the same breaks as an uninterrupted run, to the bit",
          .check = splitting_a_run_loses_no_break},
     };
 }

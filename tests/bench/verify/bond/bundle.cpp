@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Daniels' bundle: discs in a row, each held by one platen and pulled by another through a bond of random strength.
+// Daniels' bundle: discs in a row, each held by one platen, and pulled by another platen through a bond of random
+// strength. The load is divided equally among the remaining bonds, so the largest load follows from order statistics.
+// For sorted strengths x_(i) of N bonds it is max x_(i) (N - i + 1). With Weibull strengths of modulus m and scale F0
 //
-// The load goes in equal parts to the bonds that are left, so that the largest is that of order statistics: of sorted
-// strengths x_(i) of N bonds max x_(i) (N - i + 1). With Weibull strengths of modulus m and scale F0
+//     peak/(N F0) -> (m e)^(-1/m) at an opening of x = (1/m)^(1/m) times that for F0,  standard deviation x √(P(1 -
+//     P)/N)
 //
-//     peak/(N F0) -> (m e)^(-1/m) at the opening x = (1/m)^(1/m) of F0's,  standard deviation x √(P(1 - P)/N)
-//
-// with P = exp(-1/m), and the mean lies 0.996 [f² x⁴/(2f + x f')]^(1/3) N^(-2/3) above, f the density at x (H. E.
-// Daniels, 1945 and 1989; checked by simulation). It is a closed form of a strength that takes more than one break.
+// with P = exp(-1/m). The mean is 0.996 [f² x⁴/(2f + x f')]^(1/3) N^(-2/3) higher, where f is the density at x (H. E.
+// Daniels, 1945 and 1989; checked by simulation). This is a closed form of a strength that involves more than one
+// break.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -36,19 +37,19 @@ namespace bundle_scenes {
 namespace {
 
 constexpr double radius = 0.02, pitch = 0.05, thick = 1e-3, overlap = 1e-4;  // m
-constexpr double kn = 1e7, mean_strength = 10.0;                             // N/m, N: opens by 1e-6 m, far from a gap
+constexpr double kn = 1e7, mean_strength = 10.0;                             // N/m, N
 constexpr int low_id = 100001, high_id = 100002;
 
 double scale_of(double modulus) { return mean_strength / std::tgamma(1.0 + 1.0 / modulus); }
 double limit_of(double modulus) { return std::pow(modulus * std::numbers::e, -1.0 / modulus); }
 
-/// √N times the standard deviation of the peak, over F0.
+/// √N times the standard deviation of the peak, relative to F0.
 double spread_of(double modulus) {
     const double x = std::pow(1.0 / modulus, 1.0 / modulus), p = std::exp(-1.0 / modulus);
     return x * std::sqrt(p * (1.0 - p));
 }
 
-/// What a finite bundle has more than an endless one, over F0.
+/// Difference of the mean peak between a finite and an infinite bundle, relative to F0.
 double excess_of(double modulus, double count) {
     const double x = std::pow(1.0 / modulus, 1.0 / modulus), p = std::exp(-1.0 / modulus);
     const double f = modulus * std::pow(x, modulus - 1.0) * p;
@@ -68,7 +69,7 @@ Sample sample_of(const std::vector<double>& values) {
     return sample;
 }
 
-/// Peaks over N F0 of sorted numbers.
+/// Peaks relative to N F0, computed from sorted random numbers.
 Sample order_statistics(double modulus, int count, int bundles) {
     std::mt19937_64 generator(2026);
     std::vector<double> peaks, strengths(static_cast<std::size_t>(count));
@@ -102,13 +103,13 @@ World unbonded_bundle(int count) {
 
 struct Pulled {
     double peak = 0.0;     // N
-    double opening = 0.0;  // m, of a bond then
+    double opening = 0.0;  // m, opening of a bond at the peak
 };
 
-/// One bundle pulled beyond its peak. The discs go along with half the platen's speed, so that nothing swings but what
-/// has broken free, and the platen feels the bonds that are left alone.
-/// @param start opening of a bond, m, from which on it is pulled slowly @param each growth of it a step then, m
-/// @param enough share of the largest load at which it ends
+/// Pulls one bundle beyond its peak. The discs move at half the platen's speed, so that only freed discs oscillate, and
+/// the platen carries the remaining bonds.
+/// @param start opening of a bond at which slow loading begins, m @param each further opening per step, m
+/// @param enough fraction of the largest load at which the run ends
 Pulled pull(World world, const StrengthFactors& factors, double start, double each, double enough) {
     const BodyIndex low = body_of_id(world, low_id), high = body_of_id(world, high_id);
     Bonding bonding;
@@ -123,7 +124,7 @@ Pulled pull(World world, const StrengthFactors& factors, double start, double ea
         const DofControl still{Drive::velocity, 0.0};
         set_control(world, high, {still, {Drive::velocity, 2.0 * speed}, still}, 0);
     };
-    constexpr int approach = 100;  // steps; what breaks on the way is late by some, and lies before the peak
+    constexpr int approach = 100;  // steps; breaks during these steps are found late, but before the peak
     move(start / approach);
     for (int n = 0; n < approach; ++n) step(world);
     move(each);
@@ -151,9 +152,9 @@ std::vector<ClaimRow> bundles(const std::vector<int>& counts, int number) {
             const World world = unbonded_bundle(count);
             const Sample expected = order_statistics(modulus, count, simulated);
             const double error = expected.deviation * std::sqrt(1.0 / number + 1.0 / simulated);
-            // The largest load seen falls short of the peak by at most a step.
+            // The largest load found is below the peak by at most one step.
             const double each = 0.3 * error / expected.mean * at;
-            // Peaks scatter by N^(-1/3) about their strain, loads near them by N^(-2/3).
+            // Strains at the peak scatter by N^(-1/3), and loads near it by N^(-2/3).
             const double start = (1.0 - 2.0 / std::cbrt(count)) * at, enough = 1.0 - 5.0 * std::pow(count, -2.0 / 3.0);
             std::vector<double> peaks, openings;
             for (int seed = 1; seed <= number; ++seed) {
@@ -183,25 +184,24 @@ std::vector<ClaimRow> bundles_have_the_strength_of_daniels() { return bundles({1
 
 std::vector<Claim> bundle_claims() {
     using namespace bundle_scenes;
-    constexpr const char* group = "Bonds with strengths of their own";
+    constexpr const char* group = "Bonds with given strengths";
     constexpr const char* statement =
-        "N discs between two platens, bonds of Weibull strengths to one of them: the mean largest load is that of "
-        "order "
-        "statistics, of N sorted strengths the largest x_(i) (N - i + 1)";
+        "N discs between two platens have bonds with Weibull strengths to one of them: the mean largest load follows "
+        "from order statistics, as the largest x_(i) (N - i + 1) of N sorted strengths";
     return {
         {.name = "small_bundles_have_the_strength_of_daniels",
          .group = group,
          .statement = statement,
          .check = small_bundles_have_the_strength_of_daniels,
-         .note = "20 bundles each against 4,000 of sorted numbers."},
+         .note = "20 bundles each are compared with 4,000 sets of sorted numbers."},
         {.name = "bundles_have_the_strength_of_daniels",
          .group = group,
          .statement = statement,
          .check = bundles_have_the_strength_of_daniels,
          .slow = true,
-         .note =
-             "200 bundles each against 4,000 of sorted numbers; the limit (m e)^(-1/m) of N → ∞ and Daniels' term of "
-             "finite N are shown beside, which is itself off by up to two standard errors at N = 100."},
+         .note = "200 bundles each are compared with 4,000 sets of sorted numbers. The limit (m e)^(-1/m) for N → ∞ "
+                 "and Daniels' term for finite N are reported too; at N = 100, the latter differs by up to two "
+                 "standard errors."},
     };
 }
 

@@ -28,15 +28,15 @@ const DofControl held{Drive::velocity, 0.0};
 // ---- waves
 
 struct Wave {
-    double expected, measured, stepped;  // ω, 1/s; `stepped`: as leapfrog has it
+    double expected, measured, stepped;  // ω, 1/s; `stepped` includes leapfrog's error
 };
 
-/// Standing wave of a chain between two held discs. @param step over √(m/k)
+/// Standing wave of a chain between two held discs. @param step_share step relative to √(m/k)
 Wave standing_wave(int count, int mode, double step_share, int periods) {
     Scene scene = disc_chain(count, radius, spacing, rock());
     scene.controls.push_back({0, held, held, held, 0});
     scene.controls.push_back({count - 1, held, held, held, 0});
-    const double q = std::numbers::pi * mode / (count - 1);  // times d
+    const double q = std::numbers::pi * mode / (count - 1);  // rad, times d
     const double mass = mass_properties(scene, scene.bodies[0]).mass;
     Wave wave{2.0 * std::sqrt(kn / mass) * std::abs(std::sin(0.5 * q)), 0.0, 0.0};
     for (int k = 1; k + 1 < count; ++k)
@@ -70,7 +70,7 @@ std::vector<ClaimRow> chain_waves_have_the_dispersion_of_masses_on_springs() {
         const Wave fine = standing_wave(33, mode, 0.05, 20);
         rows.relative(fmt::format("qd = {}π/32: ω, leapfrog's own shift counted, 1/s", mode), fine.measured,
                       fine.stepped, 1e-5, "crossings");
-        // Leapfrog's ω is too high by (ω dt)²/24, at most 0.1²/24.
+        // Leapfrog's ω is too high by (ω dt)²/24, here at most 0.1²/24.
         rows.relative(fmt::format("qd = {}π/32: ω at dt 0.05√(m/k), 1/s", mode), fine.measured, fine.expected, 5e-4,
                       "(ω dt)²/24");
         if (mode < 5) continue;
@@ -86,7 +86,7 @@ std::vector<ClaimRow> long_chain_waves_travel_at_their_speed() {
     for (const int count : {65, 129}) {
         const Wave wave = standing_wave(count, 1, 0.05, 3);
         const double q = std::numbers::pi / (count - 1) / spacing, mass = 2500.0 * std::numbers::pi * radius * radius;
-        // Dispersion (qd)²/24, and leapfrog's opposite and smaller share.
+        // The error is the dispersion (qd)²/24 and leapfrog's smaller error of opposite sign.
         rows.relative(fmt::format("ω/q of a wave of {} spacings, m/s", 2 * (count - 1)), wave.measured / q,
                       spacing * std::sqrt(kn / mass), q * spacing * q * spacing / 24.0 * 1.1, "(qd)²/24");
     }
@@ -95,11 +95,11 @@ std::vector<ClaimRow> long_chain_waves_travel_at_their_speed() {
 
 // ---- catenary
 
-/// Shape of a hanging chain of `bonds` springs between two held points `span` apart: equal horizontal tension, weights
-/// between the vertical ones.
+/// Shape of a chain of `bonds` springs that hangs between two held points at a distance `span`. Horizontal tensions are
+/// equal, and vertical tensions differ by the weights between them.
 struct Catenary {
     double horizontal;        // N
-    std::vector<Vec2> place;  // m, from the left end
+    std::vector<Vec2> place;  // m, relative to the left end
 };
 Catenary discrete_catenary(int bonds, double span, double weight) {
     const auto hang = [&](double horizontal) {
@@ -123,7 +123,7 @@ std::vector<ClaimRow> bonded_chain_hangs_as_a_catenary() {
     Rows rows;
     const int count = 21;
     const double deep = 4e-4, gravity = 9.81;
-    // Starts on an arc of 120 degrees; frictionless, so that bonds pull along their own line alone.
+    // The chain starts on an arc of 120 degrees. It has no friction, so that bonds pull only along their own line.
     Scene scene = disc_chain(count, radius + 0.5 * (deep - overlap), spacing, rock(0.0));
     const double by = 2.0 * std::numbers::pi / 3.0 / (count - 1), arc = 0.5 * spacing / std::sin(0.5 * by);
     for (int k = 0; k < count; ++k) {
@@ -136,7 +136,7 @@ std::vector<ClaimRow> bonded_chain_hangs_as_a_catenary() {
     World world = build_world(std::move(scene));
     rows.exactly("bonds", static_cast<double>(bond_all(world, 0.0)), count - 1);
     const double weight = world.bodies.inertia[body_of_id(world, 2)].mass * gravity;
-    // Viscous drag brings it to rest; its slowest swing takes about a second.
+    // Viscous drag brings the chain to rest; its slowest oscillation takes about a second.
     while (world.stepping.time < 12.0) {
         step(world);
         for (BodyState& body : world.bodies.state) {
@@ -163,13 +163,13 @@ std::vector<ClaimRow> bonded_chain_hangs_as_a_catenary() {
         off = std::max(off, norm(place(k + 1) - place(1) - shape.place[static_cast<std::size_t>(k)]));
     const Vec2 ends =
         Vec2{0.0, world.bodies.force[body_of_id(world, 1)].fy + world.bodies.force[body_of_id(world, count)].fy};
-    // Forces are stiffnesses times differences of coordinates: k_n·eps·1 m is 2e-9 N.
+    // Forces are stiffnesses times differences of coordinates, so their round-off is k_n·eps·1 m = 2e-9 N.
     rows.absolute("horizontal tension of any bond against the catenary's, over it", horizontal / shape.horizontal, 0.0,
                   1e-9, "rounding");
-    rows.absolute("vertical tension of any bond against the weights below, over the whole weight",
+    rows.absolute("vertical tension of any bond against the weights below, over the total weight",
                   vertical / (weight * (count - 2)), 0.0, 1e-9, "rounding");
     rows.relative("weight on both ends, N", -ends.y, weight * (count - 2), 1e-9, "rounding");
-    rows.absolute("places against the discrete catenary, over the spacing", off / spacing, 0.0, 1e-9, "rounding");
+    rows.absolute("positions against the discrete catenary, over the spacing", off / spacing, 0.0, 1e-9, "rounding");
     rows.shown("sag over span", -shape.place[(count - 1) / 2].y / shape.place.back().x);
     return rows.take();
 }
@@ -178,7 +178,7 @@ std::vector<ClaimRow> bonded_chain_hangs_as_a_catenary() {
 
 std::vector<ClaimRow> bonded_chain_pulled_breaks_at_its_back_tension() {
     Rows rows;
-    // The guide's chain: r 1.1, spacing 2.0, k_n 1e8 give 2e7.
+    // The guide's chain with r 1.1, spacing 2.0 and k_n 1e8 has a strength of 2e7.
     Material material = rock();
     material.normal_stiffness = 1e8;
     material.shear_stiffness = 2.5e7;
@@ -201,7 +201,8 @@ std::vector<ClaimRow> bonded_chain_pulled_breaks_at_its_back_tension() {
     rows.at_least("bonds broken", static_cast<double>(world.bonds.broken), 1.0, "breaks");
     if (world.bonds.broken == 0) return rows.take();
     const BreakEvent& event = world.bonds.events.front();
-    // A step stretches each bond by 0.02/19 dt of 0.2 m, 2e-6; the chain is 1e3 times slower than its waves.
+    // Each step stretches a bond by 0.02/19 dt relative to 0.2 m, 2e-6; the loading is 1e3 times slower than the
+    // chain's waves.
     rows.relative("pull when the first bond breaks, N", pull, 2e7, 1e-3, "rate");
     rows.relative("hold at the other end, N", hold, 2e7, 1e-3, "rate");
     rows.relative("strength of the event, N", event.strength, 2e7, 1e-9, "rounding");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The coulomb bond: where it breaks and how, what it has in common with a bond by back-tension, and its energy.
+// The coulomb bond: its failure envelope and failure modes, its relation to a back-tension bond, and its energy.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ namespace coulomb_scenes {
 namespace {
 
 constexpr double radius = 0.02, overlap = 1e-7, kn = 1e7, ks = 0.25 * kn, time_step = 1e-5;
-constexpr double mean_tensile = 2.0, mean_cohesion = 3.0;  // N; k_n δ0 is 1 N, so such a bond parts at a gap
+constexpr double mean_tensile = 2.0, mean_cohesion = 3.0;  // N; k_n δ0 is 1 N, so the bond breaks only at a gap
 constexpr int left = 4, right = 9;
 double tangent(double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); }
 const double friction = tangent(30.0);
@@ -35,8 +35,8 @@ const double friction = tangent(30.0);
 StrengthFactors some_factors() { return {StrengthDistribution::weibull, 0.3, 2}; }
 double factor_of_pair() { return some_factors().between(left, right); }
 
-/// Two bonded discs side by side; the one on the right is driven by these changes of the bond's forces a step, N. The
-/// other is far too heavy to turn, but free to, or nothing would be left to compute.
+/// Two bonded discs side by side. The right one is driven such that the bond's forces change by these amounts per step,
+/// N. The other is free to move, since nothing would be computed otherwise, but far too heavy to rotate.
 World driven_pair(double normal, double shear) {
     Scene scene;
     scene.materials = {rock(30.0)};
@@ -67,10 +67,10 @@ void drive(World& world, double normal, double shear) {
     change_velocity(world, driven, 1, shear / ks / time_step);
 }
 
-/// Means over loadings whose steps meet the envelope at places spread evenly over a step.
+/// Means over loadings whose steps reach the envelope at evenly distributed fractions of a step.
 struct OnEnvelope {
-    double load = 0.0;          // √(f_n² + f_t²) at the break over that on the envelope
-    double strength_off = 0.0;  // largest, of the recorded strength
+    double load = 0.0;          // √(f_n² + f_t²) at the break, relative to that on the envelope
+    double strength_off = 0.0;  // largest relative error of the recorded strength
     int wrong_modes = 0;
 };
 
@@ -83,7 +83,7 @@ OnEnvelope break_at(double degrees, int steps) {
     const double expected = std::min(to_tension, to_shear);
     OnEnvelope result;
     for (int phase = 0; phase < phases; ++phase) {
-        const double each = expected / (steps + (phase + 0.5) / phases);  // N a step
+        const double each = expected / (steps + (phase + 0.5) / phases);  // N per step
         World world = driven_pair(each * c, each * s);
         for (int n = 0; n < 2 * steps && world.bonds.events.empty(); ++n) step(world);
         const BreakEvent& event = world.bonds.events.at(0);
@@ -98,12 +98,12 @@ OnEnvelope break_at(double degrees, int steps) {
 
 std::vector<ClaimRow> coulomb_bond_breaks_on_its_envelope() {
     Rows rows;
-    // The corner of the envelope lies at 137.3 degrees.
+    // The corner of the envelope is at 137.3 degrees.
     for (const double degrees : {45.0, -70.0, 90.0, 120.0, 135.0, -140.0, 180.0}) {
         constexpr int steps = 200;
         const OnEnvelope coarse = break_at(degrees, steps / 2), fine = break_at(degrees, steps);
         const std::string name = fmt::format("{}°", degrees);
-        // Half a step, and the turn of the normal by the slip.
+        // The error is half a step, plus the rotation of the normal by the slip.
         rows.absolute(name + ": force at the break over that on the envelope", fine.load, 1.0, 1.0 / steps, "a step");
         rows.converging({std::abs(coarse.load - 1.0), std::abs(fine.load - 1.0), 2.0, 1.0});
         rows.exactly(name + ": breaks of the wrong mode", coarse.wrong_modes + fine.wrong_modes, 0.0);
@@ -121,11 +121,11 @@ std::vector<ClaimRow> coulomb_bond_of_its_overlap_is_a_back_tension_bond() {
         const auto k = static_cast<double>(b);
         scene.bodies[b].velocity = {0.1 * std::sin(1.7 * k), 0.1 * std::cos(2.3 * k)};
     }
-    scene.safety_factor = 0.02;  // so that it takes many steps
+    scene.safety_factor = 0.02;  // so that the run has many steps
     Scene strong = scene;
     strong.bond_law = BondLaw::coulomb;
     strong.materials[0].tensile_strength = kn * bond_overlap;
-    strong.materials[0].cohesion = tangent(27.0) * kn * bond_overlap * (1.0 + 1e-9);  // rounding of the overlaps
+    strong.materials[0].cohesion = tangent(27.0) * kn * bond_overlap * (1.0 + 1e-9);  // allows for round-off
     strong.materials[0].residual_friction_angle = 27.0;
     World by_overlap = build_world(std::move(scene)), by_strength = build_world(std::move(strong));
     bond_all(by_overlap, 0.0);
@@ -147,17 +147,17 @@ std::vector<ClaimRow> coulomb_bond_of_its_overlap_is_a_back_tension_bond() {
         ++steps;
     }
     rows.at_least("steps to the first slip or break", static_cast<double>(steps), 20.0, "it moves");
-    // k(δ - δ0) for kδ - kδ0: 1e-16 of kδ0 each step.
-    rows.absolute("apart until then, over the overlap", farthest / bond_overlap, 0.0, 1e-10, "rounding");
-    rows.exactly("slips or breaks in that step by back-tension", begun(by_overlap) ? 1.0 : 0.0, 1.0);
-    rows.exactly("breaks in that step of the coulomb bond", begun(by_strength) ? 1.0 : 0.0, 1.0);
+    // k(δ - δ0) and kδ - kδ0 differ by 1e-16 of kδ0 in each step.
+    rows.absolute("difference until then, over the overlap", farthest / bond_overlap, 0.0, 1e-10, "rounding");
+    rows.exactly("back-tension bond: slips or breaks in this step", begun(by_overlap) ? 1.0 : 0.0, 1.0);
+    rows.exactly("coulomb bond: breaks in this step", begun(by_strength) ? 1.0 : 0.0, 1.0);
     return rows.take();
 }
 
 std::vector<ClaimRow> coulomb_bond_cycled_below_its_envelope_loses_nothing() {
     Rows rows;
     constexpr int steps = 200;
-    const double to = 0.8 * mean_tensile * factor_of_pair() / steps;  // N a step
+    const double to = 0.8 * mean_tensile * factor_of_pair() / steps;  // N per step
     World world = driven_pair(-to, 0.0);
     const BodyIndex driven = body_of_id(world, right);
     const auto force = [&] {
@@ -165,7 +165,7 @@ std::vector<ClaimRow> coulomb_bond_cycled_below_its_envelope_loses_nothing() {
         return Vec2{world.bodies.force[driven].fx, world.bodies.force[driven].fy};
     };
     double work = 0.0, largest = 0.0;  // J
-    // A loop of its two forces, three times: pulled, sheared, let go, sheared back.
+    // Three loops of the two forces: pulled, sheared, released, sheared back.
     for (int loop = 0; loop < 3; ++loop) {
         for (const auto& [normal, shear] : {std::pair{-to, 0.0}, {0.0, 0.5 * to}, {to, 0.0}, {0.0, -0.5 * to}}) {
             drive(world, normal, shear);
@@ -183,15 +183,16 @@ std::vector<ClaimRow> coulomb_bond_cycled_below_its_envelope_loses_nothing() {
     rows.exactly("bonds broken", static_cast<double>(world.bonds.broken), 0.0);
     rows.exactly("friction loss, J", world.account.friction_loss, 0.0);
     rows.exactly("fracture loss, J", world.account.fracture_loss, 0.0);
-    // The normal turns by the slip over the distance of the centres, in each loop.
+    // In each loop the normal rotates by the slip divided by the distance of the centres.
     const double turn = 0.5 * to * steps / ks / (2.0 * radius);
     rows.absolute("work of the loops over the largest strain energy", work / largest, 0.0, 3.0 * turn,
                   "turn of the normal");
     return rows.take();
 }
 
-/// Pressed to five newtons, sheared until it breaks, and as far again: closing error over the losses.
-/// @param rows what else is known of it, where given
+/// Compressed to five newtons, sheared until it breaks, and then as far again. @return closing error relative to the
+/// losses
+/// @param rows receives further rows; may be null
 double pair_sheared_under_pressure(int steps, Rows* rows) {
     const double press = 5.0, sticks = mean_cohesion * factor_of_pair() + friction * press,
                  rubs = tangent(20.0) * press;
@@ -212,12 +213,12 @@ double pair_sheared_under_pressure(int steps, Rows* rows) {
 }
 
 struct ShearedLattice {
-    double closing = 0.0;  // over the work
+    double closing = 0.0;  // relative to the work
     double broken = 0.0, in_shear = 0.0;
     double least_energy = 0.0;  // J
 };
 
-/// A lattice between two rows that are pressed together and then sheared, damped, with random strengths.
+/// A damped lattice with random strengths between two rows, which are pressed together and then sheared.
 ShearedLattice lattice_sheared_under_pressure(double share_of_step) {
     constexpr int columns = 8, layers = 7;
     constexpr double lattice_overlap = 8e-5, strength = 400.0;  // m, N
@@ -259,9 +260,9 @@ std::vector<ClaimRow> shear_breaks_under_pressure_close_the_account() {
     rows.converging({pair_sheared_under_pressure(500, nullptr), pair, 2.0, 2.0});
     const ShearedLattice coarse = lattice_sheared_under_pressure(0.2), fine = lattice_sheared_under_pressure(0.05);
     rows.at_least("lattice: bonds broken", fine.broken, 20.0, "it breaks");
-    rows.at_least("lattice: of them in shear", fine.in_shear, 5.0, "under pressure");
-    rows.at_least("lattice: least energy of a break, J", std::min(coarse.least_energy, fine.least_energy), 0.0,
-                  "strain energy before less after");
+    rows.at_least("lattice: bonds broken in shear", fine.in_shear, 5.0, "under pressure");
+    rows.at_least("lattice: smallest energy of a break, J", std::min(coarse.least_energy, fine.least_energy), 0.0,
+                  "decrease of the strain energy");
     rows.absolute("lattice: closing error over the work", fine.closing, 0.0, 1e-5, "second order");
     rows.converging({coarse.closing, fine.closing, 4.0, 2.0});
     return rows.take();
@@ -272,29 +273,29 @@ std::vector<ClaimRow> shear_breaks_under_pressure_close_the_account() {
 
 std::vector<Claim> coulomb_bond_claims() {
     using namespace coulomb_scenes;
-    constexpr const char* group = "Bonds with strengths of their own";
+    constexpr const char* group = "Bonds with given strengths";
     return {
         {.name = "coulomb_bond_breaks_on_its_envelope",
          .group = group,
-         .statement = "loaded along a straight way from rest a bond breaks at f_n = -T or |f_t| = C + μ f_n, whichever "
-                      "comes first, in the mode of that limit",
+         .statement = "a bond loaded along a straight path from rest breaks at f_n = -T or |f_t| = C + μ f_n, "
+                      "whichever comes first, and in the mode of that limit",
          .check = coulomb_bond_breaks_on_its_envelope,
-         .note = "Angles from the push along the normal; means over 16 loadings that meet the envelope at places "
-                 "spread evenly over a step. The bond has a random factor of its own."},
+         .note = "Angles are measured from compression along the normal. Means are over 16 loadings that reach the "
+                 "envelope at times evenly distributed over a step. The bond has a random strength factor."},
         {.name = "coulomb_bond_of_its_overlap_is_a_back_tension_bond",
          .group = group,
-         .statement = "with T = k_n δ₀ and C = μ k_n δ₀ a lattice moves as one bonded by back-tension until the first "
-                      "slip, which is the first break of the other in the same step",
+         .statement = "with T = k_n δ₀ and C = μ k_n δ₀, a lattice moves as one with back-tension bonds until their "
+                      "first slip; in the same step, its first bond breaks",
          .check = coulomb_bond_of_its_overlap_is_a_back_tension_bond},
         {.name = "coulomb_bond_cycled_below_its_envelope_loses_nothing",
          .group = group,
-         .statement = "a bond pulled, sheared, let go and sheared back below its envelope takes no work",
+         .statement =
+             "a bond that is pulled, sheared, released and sheared back below its envelope dissipates no energy",
          .check = coulomb_bond_cycled_below_its_envelope_loses_nothing},
         {.name = "shear_breaks_under_pressure_close_the_account",
          .group = group,
-         .statement =
-             "bonds that break in shear under pressure and rub on leave the account of energy closed to second "
-             "order in the step, and no break gains energy",
+         .statement = "if bonds break in shear under pressure and continue to slide, the energy balance closes to "
+                      "second order in the step, and no break gains energy",
          .check = shear_breaks_under_pressure_close_the_account},
     };
 }

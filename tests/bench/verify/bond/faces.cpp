@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Faces in area units by the sparse solve: a column's modulus, and what the points at a face's ends make of a turn.
+// Faces in area units by the sparse solve: the modulus of a column, and the bending stiffness due to points at the ends
+// of a face.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -81,7 +82,7 @@ std::vector<ClaimRow> face_turns_as_its_end_points_do() {
         add_cell(scene, 1, {-width, -0.5 * height}, {0.0, 0.5 * height});
         add_cell(scene, 2, {0.0, -0.5 * height}, {width, 0.5 * height});
         const World world = bonded(std::move(scene));
-        // The cells turn by half each about the middle of their face.
+        // Each cell rotates by half the angle about the middle of the face.
         const double up = 0.25 * turn * width;
         const ElasticSolution solution = solve_elastic(
             world, {{body_of_id(world, 1), {0.0, up, -0.5 * turn}}, {body_of_id(world, 2), {0.0, up, 0.5 * turn}}});
@@ -101,19 +102,19 @@ std::vector<ClaimRow> face_turns_as_its_end_points_do() {
 
 std::vector<Claim> face_claims() {
     using namespace faces_scenes;
-    constexpr const char* group = "Bonds with strengths of their own";
+    constexpr const char* group = "Bonds with given strengths";
     return {
         {.name = "column_of_cells_has_the_contact_modulus",
          .group = group,
-         .statement = "in area units a column of cells between platens has E = E_c whatever their number",
+         .statement = "in area units, a column of cells between platens has E = E_c for any number of cells",
          .check = column_of_cells_has_the_contact_modulus},
         {.name = "face_turns_as_its_end_points_do",
          .group = group,
-         .statement =
-             "two cells bent against each other turn as stiffly as k s²/4, s the distance of the points at the "
-             "ends of their face",
+         .statement = "two cells have the bending stiffness k s²/4, where s is the distance of the points at the ends "
+                      "of their face",
          .check = face_turns_as_its_end_points_do,
-         .note = "Three times a uniform face, but for the inset: the price of rigid cells that touch at corners."},
+         .note = "Apart from the inset, this is three times that of a uniform face, because rigid cells touch only at "
+                 "corners."},
     };
 }
 

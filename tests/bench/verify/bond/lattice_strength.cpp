@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// First bond break of the triangular lattice under uniaxial tension, along and across a bond row, by the engine's own
-// contact law. All discs are carried along a homogeneous strain, in which every inner disc is in equilibrium by
-// symmetry. The lateral strain follows so that the lateral stress stays zero.
+// First bond break of the triangular lattice under uniaxial tension, along and across a bond row, with the engine's own
+// contact law. All discs are moved by a homogeneous strain, under which every inner disc is in equilibrium by symmetry.
+// The lateral strain is adjusted so that the lateral stress remains zero.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -25,26 +25,26 @@ namespace crackle::verification {
 namespace lattice_strength_scenes {
 namespace {
 
-// So thin an overlap that the change of shape up to the break, δ0/2R = 2.5e-5, does not matter.
+// The overlap is small, so that the change of shape up to the break, δ0/2R = 2.5e-5, is negligible.
 constexpr double radius = 0.02, overlap = 1e-6, spacing = 2.0 * radius - overlap, kn = 1e7, strength = kn * overlap;
-constexpr int increments = 8000;  // up to about the break
+constexpr int increments = 8000;  // approximate number until the break
 
 struct Pull {
     double shear_share;
     double friction;  // μ
-    bool slip;        // Coulomb's limit acts
-    bool along;       // the bond row (x), or across it (y)
+    bool slip;        // whether the Coulomb limit applies
+    bool along;       // whether tension is along the bond row (x) or across it (y)
 };
 
 struct FirstBreak {
-    double stress = 0.0;      // N/m, in the last increment before it
-    double lateral = 0.0;     // N/m, largest lateral stress on the way
-    double unbalanced = 0.0;  // N, largest force on the watched disc on the way
-    bool right_bonds = true;  // those of the row pulled along, or all but those of the row pulled across
+    double stress = 0.0;      // N/m, in the last increment before the break
+    double lateral = 0.0;     // N/m, largest lateral stress until then
+    double unbalanced = 0.0;  // N, largest net force on the observed disc until then
+    bool right_bonds = true;  // whether only bonds of the expected rows broke
     bool slid = false;
 };
 
-/// Stress and net force of one inner disc: ½Σ f⊗l over its cell's area.
+/// Stress and net force of one inner disc: ½Σ f⊗l divided by its cell's area.
 struct DiscStress {
     double xx = 0.0, yy = 0.0;
     Vec2 net;
@@ -77,7 +77,7 @@ FirstBreak pull(const Pull& request) {
     bond_all(world, 0.0);
     const Array<BodyState> start = world.bodies.state;
     const BodyIndex inner = body_of_id(world, 12);           // the middle of rows of 5, 4, 5, 4, 5
-    const double by = 1.4 * overlap / spacing / increments;  // across, bonds open by ¾ of the strain or less
+    const double by = 1.4 * overlap / spacing / increments;  // bonds across open by less than the strain
     const double c11 = std::sqrt(3.0) / 4.0 * (3.0 + request.shear_share) * kn;
     double axial = 0.0, lateral = 0.0;
     compute_forces(world);
@@ -117,11 +117,11 @@ double expected_along(double share) { return std::sqrt(3.0) * (1.0 + share) * st
 double expected_across(double share) { return std::sqrt(3.0) * (1.0 + share) * strength / (radius * (2.0 + share)); }
 
 void check(Rows& rows, const std::string& name, const FirstBreak& got, double expected) {
-    // One increment of stress, 1/increments, as the break is found after it, as much for the lagging lateral strain,
-    // and the change of shape.
+    // The error is one increment of stress, 1/increments, since the break is found after it. The delayed lateral strain
+    // adds the same amount, and the change of shape is added as well.
     rows.relative(name + ": stress, N/m", got.stress, expected, 3.0 / increments + overlap / radius, "increment");
-    rows.exactly(name + ": breaks bonds of the expected rows alone", got.right_bonds ? 1.0 : 0.0, 1.0);
-    rows.absolute(name + ": lateral stress on the way, over that", got.lateral / expected, 0.0, 3.0 / increments,
+    rows.exactly(name + ": breaks only bonds of the expected rows", got.right_bonds ? 1.0 : 0.0, 1.0);
+    rows.absolute(name + ": lateral stress during loading, over that", got.lateral / expected, 0.0, 3.0 / increments,
                   "increment");
     rows.absolute(name + ": force on an inner disc, over F_b", got.unbalanced / strength, 0.0, 1e-9, "symmetry");
 }
@@ -169,12 +169,12 @@ std::vector<Claim> lattice_strength_claims() {
          .group = group,
          .statement = "σ = √3(k_n+k_s)F_b/[R(3k_n+k_s)] with and without slip, if μ > k_s/(√3 k_n)",
          .check = first_break_pulled_along_a_bond_row,
-         .note = "At the break the bonds at 60° carry |T| = √3 k_s F_b/(3k_n+k_s) and are relieved by |T|/√3, so they "
-                 "hold while √3 k_s ≤ 3μk_n: the reference's μ > 0.144 and 0.577."},
+         .note = "At the break, the bonds at 60° carry |T| = √3 k_s F_b/(3k_n+k_s), and their normal force is reduced "
+                 "by |T|/√3. They hold while √3 k_s ≤ 3μk_n, which gives the reference's μ > 0.144 and 0.577."},
         {.name = "first_break_pulled_across_a_bond_row",
          .group = group,
          .statement =
-             "σ = √3F_b/(2R) with Coulomb's limit, which vanishes as δ → 0; √3(k_n+k_s)F_b/[R(2k_n+k_s)] without",
+             "σ = √3F_b/(2R) with Coulomb's limit, which vanishes as δ → 0; √3(k_n+k_s)F_b/[R(2k_n+k_s)] without slip",
          .check = first_break_pulled_across_a_bond_row},
     };
 }

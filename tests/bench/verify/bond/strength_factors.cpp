@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Random factors of strength as the bonds of a lattice have them.
+// Distribution of the random strength factors of a lattice's bonds.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <algorithm>
@@ -45,13 +45,13 @@ std::vector<ClaimRow> random_factors_of_strength_have_their_distribution() {
         }
         const std::string name = name_of(kind);
         rows.exactly(name + ": bonds", static_cast<double>(drawn.size()), n);
-        rows.exactly(name + ": tensile strength and cohesion with factors of their own", apart, 0.0);
+        rows.exactly(name + ": tensile strength and cohesion with different factors", apart, 0.0);
         double mean = 0.0, variance = 0.0, fourth = 0.0;
         for (const double x : drawn) mean += x / n;
         for (const double x : drawn) variance += (x - mean) * (x - mean) / (n - 1.0);
         for (const double x : drawn) fourth += std::pow(x - mean, 4) / n;
         rows.absolute(name + ": mean", mean, 1.0, 3.5 * cv / std::sqrt(n), "3.5 standard errors");
-        // Error of a standard deviation s, by the fourth moment.
+        // Standard error of a standard deviation, from the fourth moment.
         const double error = std::sqrt((fourth - variance * variance) / n) / (2.0 * std::sqrt(variance));
         rows.absolute(name + ": coefficient of variation", std::sqrt(variance) / mean, cv, 3.5 * error,
                       "3.5 standard errors");
@@ -69,10 +69,11 @@ std::vector<ClaimRow> random_factors_of_strength_have_their_distribution() {
 }  // namespace
 
 std::vector<Claim> strength_factor_claims() {
-    return {{.name = "random_factors_of_strength_have_their_distribution",
-             .group = "Bonds with strengths of their own",
-             .statement = "10,000 bonds have strengths of the mean, the variation and the distribution asked for",
-             .check = random_factors_of_strength_have_their_distribution}};
+    return {
+        {.name = "random_factors_of_strength_have_their_distribution",
+         .group = "Bonds with given strengths",
+         .statement = "the strengths of 10,000 bonds have the given mean, coefficient of variation and distribution",
+         .check = random_factors_of_strength_have_their_distribution}};
 }
 
 }  // namespace crackle::verification

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A rectangular block on a slope stays while tan θ < μ, else slides with a = g(sin θ - μ cos θ), and topples where its
-// weight passes beyond its lower corner. The slope lies along x and gravity is turned; the ground is a domain wall, a
-// fixed segment or a fixed polygon.
+// A rectangular block on a slope: it stays at rest if tan θ < μ, otherwise it slides with a = g(sin θ - μ cos θ). It
+// topples if its weight acts beyond its lower corner. The slope lies along x and gravity is rotated; the ground is a
+// domain wall, a fixed segment or a fixed polygon.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -29,7 +29,7 @@ const char* name_of(Ground ground) {
     return ground == Ground::wall ? "wall" : ground == Ground::segment ? "segment" : "polygon";
 }
 
-/// Block of width and height (m) at rest on its springs; body id 1.
+/// A block of this width and height (m) at rest on its springs; its id is 1.
 World block_on(Ground ground, double width, double height, double slope, double friction_angle) {
     Scene scene;
     Material material = rock(friction_angle, 0.5);
@@ -54,7 +54,7 @@ World block_on(Ground ground, double width, double height, double slope, double 
     return build_world(std::move(scene));
 }
 
-/// Tilts slowly to the slope, so that nothing sways, and waits there.
+/// Tilts gravity slowly to the slope, so that the block does not swing, and waits there.
 void tilt(World& world, double slope, double tilting, double end) {
     while (world.stepping.time < end) {
         const double angle = slope * std::min(1.0, world.stepping.time / tilting);
@@ -71,10 +71,11 @@ std::vector<ClaimRow> block_stays_on_a_slope_below_friction() {
         const BodyIndex block = body_of_id(world, 1);
         const double start = world.bodies.state[block].x;
         tilt(world, slope, 0.5, 1.5);
-        // The springs of both bottom corners carry the slope's pull, mg sin θ / 2k_s. The block also leans over by the
-        // difference of their normal springs, and slips a little where the upper corner is relieved.
+        // The shear springs of both bottom corners carry the component of weight along the slope, which displaces the
+        // block by mg sin θ / 2k_s. The block also tilts because its normal springs are compressed unequally, and slips
+        // slightly where the upper corner is unloaded.
         const double sag = world.bodies.inertia[block].mass * gravity * std::sin(slope) / (2.0 * 0.5e8);
-        rows.at_most(fmt::format("{}: way over that of its springs", name_of(ground)),
+        rows.at_most(fmt::format("{}: displacement over that of its springs", name_of(ground)),
                      (world.bodies.state[block].x - start) / sag, 4.0, "springs and lean");
         rows.absolute(fmt::format("{}: speed, m/s", name_of(ground)), world.bodies.state[block].vx, 0.0, 1e-9, "rest");
     }
@@ -102,7 +103,7 @@ std::vector<ClaimRow> block_slides_on_a_slope_beyond_friction() {
 std::vector<ClaimRow> block_topples_past_its_edge() {
     Rows rows;
     for (const Ground ground : {Ground::wall, Ground::segment, Ground::polygon}) {
-        const double edge = std::atan(0.05 / 0.2);  // width over height
+        const double edge = std::atan(0.05 / 0.2);  // rad; its tangent is width over height
         World stays = block_on(ground, 0.05, 0.2, 0.0, 40.0), falls = block_on(ground, 0.05, 0.2, 0.0, 40.0);
         tilt(stays, 0.995 * edge, 1.0, 3.0);
         tilt(falls, 1.005 * edge, 1.0, 1.0);

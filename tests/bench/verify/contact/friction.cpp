@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A disc with Coulomb friction on a plane: sliding that turns into rolling, slopes below and above the limit of
-// rolling, oblique rebound.
+// A disc with Coulomb friction on a plane: sliding that becomes rolling, slopes below and above the limit of rolling,
+// oblique rebound.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ constexpr double radius = 0.02, gravity = 9.81, kn = 1e7;
 
 double friction_of(double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); }
 
-/// A disc that touches the floor where its weight (m g, N) rests on the spring.
+/// A disc on the floor, with the overlap at which the spring carries its weight (m g, N).
 Scene on_floor(double damping_ratio, double friction_angle, double normal_gravity) {
     Scene scene;
     scene.materials = {rock(friction_angle)};
@@ -38,7 +38,8 @@ Scene on_floor(double damping_ratio, double friction_angle, double normal_gravit
 
 std::vector<ClaimRow> disc_sliding_on_a_flat_ends_rolling() {
     Rows rows;
-    // Fast, so that the spring's own build-up, μmg/k_s long, takes 2e-5 of the sliding.
+    // The speed is high, so that the spring's initial deformation, a distance of μmg/k_s, is only 2e-5 of the sliding
+    // distance.
     const double speed = 1.0, mu = friction_of(20.0);
     Scene scene = on_floor(0.0, 20.0, gravity);  // a shear dashpot would add to friction until the first slip
     scene.bodies[0].velocity = {speed, 0.0};
@@ -50,11 +51,11 @@ std::vector<ClaimRow> disc_sliding_on_a_flat_ends_rolling() {
     rows.relative("speed while sliding, m/s", disc.vx, speed - mu * gravity * world.stepping.time, 1e-3, "reference");
     rows.relative("spin while sliding, rad/s", -disc.omega, 2.0 * mu * gravity * world.stepping.time / radius, 1e-3,
                   "reference");
-    // End of sliding: the slip at the floor, v - |ω|R, vanishes for the first time.
+    // Sliding ends when the slip at the floor, v - |ω|R, is 0 for the first time.
     while (disc.vx + disc.omega * radius > 0.0) step(world);
     rows.relative("time at which it first rolls, s", world.stepping.time, end, 1e-3, "reference");
     while (world.stepping.time < 2.0 * end) step(world);
-    // The undamped shear spring goes on ringing about the rolling motion: compare means over many of its periods.
+    // The undamped shear spring keeps oscillating about the rolling motion, so means over many periods are compared.
     double sum_v = 0.0, sum_w = 0.0;
     int samples = 0;
     for (; world.stepping.time < 12.0 * end; ++samples) {
@@ -71,7 +72,7 @@ struct Accelerations {
     double linear, angular;  // m/s2, rad/s2
 };
 
-/// Mean accelerations on a slope over a while, after the springs have settled.
+/// Mean accelerations on a slope, measured after the springs have settled.
 Accelerations down_slope(double slope, double friction_angle) {
     Scene scene = on_floor(0.4, friction_angle, gravity * std::cos(slope));
     scene.gravity.x = gravity * std::sin(slope);
@@ -107,10 +108,10 @@ std::vector<ClaimRow> disc_on_a_slope() {
 }
 
 struct Rebound {
-    double speed, spin;  // along the floor m/s; times the radius m/s
+    double speed, spin;  // m/s; spin is multiplied by the radius
 };
 
-/// @param phase where in a step the contact begins, 0 to 1
+/// @param phase fraction of a step at which the contact begins, 0 to 1
 Rebound oblique(double h, double friction_angle, Vec2 velocity, double steps_in_contact, double phase) {
     Scene scene = on_floor(h, friction_angle, 0.0);
     scene.bodies[0].velocity = velocity;
@@ -124,7 +125,7 @@ Rebound oblique(double h, double friction_angle, Vec2 velocity, double steps_in_
 
 std::vector<ClaimRow> oblique_rebound_sliding_throughout() {
     Rows rows;
-    const Vec2 velocity{5e-4, -1e-4};  // slow: the arm is R - δ/2, and δ/R is 3e-6
+    const Vec2 velocity{5e-4, -1e-4};  // slow, since the arm is R - δ/2; δ/R is 3e-6
     for (const double h : {0.0, 0.215}) {
         const double mu = friction_of(10.0), e = std::exp(-std::numbers::pi * h / std::sqrt(1.0 - h * h));
         const Rebound expected{velocity.x + mu * (1.0 + e) * velocity.y, -2.0 * mu * (1.0 + e) * velocity.y};
@@ -139,7 +140,8 @@ std::vector<ClaimRow> oblique_rebound_sliding_throughout() {
         };
         const Rebound coarse = worst(500.0), fine = worst(4000.0);
         const std::string label = fmt::format("h {}, t_c/4000, worst of 4 phases: ", h);
-        // Without a dashpot leapfrog's impulse is the spring's exactly, whatever the step: nothing converges.
+        // Without a dashpot, leapfrog gives exactly the spring's impulse for any step, so there is no convergence to
+        // check.
         rows.relative(label + "speed along the floor, m/s", fine.speed, expected.speed, 1e-3, "reference");
         if (h > 0.0) {
             rows.converging({std::abs(coarse.speed - expected.speed), std::abs(fine.speed - expected.speed), 8.0, 1.0});
@@ -166,13 +168,14 @@ std::vector<Claim> friction_claims() {
          .group = group,
          .statement = "tan θ ≤ 3μ: rolls, a = ⅔g sin θ; else slides, a = g(sin θ - μ cos θ)",
          .check = disc_on_a_slope,
-         .note = "The arm ends midway between the surfaces, R - δ/2: 5e-5 of the acceleration here."},
+         .note = "The lever arm ends midway between the surfaces, at R - δ/2, which changes the acceleration by 5e-5 "
+                 "here."},
         {.name = "oblique_rebound_sliding_throughout",
          .group = group,
          .statement = "tan θ > max(3μ(1+e), μk_n/k_s): v_t' = v_t - μ(1+e)v_n, rω' = 2μ(1+e)v_n",
          .check = oblique_rebound_sliding_throughout,
-         .note = "Coulomb's limit counts the spring alone; its impulse is m v_n(1+e), for c∫dδ = 0 over a contact "
-                 "whose dashpot may pull. Here tan θ is 5, the limits 0.8 to 1.1 and 0.7."},
+         .note = "Coulomb's limit contains only the spring force. Its impulse is m v_n(1+e), since c∫dδ = 0 over a "
+                 "contact whose dashpot may pull. Here tan θ is 5; the limits are 0.8 to 1.1 and 0.7."},
     };
 }
 

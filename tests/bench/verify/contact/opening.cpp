@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What opening and closing contacts do to the energy, under leapfrog and under the consistent integrator.
+// Energy errors due to opening and closing contacts, under leapfrog and under the consistent integrator.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ namespace {
 constexpr double radius = 0.02, density = 2500.0, kn = 1e5, gravity = 9.81;
 constexpr double mass = density * std::numbers::pi * radius * radius;
 
-/// Energy of all in flight or in contact, J, with the account's sign of the gravity potential.
+/// Total energy in flight or in contact, J; gravity's potential has the sign used in the account.
 double energy_now(World& world) {
     compute_forces(world);
     return measure_ledger(world).closing_error;
@@ -34,11 +34,11 @@ double energy_now(World& world) {
 // ---- one disc
 
 struct Bouncing {
-    double last = 1.0, largest = 1.0;  // energy over the first, in flight
+    double last = 1.0, largest = 1.0;  // energies in flight relative to the first
     int bounces = 0;
 };
 
-/// Drops a disc on a floor. Ends where the energy has grown or fallen beyond measure.
+/// Drops a disc on a floor. Ends early if the energy has changed beyond measure.
 Bouncing bounce(Integrator integrator, double step_share, double drop, int bounces) {
     Scene scene;
     scene.materials = {undamped_rock(kn, 0.0)};
@@ -46,14 +46,14 @@ Bouncing bounce(Integrator integrator, double step_share, double drop, int bounc
     scene.add_circle_body(1, 0, {{0.0, radius + drop}, radius, 0.0});
     scene.gravity = {0.0, -gravity};
     scene.integrator = integrator;
-    scene.allow_unstable = true;  // leapfrog's energy runs away
+    scene.allow_unstable = true;  // the energy grows without bound under leapfrog
     scene.time_step = step_share * 2.0 * std::sqrt(mass / kn);
     World world = build_world(std::move(scene));
     const double start = mass * gravity * drop;
     Bouncing result;
     bool below = false;
     while (result.bounces < bounces) {
-        if (world.bodies.state[0].y < 0.5 * radius) {  // no bounce of sound energy is as deep
+        if (world.bodies.state[0].y < 0.5 * radius) {  // deeper than any bounce with correct energy
             result.largest = std::max(result.largest, 100.0);
             break;
         }
@@ -75,7 +75,7 @@ Bouncing bounce(Integrator integrator, double step_share, double drop, int bounc
 constexpr int starts = 48;
 double drop_of(int k) { return 0.004 + 0.004 * (k + 0.5) / starts; }
 
-/// E'/E of a bounce without gravity, and what the formula makes of it from where the contact begins and ends.
+/// E'/E of a bounce without gravity: measured, and by the formula for the given beginning and end of the contact.
 std::pair<double, double> leapfrog_bounce(double step_share, double phase) {
     constexpr double speed = 0.1;
     const double dt = step_share * 2.0 * std::sqrt(mass / kn);
@@ -114,9 +114,10 @@ std::vector<ClaimRow> bouncing_disc_keeps_its_energy() {
         rows.exactly(fmt::format("consistent, {} of the limit: bounces, 4 starts", share), done, 4000);
         rows.absolute("largest change of the energy over it", worst, 0.0, 1e-9, "rounding");
     }
-    // Leapfrog: E'/E = (1 - κs(1-s))/(1 - κs'(1-s')), κ = 4λ², s and s' the parts of the step in contact at either end.
-    // Of s uniform, s(1-s) has standard deviation 1/√180: 0.42λ² a bounce for s and s' independent of each other, and
-    // 8λ²/√180 = 0.6λ² at most. Where little changes the phases recur, and the energy wanders less.
+    // Leapfrog: E'/E = (1 - κs(1-s))/(1 - κs'(1-s')), κ = 4λ², where s and s' are the fractions of the first and last
+    // step that are in contact. For uniformly distributed s, s(1-s) has the standard deviation 1/√180. The change per
+    // bounce is then 0.42λ² if s and s' are independent, and at most 8λ²/√180 = 0.6λ². If the energy changes little,
+    // the phases recur and the energy varies less.
     for (const double share : {0.1, 0.2}) {
         constexpr int bounces = 100;
         double squares = 0.0;
@@ -129,7 +130,7 @@ std::vector<ClaimRow> bouncing_disc_keeps_its_energy() {
             fmt::format("leapfrog, {} of the limit: rms of ln(E'/E) over λ²√n, n = {} bounces", share, bounces), one,
             8.0 / std::sqrt(180.0) * (1.0 + 3.0 / std::sqrt(2.0 * starts)), "formula, 3σ");
     }
-    // One bounce, without gravity.
+    // A single bounce without gravity.
     for (const double share : {0.1, 0.4, 0.7}) {
         double worst = 0.0, least = 1.0, most = 1.0;
         for (int k = 0; k < 16; ++k) {
@@ -138,7 +139,7 @@ std::vector<ClaimRow> bouncing_disc_keeps_its_energy() {
             least = std::min(least, change);
             most = std::max(most, change);
         }
-        rows.absolute(fmt::format("leapfrog, {} of the limit: E'/E of a bounce against the formula, 16 starts", share),
+        rows.absolute(fmt::format("leapfrog, {} of the limit: E'/E per bounce against the formula, 16 starts", share),
                       worst, 0.0, 1e-9, "rounding");
         rows.shown("least E'/E", least);
         rows.shown("largest E'/E", most);
@@ -154,7 +155,7 @@ std::vector<ClaimRow> bouncing_disc_keeps_its_energy() {
 
 // ---- many contacts at once
 
-/// Largest |closing error| over the energy at the start. @param steps as many
+/// Largest |closing error| relative to the initial energy. @param steps number of steps
 double largest_error(World& world, double energy, int steps) {
     double worst = 0.0;
     for (int n = 0; n < steps; ++n) {
@@ -165,7 +166,7 @@ double largest_error(World& world, double energy, int steps) {
     return worst;
 }
 
-/// Discs with gaps between two walls, thrown at random along their line.
+/// Discs in a row with gaps between two walls, with random velocities along the row.
 double chain_error(Integrator integrator, double step_share, std::uint64_t seed) {
     constexpr int count = 10;
     std::mt19937_64 generator(seed);
@@ -182,7 +183,7 @@ double chain_error(Integrator integrator, double step_share, std::uint64_t seed)
     scene.domain = {0.0, x + gap * uniform_number(generator), -1.0, 1.0, {true, true, false, false}};
     scene.integrator = integrator;
     scene.allow_unstable = true;
-    // All closed, ω = 2√(k/m) cos(π/(2(n+1))).
+    // The highest frequency with all contacts closed is ω = 2√(k/m) cos(π/(2(n+1))).
     scene.time_step = step_share * std::sqrt(mass / kn) / std::cos(0.5 * std::numbers::pi / (count + 1));
     World world = build_world(std::move(scene));
     double energy = 0.0;
@@ -209,7 +210,7 @@ std::vector<ClaimRow> colliding_chain_keeps_its_energy_bounded() {
 
 // ---- a polygon
 
-/// A square thrown with spin into a box without gravity.
+/// A square with an initial spin in a box without gravity.
 double square_error(Integrator integrator, double step_share, std::uint64_t seed) {
     constexpr double half = 0.02, room = 0.08;
     std::mt19937_64 generator(seed);
@@ -225,7 +226,7 @@ double square_error(Integrator integrator, double step_share, std::uint64_t seed
     scene.integrator = integrator;
     scene.allow_unstable = true;
     const MassProperties own = mass_properties(scene, scene.bodies[0]);
-    scene.time_step = step_share * std::sqrt(own.mass / stiff);  // two corners on a wall, or 2/√(k/m·(1 + 3)) of one
+    scene.time_step = step_share * std::sqrt(own.mass / stiff);  // two corners on a wall
     const double energy = 0.5 * own.mass * dot(body.velocity, body.velocity) + 0.5 * own.moment * body.spin * body.spin;
     World world = build_world(std::move(scene));
     double last = 0.0;
@@ -250,7 +251,8 @@ std::vector<ClaimRow> spinning_square_in_a_box_keeps_its_energy() {
                 most = std::max(most, square_error(integrator, share, seed));
             }
         }
-        // κs(1-s) = λ² at most: what one bounce can cost under leapfrog; here it is to last for hundreds.
+        // One bounce under leapfrog changes the energy by at most κs(1-s) = λ². Here that error must suffice for
+        // hundreds of bounces.
         rows.at_most(fmt::format("{} of the limit, 8 throws: largest closing error in flight, consistent", share),
                      worst[1], share * share, "one leapfrog bounce");
         rows.shown("leapfrog", worst[0]);
@@ -261,7 +263,7 @@ std::vector<ClaimRow> spinning_square_in_a_box_keeps_its_energy() {
 // ---- friction
 
 struct Oblique {
-    double normal, tangent, spin;  // against the closed form, over the normal speed
+    double normal, tangent, spin;  // errors relative to the normal speed
 };
 
 constexpr double down = 0.1, along = 0.3, angle = 15.0;  // m/s, degrees
@@ -296,12 +298,12 @@ std::vector<ClaimRow> oblique_sliding_rebound_has_the_closed_form() {
             }
             const std::string where = fmt::format("{}, {} of the limit: ", name_of(integrator), share);
             if (integrator == Integrator::leapfrog) {
-                rows.shown(where + "speed off the wall, off by (over v_n)", worst.normal);
+                rows.shown(where + "error of the speed off the wall, over v_n", worst.normal);
                 continue;
             }
             rows.absolute(where + "speed off the wall against v_n, over it", worst.normal, 0.0, 1e-9, "rounding");
             rows.absolute("along it against v_t - 2μv_n, over v_n", worst.tangent, 0.0, 1e-9, "rounding");
-            // The friction acts at r - δ/2 from the centre.
+            // Friction acts at a distance of r - δ/2 from the centre.
             rows.absolute("rω against 4μv_n, over v_n", worst.spin, 0.0,
                           4.0 * std::tan(angle * std::numbers::pi / 180.0) * 0.5 * down * std::sqrt(mass / kn) / radius,
                           "lever arm r - δ/2");
@@ -320,19 +322,21 @@ std::vector<Claim> contact_opening_claims() {
         {.name = "bouncing_disc_keeps_its_energy",
          .group = group,
          .statement = "consistent integrator: the same energy after 1000 bounces, up to the stable limit; leapfrog: "
-                      "E'/E = (1 - κs(1-s))/(1 - κs'(1-s')) a bounce, κ = 4λ², a random walk",
+                      "E'/E = (1 - κs(1-s))/(1 - κs'(1-s')) per bounce, κ = 4λ², a random walk",
          .check = bouncing_disc_keeps_its_energy,
-         .note = "λ is the step over 2√(m/k); s and s' say where in a step the contact begins and ends."},
+         .note =
+             "λ is the step over 2√(m/k); s and s' are the fractions of a step at which the contact begins and ends."},
         {.name = "colliding_chain_keeps_its_energy_bounded",
          .group = group,
          .statement = "ten discs with gaps between two walls, consistent integrator: the closing error stays bounded",
          .check = colliding_chain_keeps_its_energy_bounded,
-         .note = "The account's kinetic energy goes by mean velocities, which in a closed contact miss ⅛m(a dt)², at "
-                 "most λ² of the energy, and give it back. Leapfrog at 0.8 is stopped at 100 times its energy."},
+         .note = "The energy balance uses mean velocities. In a closed contact, their kinetic energy is too small by "
+                 "⅛m(a dt)², at most λ² of the energy, until the contact opens. Leapfrog at 0.8 is stopped at 100 "
+                 "times its initial energy."},
         {.name = "spinning_square_in_a_box_keeps_its_energy",
          .group = group,
          .statement =
-             "a square thrown with spin among four walls, consistent integrator: the closing error stays small",
+             "a spinning square thrown between four walls, consistent integrator: the closing error stays small",
          .check = spinning_square_in_a_box_keeps_its_energy},
         {.name = "oblique_sliding_rebound_has_the_closed_form",
          .group = group,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elastic compliance of rocks with persistent sets of joints, by the sparse solve under uniform tractions.
+// Elastic compliance of rocks with persistent joint sets, by the sparse solve under uniform tractions.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -19,12 +19,12 @@ namespace {
 
 constexpr double per_degree = std::numbers::pi / 180.0;
 
-/// Share of a spacing's moduli that a row of circles on either side of a joint lacks, against one in the rock, times
-/// the spacing in circles.
+/// Relative error of the moduli times the spacing in circles: a row of circles on either side of a joint carries less
+/// than one inside the rock.
 constexpr double one_circle_off = 0.8;
 constexpr double small_diameter = 0.5 * circles_diameter;  // m
 
-/// 1/E along a direction, 1/Pa. @param angle rad from +x
+/// 1/E in a direction, 1/Pa. @param angle rad from +x
 double softness_along(const Compliance& s, double angle) {
     const double x = std::cos(angle), y = std::sin(angle);
     const double stress[3] = {x * x, y * y, x * y}, measure[3] = {x * x, y * y, x * y};
@@ -73,7 +73,7 @@ std::vector<ClaimRow> persistent_set_adds_its_compliance() {
     return rows.take();
 }
 
-/// The case with joints of this stiffness, Pa/m.
+/// The case with joints of the given stiffness, Pa/m.
 TestCase with_stiffness(TestCase test, double stiffness) {
     for (TestCase::JointSet& set : test.joint_set) set.own = stiffnesses(stiffness, stiffness);
     return test;
@@ -117,8 +117,8 @@ std::vector<ClaimRow> persistent_sets_add_up() {
     Rows rows;
     for (const SpecimenKind kind : {SpecimenKind::voronoi, SpecimenKind::delaunay}) {
         TestCase test = jointed_rock(kind, 3);
-        test.mesh.thick = 5e-5;  // crossings leave slender cells
-        // Beside crossings Voronoi cells need more room than triangles.
+        test.mesh.thick = 5e-5;  // small, since cells at crossings are slender
+        // Near crossings, Voronoi cells need more space than triangles.
         const std::size_t sets = kind == SpecimenKind::voronoi ? 2 : 3;
         const double spacings[] = {0.15, 0.12, 0.16}, angles[] = {0.0, 60.0, 110.0};
         const double normal[] = {2e11, 4e11, 6e11}, shear[] = {8e10, 2e11, 1e11};
@@ -132,7 +132,7 @@ std::vector<ClaimRow> persistent_sets_add_up() {
         for (std::size_t k = 0; k < sets; ++k) {
             double length = 0.0;
             for (const JointTrace& trace : network.traces) length += trace.source == k ? trace.length() : 0.0;
-            // A box cuts less or more of a set than its spacing says: what counts is the length that is there.
+            // The box may contain more or less of a set than its spacing implies, so the actual length is used.
             const Compliance own =
                 compliance_of_set(angles[k] * per_degree, network.area() / length, normal[k], shear[k]);
             for (std::size_t a = 0; a < 3; ++a)
@@ -153,23 +153,24 @@ std::vector<Claim> joint_compliance_claims() {
     return {
         {.name = "persistent_set_adds_its_compliance",
          .group = group,
-         .statement = "of one persistent set 1/E_a = 1/E + cos⁴t/(K_n S) + sin²t cos²t/(K_s S) and 1/G' = 1/G + "
-                      "1/(K_s S), t between load and the joints' normal",
+         .statement = "with one persistent set 1/E_a = 1/E + cos⁴t/(K_n S) + sin²t cos²t/(K_s S) and 1/G' = 1/G + "
+                      "1/(K_s S), where t is the angle between the load and the joints' normal",
          .check = persistent_set_adds_its_compliance,
-         .note = "E and G are those of the same mesh with its traces welded, S the height over 8 joints; sparse solve "
-                 "under uniform tractions."},
+         .note = "E and G are those of the same mesh with welded traces, and S is the height over 8 joints. Sparse "
+                 "solve under uniform tractions."},
         {.name = "joint_among_circles_adds_its_compliance",
          .group = group,
-         .statement = "so does a joint among circles, to 0.8 of a circle over the spacing",
+         .statement = "a joint among circles adds its compliance as well, with an error of up to 0.8 of a circle over "
+                      "the spacing",
          .check = joint_among_circles_adds_its_compliance,
-         .note = "By flat faces (solver/MODEL.md 5.4). E and G are those with joints of K = 1e24 Pa/m. Circles bear by "
-                 "chains of forces: beside a joint that gives way a row carries less, along the joint most of all."},
+         .note = "With flat faces (solver/MODEL.md 5.4). E and G are those with joints of K = 1e24 Pa/m. Circles carry "
+                 "loads by force chains, so rows next to a soft joint carry less, most of all along the joint."},
         {.name = "persistent_sets_add_up",
          .group = group,
          .statement =
              "compliances of several persistent sets add to that of the rock, S + Σ Rᵀ diag(1/K_n S, 1/K_s S) R",
          .check = persistent_sets_add_up,
-         .note = "Three sets that cross; S of a set is the area over the length of its traces."},
+         .note = "Three sets that cross; the spacing S of a set is the area over the length of its traces."},
     };
 }
 

@@ -129,18 +129,18 @@ std::vector<Claim> joint_face_claims() {
     return {
         {.name = "joint_is_in_series_with_the_face",
          .group = group,
-         .statement = "across a joint 1/k = 1/k_face + 1/(K L), normal and shear alike; K without end is the intact "
-                      "face",
+         .statement =
+             "across a joint 1/k = 1/k_face + 1/(K L), in normal and shear direction; infinite K gives the intact face",
          .check = joint_is_in_series_with_the_face},
         {.name = "open_joint_bears_nothing_until_its_aperture_has_closed",
          .group = group,
-         .statement = "an open joint has no normal force until its faces have closed by the aperture, then k_n times "
-                      "the rest",
+         .statement = "an open joint has no normal force until its faces have closed by the aperture; then the force "
+                      "is k_n times the further closure",
          .check = open_joint_bears_nothing_until_its_aperture_has_closed},
         {.name = "sliding_joint_opens_by_its_dilation_until_its_slip",
          .group = group,
-         .statement = "under a constant normal force a sliding joint opens by tan ψ of its slip until dilation_slip, "
-                      "and friction takes what shear does less the work against the normal force",
+         .statement = "under a constant normal force, a sliding joint opens by tan ψ times its slip up to "
+                      "dilation_slip. The friction loss is the work of shear minus the work against the normal force",
          .check = sliding_joint_opens_by_its_dilation_until_its_slip},
     };
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One open frictional joint through a specimen between frictionless platens, its sides under dead loads.
+// One open frictional joint through a specimen between frictionless platens, with dead loads on its sides.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -24,26 +24,27 @@ namespace crackle::verification {
 namespace {
 
 constexpr double pressure = 5e6, friction = 25.0;               // Pa, degrees
-constexpr double platen_rate = 0.05, strain_under_load = 3e-4;  // 1/s; at which the pressure is on
-constexpr double strain_at_most = 2e-3;                         // where nothing slips
-// Shares of the gap between cells that the faces have slid when stress is measured. Corners have then left the ends of
-// the faces that they bonded to. They have not yet met the rounded ends of the next ones, on which they ride up.
+constexpr double platen_rate = 0.05, strain_under_load = 3e-4;  // 1/s; strain at which the full pressure acts
+constexpr double strain_at_most = 2e-3;                         // strain at which the run ends if nothing slips
+// Range of slip in which the stress is measured, relative to the gap between cells. At these slips, corners have left
+// the ends of the faces to which they were bonded. They have not yet reached the rounded ends of the next faces, onto
+// which they would ride up.
 constexpr double wide_gap = 3e-3;  // m
 constexpr double slid_from = 0.3, slid_to = 0.7;
-// Flat faces of circles have no corners: slip goes on for more than a circle.
+// Flat faces of circles have no corners, so slip continues for more than one circle.
 constexpr double circles_slid_from = 0.1 * circles_diameter, circles_slid_to = 1.2 * circles_diameter;
-constexpr double circles_rate = 0.03, circles_damping = 0.8;  // 1/s; blocks that slip farther are to come to rest
+constexpr double circles_rate = 0.03, circles_damping = 0.8;  // 1/s; damped more, since the blocks slip farther
 constexpr double circles_thick = 1e-3;                        // m
 constexpr double degrees_of_arc = std::numbers::pi / 180.0;
 constexpr int lower_id = 100'001, upper_id = 100'002;  // platens
 
-/// Pa, at which the plane slips. @param beta rad, between it and the load
+/// Axial stress at which the plane slips, Pa. @param beta angle between plane and load, rad
 double strength_of_plane(double beta) {
     const double f = std::tan(friction * degrees_of_arc);
     return pressure + 2.0 * pressure * f / ((1.0 - f * std::tan(beta)) * std::sin(2.0 * beta));
 }
 
-/// From the middle of the left side to that of the right one, up to the right.
+/// A trace from the middle of the left side, up to the middle of the right side.
 TestCase::Trace plane_at(double beta) {
     const double rise = 0.5 * rock_width / std::tan(beta);
     TestCase::Trace plane;
@@ -54,9 +55,9 @@ TestCase::Trace plane_at(double beta) {
     return plane;
 }
 
-/// Each cell with a face on a side gets the pressure on it, inwards, and so does each circle that reaches the side.
-/// Faces count to where they met before the inset.
-/// @param gap m, by which cells lie apart
+/// Applies the pressure to each cell with a face on a side, inwards, and to each circle that reaches the side. The
+/// length of a face is that before the inset.
+/// @param gap gap between cells, m
 void press_side(Scene& scene, bool left, double gap) {
     struct Face {
         int body;
@@ -92,7 +93,7 @@ void press_side(Scene& scene, bool left, double gap) {
     }
 }
 
-/// @param off m, of the platens from the box @param rate 1/s
+/// @param off distance of the platens from the box, m @param rate 1/s
 void add_platens(Scene& scene, double off, double rate) {
     constexpr double beyond = 0.5 * rock_width, depth = 0.1;  // m
     Material smooth = scene.materials.front();
@@ -110,7 +111,8 @@ void add_platens(Scene& scene, double off, double rate) {
     add(upper_id, rock_height + off, rock_height + depth, -rate * rock_height);
 }
 
-/// m, that the cells on the left of the trace have moved along it against those on its right. @param start places
+/// Mean displacement along the trace of the cells on its left relative to those on its right, m. @param start initial
+/// positions
 double slip_of(const World& world, const Array<BodyState>& start, Vec2 along) {
     Vec2 ways[2];
     double counts[2] = {0.0, 0.0};
@@ -131,7 +133,8 @@ double slip_of(const World& world, const Array<BodyState>& start, Vec2 along) {
     return std::abs(dot((1.0 / counts[0]) * ways[0] - (1.0 / counts[1]) * ways[1], along));
 }
 
-/// Force on the sides of the upper block over that of the pressure: whole circles belong to a block.
+/// Actual force on the sides of the upper block, relative to the force of the pressure on it; they differ because a
+/// circle belongs to one block as a whole.
 double pressed_on_upper(const World& world, const Array<BodyState>& start, double beta) {
     const Vec2 middle{0.5 * rock_width, 0.5 * rock_height}, along{std::sin(beta), std::cos(beta)};
     double force = 0.0;
@@ -145,10 +148,11 @@ double pressed_on_upper(const World& world, const Array<BodyState>& start, doubl
     return force * std::tan(beta) / (pressure * rock_width);
 }
 
-/// Mean axial stress while it slips and the ends of its range, the error of the energy's account over the work, breaks.
+/// Mean, smallest and largest axial stress during slip, error of the energy account relative to the work, and number of
+/// breaks.
 struct Slipped {
     double stress, least, most, energy_error, broken;
-    double pressed;  // force on the sides of the upper block over that of the pressure on its share of them
+    double pressed;  // relative force on the sides of the upper block, see pressed_on_upper()
 };
 
 Slipped slip(SpecimenKind kind, std::int64_t seed, double beta) {
@@ -215,8 +219,8 @@ std::vector<ClaimRow> plane_among_circles_slips_on_and_on() {
         const double expected = got.pressed * strength_of_plane(beta * degrees_of_arc);
         const std::string name = fmt::format("{:.0f} degrees: ", beta);
         rows.relative(name + "axial stress, Pa", got.stress, expected, 1e-3, "inertia");
-        rows.relative(name + "least of it, Pa", got.least, expected, 2e-3, "inertia");
-        rows.relative(name + "most of it, Pa", got.most, expected, 2e-3, "inertia");
+        rows.relative(name + "smallest axial stress, Pa", got.least, expected, 2e-3, "inertia");
+        rows.relative(name + "largest axial stress, Pa", got.most, expected, 2e-3, "inertia");
         rows.absolute(name + "closing error of energy over work", got.energy_error, 0.0, 1e-3, "reference");
         rows.exactly(name + "bonds broken", got.broken, 0.0);
     }
@@ -248,18 +252,17 @@ std::vector<Claim> weakness_plane_claims() {
          .check = plane_of_weakness_slips_at_its_strength,
          .slow = true,
          .note = "Jaeger 1960, without cohesion; frictionless platens, dead loads on the sides, height twice the "
-                 "width, β between plane and load. Mean axial stress while it slips by 0.3 to 0.7 of the gap between "
-                 "cells: farther on corners ride up the rounded ends of the next faces, under much stress by some "
-                 "degrees."},
+                 "width, β is the angle between plane and load. The axial stress is the mean over slips of 0.3 to 0.7 "
+                 "of the gap between cells. At larger slips, corners climb the rounded ends of the next faces, by "
+                 "several degrees at high stress."},
         {.name = "plane_among_circles_slips_on_and_on",
          .group = "Joints",
-         .statement = "an open joint among circles slips at that strength for more than a diameter, and no circle "
-                      "interlocks",
+         .statement =
+             "an open joint among circles slips at this strength over more than a diameter, without interlocking",
          .check = plane_among_circles_slips_on_and_on,
          .slow = true,
-         .note = "As above, by flat faces of circles (solver/MODEL.md 5.4), from a tenth of a diameter to 1.2 of them; "
-                 "the pressure is what "
-                 "is on the upper block's circles."},
+         .note = "As above, with flat faces of circles (solver/MODEL.md 5.4), over slips of 0.1 to 1.2 diameters; the "
+                 "pressure is that on the circles of the upper block."},
     };
 }
 

@@ -38,7 +38,7 @@ TwoBlocks two_blocks(const Joint& joint, const DofControl& x, const DofControl& 
     scene.integrator = integrator;
     const auto lower = static_cast<int>(add_block(scene, 1, {-width, -height}, {2.0 * width, 0.0}));
     const auto upper = static_cast<int>(add_block(scene, 2, {0.0, 0.0}, {width, height}));
-    // The trace runs along +x: the upper block lies to its left.
+    // The trace runs along +x, so the upper block is on its left.
     scene.edge_sides = {no_side, no_side, 1, no_side, 0, no_side, no_side, no_side};
     scene.joints = {joint};
     scene.trace_joints = {0};

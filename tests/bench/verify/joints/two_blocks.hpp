@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Two blocks with a joint between them: the lower one is held, the upper one, narrower, moves.
+// Two blocks with a joint between them; the lower one is held, and the upper one, which is narrower, moves.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
@@ -8,20 +8,21 @@
 namespace crackle::verification {
 
 struct TwoBlocks {
-    static constexpr double width = 0.04, height = 0.04, thick = 4e-5;  // m, of the upper block; of the gap
+    static constexpr double width = 0.04, height = 0.04, thick = 4e-5;  // m, size of the upper block, and the gap
     static constexpr double modulus = 50e9, ratio = 2.0;                // Pa, k_n over k_s
-    static constexpr double distance = 0.5 * height;                    // m, of the upper block from the held one
+    static constexpr double distance = 0.5 * height;                    // m, for the stiffness of a face
     static constexpr double density = 2500.0;
 
     World world;
     BodyIndex lower = 0, upper = 0;
 
-    /// N/m, of the face without a joint, or in series with a stiffness a length, Pa/m.
+    /// Stiffness of the face without a joint, N/m, or in series with a stiffness per length, Pa/m.
     static constexpr double normal_stiffness() { return modulus * width / distance; }
     static constexpr double in_series(double face, double joint) { return 1.0 / (1.0 / face + 1.0 / (joint * width)); }
 };
 
-/// @param x, y of the upper block, which then does not turn; both free: nothing of it is held  @param damping_ratio -
+/// @param x, y controls of the upper block, which then does not rotate; if both are free, it is not held at all @param
+/// damping_ratio -
 TwoBlocks two_blocks(const Joint& joint, const DofControl& x, const DofControl& y, double damping_ratio,
                      Integrator integrator = Integrator::leapfrog);
 

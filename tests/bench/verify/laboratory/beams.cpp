@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Beams on two supports by their linear solution: how far they bend, and the stress intensity of a notch by the energy
-// that it sets free.
+// Beams on two supports by their linear solution: deflection, and the stress intensity at a notch from the energy
+// release rate.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -40,17 +40,18 @@ std::vector<ClaimRow> beam_bends_as_the_theory_of_elasticity_has_it() {
     const double coarse = over_theory(118, 13, 0.224, 0.006), fine = over_theory(226, 25, 0.43, 0.0115);
     Rows rows;
     rows.shown("nominal modulus over theory, 13 rows", coarse);
-    rows.at_most("25 rows, off theory", std::abs(fine - 1.0), std::abs(coarse - 1.0), "share of outer rows");
+    rows.at_most("25 rows, difference from theory", std::abs(fine - 1.0), std::abs(coarse - 1.0),
+                 "share of outer rows");
     rows.absolute("towards many rows", fine + (fine - coarse) * 13.0 / 12.0, 1.0, 0.02, "pads press in");
     return rows.take();
 }
 
 struct NotchedBeam {
-    double compliance;        // m/N, way of the load over the load
-    double stress_intensity;  // m^-1/2, over the load, by the formula
-    double points;            // bonded, of the pairs of cells that have most of them
+    double compliance;        // m/N, displacement at the load divided by the load
+    double stress_intensity;  // m^-1/2, by the formula, divided by the load
+    double points;            // largest number of bonded points between two cells
 };
-/// With a notch that ends between the rows of this number and the next.
+/// A beam with a notch that ends between row number `cut` and the next.
 NotchedBeam notched_beam(const LatticeCase& lattice, int cut) {
     LatticeCase beam = lattice;
     const double notch = LatticeCase::radius - LatticeCase::overlap + (cut - 0.25) * row_height;
@@ -62,13 +63,14 @@ NotchedBeam notched_beam(const LatticeCase& lattice, int cut) {
         ++of_pair[std::minmax(spring.i, spring.j)];
     int most = 0;
     for (const auto& [pair, count] : of_pair) most = std::max(most, count);
-    const double load = test.small_strain->moduli.youngs_modulus * setup.apparatus.section;  // of a strain of 1
+    const double load =
+        test.small_strain->moduli.youngs_modulus * setup.apparatus.section;  // N/m, load at a strain of 1
     return {setup.apparatus.length / load, setup.apparatus.stress_intensity / setup.apparatus.section, 0.5 * most};
 }
 
 std::vector<ClaimRow> notched_beam_sets_free_the_energy_of_its_stress_intensity() {
     constexpr int depth = 25;
-    // Four times as long as deep between the supports, and half a depth beyond each.
+    // The span is four times the depth, and each end extends half a depth beyond its support.
     const LatticeCase lattice{.columns = static_cast<int>(5.0 * depth * row_height / LatticeCase::spacing),
                               .rows = depth,
                               .loading = bending(""),
@@ -80,7 +82,7 @@ std::vector<ClaimRow> notched_beam_sets_free_the_energy_of_its_stress_intensity(
     rows.exactly("contact points of a face, each a spring along and across", beams.front().points, 4.0);
     for (const std::size_t k : {1U, 2U}) {
         const double released =
-            0.5 * (beams[k + 1].compliance - beams[k - 1].compliance) / (4.0 * row_height);  // of a load of 1
+            0.5 * (beams[k + 1].compliance - beams[k - 1].compliance) / (4.0 * row_height);  // for a load of 1
         rows.relative(fmt::format("K_I of a notch of {} of {} rows", 7 + 2 * k, depth),
                       std::sqrt(lattice.modulus() * released), beams[k].stress_intensity, 0.05,
                       "a quarter row of notch");
@@ -100,13 +102,13 @@ std::vector<Claim> beam_claims() {
          .statement = "δ = PS³/(48EI) [1 + 2.85 (W/S)² − 0.84 (W/S)³] (Timoshenko & Goodier, art. 23)",
          .check = beam_bends_as_the_theory_of_elasticity_has_it,
          .note =
-             "a row stands for √3/2 of a spacing; outer rows are softer, an error that goes with their share, so that "
-             "two lattices say what a fine one does; pads press themselves in by 2/π ln(W/c) P/E each, 1 to 2 %"},
+             "A row represents √3/2 of a spacing. Outer rows are softer; this error is proportional to their share, so "
+             "the result is extrapolated from two lattices. Each pad indents the beam by 2/π ln(W/c) P/E, 1 to 2 %."},
         {.name = "notched_beam_sets_free_the_energy_of_its_stress_intensity",
          .group = group,
-         .statement = "K² = E P²/2 dC/da is (P S/W^1.5 f(a/W))² (ASTM E399), C the compliance of the sparse solve",
+         .statement = "K² = E P²/2 dC/da is (P S/W^1.5 f(a/W))² (ASTM E399), with the compliance C of the sparse solve",
          .check = notched_beam_sets_free_the_energy_of_its_stress_intensity,
-         .note = "hexagons, 25 rows deep, S = 4W; dC over four rows"},
+         .note = "Hexagons, 25 rows deep, S = 4W; dC over four rows."},
     };
 }
 

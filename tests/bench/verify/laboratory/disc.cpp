@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The Brazilian disc by its linear solution: Hondros' stress at the centre, and what glued arcs change of it.
+// The Brazilian disc by its linear solution: Hondros' stress at the centre, and the effect of glued arcs.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <cmath>
@@ -15,12 +15,12 @@ namespace crackle::verification {
 namespace disc_scenes {
 namespace {
 
-constexpr double alpha = 10.0 * std::numbers::pi / 180.0;  // half of the arc
-constexpr double reach = 0.3;                              // over the radius, of the mean about the centre
+constexpr double alpha = 10.0 * std::numbers::pi / 180.0;  // rad, half the angle of the arc
+constexpr double reach = 0.3;                              // averaging radius over the disc's radius
 constexpr int parts = 400;
 
-/// Weight of a place at a distance from the middle, over the reach: smooth, so that it does not matter which bonds just
-/// lie within.
+/// Weight of a position at a distance from the middle, relative to `reach`. It is smooth, so that single bonds at the
+/// edge of the region do not matter.
 double weight(double distance) {
     const double rest = 1.0 - distance * distance;
     return rest > 0.0 ? 15.0 / 16.0 * rest * rest : 0.0;  // its integral over -1 to 1 is 1
@@ -29,7 +29,7 @@ double weight(double distance) {
 /// Mean tensile stress across the load line about the centre, N/m.
 double stress_across(const VirtualTest& test, const std::vector<BodyMotion>& displacement) {
     const World& world = test.world;
-    // Between discs, not through a row of centres.
+    // The section passes between discs, not through a row of centres.
     const double at = test.setup.specimen.middle + 0.1 * LatticeCase::spacing, half = 0.5 * test.setup.specimen.width;
     double force = 0.0;
     for (const Spring& spring : springs_of(world, ClosedPoints::bonded)) {
@@ -37,13 +37,13 @@ double stress_across(const VirtualTest& test, const std::vector<BodyMotion>& dis
         if ((a.x < at) == (b.x < at)) continue;
         const double y = a.y + (at - a.x) / (b.x - a.x) * (b.y - a.y);
         const double pull = spring.stiffness * times(spring, spring.gradient, displacement) * spring.push[0];
-        // What the left one pulls with, along -x.
+        // Tension on the body to the left, along -x.
         force += weight((y - test.setup.specimen.middle_height) / (reach * half)) * (a.x < at ? pull : -pull);
     }
     return -force / (reach * half);
 }
 
-/// The stress of Hondros' disc under a pressure of 1 over both arcs.
+/// Stress in Hondros' disc for a pressure of 1 on both arcs.
 double hondros() {
     double sum = 0.0;
     for (int k = 0; k < parts; ++k) {
@@ -97,10 +97,10 @@ std::vector<ClaimRow> disc_under_even_pressure_has_hondros_stress() {
             loads[b].rotation -= force * ((place.x - body.x) * out.y - (place.y - body.y) * out.x);
         }
     }
-    // Held at its centre, which has nothing to bear, and against turning.
+    // The disc is held at its centre and in rotation; the reaction there is 0.
     const ElasticSolution solution = solve_elastic(test.world, {{nearest_body(test, centre), {}}}, loads);
     Rows rows;
-    rows.absolute("force at the held centre over the load", solution.reaction[0].y / half, 0.0, 1e-6, "symmetry");
+    rows.absolute("force at the fixed centre over the load", solution.reaction[0].y / half, 0.0, 1e-6, "symmetry");
     rows.relative("stress across the load line at the centre", stress_across(test, solution.displacement), hondros(),
                   0.02, "a mean over 9 cells");
     return rows.take();
@@ -110,7 +110,7 @@ std::vector<ClaimRow> glued_arcs_stretch_the_centre_less() {
     const VirtualTest test = disc("");
     const double half = 0.5 * test.setup.specimen.width;
     const double force =
-        test.small_strain->moduli.youngs_modulus * test.setup.apparatus.section;  // of a strain of 1, N
+        test.small_strain->moduli.youngs_modulus * test.setup.apparatus.section;  // N, at a strain of 1
     const double got = -stress_across(test, test.small_strain->moduli.solution.displacement);
     Rows rows;
     rows.absolute("stress across over Hondros'", got / (hondros() * force / (2.0 * half * std::sin(alpha))), 0.95, 0.02,
@@ -129,12 +129,13 @@ std::vector<Claim> disc_claims() {
          .group = group,
          .statement = "σ_θ = (2p/π)(A − B) on the loaded diameter of a disc, p over 20°",
          .check = disc_under_even_pressure_has_hondros_stress,
-         .note = "60 hexagons across, by the sparse solve"},
+         .note = "Disc of 60 hexagons across, by the sparse solve."},
         {.name = "glued_arcs_stretch_the_centre_less",
          .group = group,
-         .statement = "Jaws that are glued press unevenly and hold the disc across: a twentieth less than Hondros",
+         .statement = "Glued jaws press unevenly and restrain the disc laterally: the stress is a twentieth smaller "
+                      "than that of Hondros",
          .check = glued_arcs_stretch_the_centre_less,
-         .note = "60 hexagons across, by the sparse solve"},
+         .note = "Disc of 60 hexagons across, by the sparse solve."},
     };
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A plane joint without strength in the shear box: two cells, one in either half.
+// A planar joint without strength in the shear box: two cells, one in each half.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -21,12 +21,13 @@ namespace joint_scenes {
 namespace {
 
 constexpr double modulus = 50e9, ratio = 2.0, angle = 30.0;  // Pa, -, degrees
-// Pa; the cells' corners lie on each other, and round each other by a share of pressed over modulus/1000.
+// Pa; small, because the corners of the cells are opposite each other and roll around each other by a fraction of
+// pressed over modulus/1000.
 constexpr double pressed = 1e4;
-constexpr double slow = 2e-6;  // 1/s: the dashpots bear a ten-thousandth
-constexpr double side = 0.04;  // m, of a cell: a disc's diameter
+constexpr double slow = 2e-6;  // 1/s; dashpots carry a ten-thousandth of the stress
+constexpr double side = 0.04;  // m, size of a cell, equal to a disc's diameter
 
-/// m, by which the upper face of the joint has gone along x over the lower one.
+/// Displacement of the joint's upper face along x relative to the lower one, m.
 double slip_of(const VirtualTest& test) {
     const auto way = [&](int id) {
         const BodyIndex b = body_of_id(test.world, id);
@@ -38,10 +39,10 @@ double slip_of(const VirtualTest& test) {
 
 struct Sheared {
     VirtualTest test;
-    double slip = 0.0;  // m, of the shearing alone
+    double slip = 0.0;  // m, caused by shearing alone
 };
 
-/// Sheared so far by its upper box; bonds of the boxes hold.
+/// Shears the joint by its upper box to the given strain; bonds to the boxes do not break.
 Sheared sheared(double strain, double rate) {
     Scene scene;
     Material material;
@@ -75,16 +76,16 @@ Sheared sheared(double strain, double rate) {
 std::vector<ClaimRow> plane_joint_slips_at_its_friction_and_yields_by_its_shear_stiffness() {
     Rows rows;
     const double strength = pressed * std::tan(angle * std::numbers::pi / 180.0);
-    const double stiffness = modulus / ratio / side;  // Pa/m, of cells a side apart
+    const double stiffness = modulus / ratio / side;  // Pa/m, for cells at a distance of one side
     const double to_slip = strength / stiffness / side;
-    // The couple of the shear forces presses one end less: far below the strength neither slips.
+    // The couple of the shear forces reduces the normal force at one end; far below the strength, neither end slips.
     const Sheared sticking = sheared(0.05 * to_slip, slow);
-    const std::vector<CurveRow>& held = sticking.test.state.rows;  // the first has what the dashpots bear
+    const std::vector<CurveRow>& held = sticking.test.state.rows;  // the first row is due to dashpots
     rows.relative("shear stiffness, Pa/m", (held.back().axial_stress - held.front().axial_stress) / sticking.slip,
                   stiffness, 1e-3, "reference");
     const Sheared sliding = sheared(3.0 * to_slip, slow);
     rows.relative("largest stress, Pa", sliding.test.state.failure.largest_stress, strength, 1e-3, "reference");
-    // The faces over the boxes give as much again before it slips.
+    // The faces to the boxes are as compliant as the joint until it slips.
     double sum = 0.0, count = 0.0;
     for (const CurveRow& row : sliding.test.state.rows) {
         if (row.axial_strain < 2.0 * to_slip) continue;
@@ -103,9 +104,10 @@ std::vector<Claim> joint_claims() {
     return {
         {.name = "plane_joint_slips_at_its_friction_and_yields_by_its_shear_stiffness",
          .group = "Laboratory",
-         .statement = "a joint without strength in the shear box slips at σ_n tan φ; before, τ over its own way is k_s",
+         .statement = "in the shear box, a joint without strength slips at σ_n tan φ; before slip, τ over its shear "
+                      "displacement is k_s",
          .check = plane_joint_slips_at_its_friction_and_yields_by_its_shear_stiffness,
-         .note = "two cells, one in either half box; faces over the boxes are in series with the joint"},
+         .note = "Two cells, one in each half box; their faces to the boxes are in series with the joint."},
     };
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A specimen under pressure all round: the area that it loses.
+// Area change of a specimen under pressure on all sides.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <cmath>
@@ -13,9 +13,9 @@ namespace crackle::verification {
 namespace pressure_scenes {
 namespace {
 
-/// Area lost over what a body of the moduli of the specimen's own linear solution would lose.
+/// Area change relative to that computed from the moduli of the specimen's linear solution.
 double loss_over_theory(int columns, int rows) {
-    constexpr double pressure = 1e3;  // N/m, of bonds that bear ten times as much
+    constexpr double pressure = 1e3;  // N/m, a tenth of what the bonds withstand
     const LatticeCase block{.columns = columns,
                             .rows = rows,
                             .loading =
@@ -55,9 +55,9 @@ std::vector<Claim> pressure_claims() {
     return {
         {.name = "block_under_pressure_loses_the_area_of_its_moduli",
          .group = "Laboratory",
-         .statement = "ΔA/A = −2p(1 − ν)/E under a pressure p all round",
+         .statement = "ΔA/A = −2p(1 − ν)/E under a pressure p on all sides",
          .check = block_under_pressure_loses_the_area_of_its_moduli,
-         .note = "a lattice of discs under its membrane; its boundary leaves an error of the order d/W"},
+         .note = "A lattice of discs under its membrane; the boundary causes an error of the order d/W."},
     };
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Loading a packed specimen to failure: the account of energy and the loading rate.
+// Loading of a packed specimen to failure: energy balance and effect of the loading rate.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
@@ -21,7 +21,7 @@
 namespace crackle::verification {
 namespace {
 
-/// Closing error over the work of a specimen loaded at constant speed, and whether anything slipped or broke.
+/// Closing error, relative to the work, for a specimen loaded at constant speed, and whether nothing slipped or broke.
 struct Account {
     double error = 0.0;
     bool intact = true;
@@ -30,7 +30,8 @@ Account account_before_breaks(Kind kind, double time_step_share) {
     const double bound = between_platens(kind, 0.0, {}).world.stepping.step_bound;
     LoadedSpecimen loaded = between_platens(kind, 1e-3, {}, 45.0, 0.1, time_step_share * bound);
     World& world = loaded.world;
-    // From rest, so that loading sends a shock: what the step leaves of its energy is far above rounding.
+    // The specimen starts at rest, so loading sends a wave through it; the energy error due to the step is then far
+    // above round-off.
     for (std::size_t b = 0; b < world.bodies.size(); ++b)
         if (b != loaded.high) world.bodies.state[b].vy = 0.0;
     Account account;
@@ -71,7 +72,7 @@ VirtualTest loaded_to_failure(std::int64_t seed, LoadingKind kind, double rate, 
     return test;
 }
 
-/// Energy that is unaccounted for at the end of a test, over the work of the platens.
+/// Energy error at the end of a test, relative to the work of the platens.
 double balance_of(const VirtualTest& test) {
     const CurveRow &first = test.state.rows.front(), &last = test.state.rows.back();
     return (last.kinetic_energy - first.kinetic_energy + last.strain_energy + last.dashpot_loss + last.friction_loss +
@@ -83,7 +84,7 @@ std::vector<ClaimRow> energy_of_a_run_to_failure_closes() {
     Rows rows;
     constexpr int packings = 12;
     for (const LoadingKind kind : {LoadingKind::tension, LoadingKind::compression}) {
-        std::vector<double> scatter;  // root mean square over the packings
+        std::vector<double> scatter;  // root mean square for each fraction of the bound, over the packings
         for (const double share : {0.8, 0.2}) {
             double worst = 0.0, squares = 0.0;
             int failed = 0;
@@ -105,15 +106,17 @@ std::vector<ClaimRow> energy_of_a_run_to_failure_closes() {
             }
             rows.at_least(name + ": packings that failed", failed, 0.5 * packings, "most");
         }
-        // A break or a slip is found within a step after it happened: first order, a quarter. It scatters by where they
-        // fall, a fifth for each root mean square of twelve.
+        // A break or slip is found up to a step after it happened, so the error is of first order: a quarter at a
+        // quarter of the step. It also depends on when within a step they happen, which changes each root mean square
+        // over twelve packings by a fifth.
         rows.at_most(fmt::format("{}: root mean square at 0.2 of the bound over that at 0.8", name_of(kind)),
                      scatter.back() / scatter.front(), 1.0 / (1.8 * 1.8), "1.8 a halving");
     }
     return rows.take();
 }
 
-/// Median of what the two platens differ by before the peak, and the largest before the first break, over the peak.
+/// Differences between the forces on the two platens, relative to the peak: the median before the peak, and the largest
+/// before the first break.
 struct Imbalance {
     double median = 0.0, before_breaks = 0.0, largest = 0.0;
 };
@@ -132,16 +135,16 @@ Imbalance imbalance_of(const VirtualTest& test) {
     return imbalance;
 }
 
-/// Tests of several packings at one rate.
+/// Results of tests of several packings at one rate.
 struct RateStudy {
     std::vector<double> peaks;  // N/m, by packing
     Imbalance worst;
-    double strength_share = 0.0;  // mean strength of one bond over the force at peak
+    double strength_share = 0.0;  // mean strength of one bond relative to the force at peak
 };
 RateStudy study_rate(LoadingKind kind, double rate, int packings) {
     RateStudy study;
     for (int seed = 1; seed <= packings; ++seed) {
-        // Beyond 0.6 % a squeezed specimen may be a pile of pieces that hardens again.
+        // Beyond a strain of 0.6 %, a compressed specimen may be a heap of fragments that hardens again.
         const VirtualTest test = loaded_to_failure(seed, kind, rate, 0.8, 0.006);
         const Imbalance imbalance = imbalance_of(test);
         study.worst.before_breaks = std::max(study.worst.before_breaks, imbalance.before_breaks);
@@ -154,7 +157,7 @@ RateStudy study_rate(LoadingKind kind, double rate, int packings) {
     return study;
 }
 
-/// Mean relative change from one list to the other, and the standard error of that mean.
+/// Mean relative change from one list to the other, with the standard error of this mean.
 struct MeanChange {
     double mean = 0.0, standard_error = 0.0;
 };
@@ -185,9 +188,10 @@ std::vector<ClaimRow> slow_loading_is_quasi_static() {
                      "reference");
         rows.shown(name + ", 0.002 /s: their largest difference before the peak, over it", slow.worst.largest);
         rows.shown(name + ": mean strength of one bond over the force at peak", slow.strength_share);
-        // Single peaks scatter with the order in which bonds happen to break; the rate's effect is a mean.
+        // Single peaks depend on the order in which bonds happen to break, so the effect of the rate is determined from
+        // means.
         const MeanChange first = change_of(fast.peaks, half.peaks), second = change_of(half.peaks, slow.peaks);
-        const double scatter = name == "tension" ? 0.03 : 0.06;  // of a single peak, tests/benchmarks/results/stated.md
+        const double scatter = name == "tension" ? 0.03 : 0.06;  // see tests/benchmarks/results/stated.md
         const double allowed = 4.0 * scatter / std::sqrt(static_cast<double>(packings));
         rows.absolute(name + ": mean change of the peak from 0.008 to 0.004 /s", first.mean, 0.0,
                       std::min(allowed, 4.0 * first.standard_error), "4 standard errors");
@@ -214,18 +218,17 @@ std::vector<Claim> loading_claims() {
              "dt",
          .check = energy_of_a_run_to_failure_closes,
          .slow = true,
-         .note =
-             "At 0.8 of the bound, the default, single packings may exceed the reference's 1e-3: the worst is shown."},
+         .note = "At 0.8 of the bound, the default, single packings may exceed the reference's 1e-3, so the worst one "
+                 "is only reported."},
         {.name = "slow_loading_is_quasi_static",
          .group = group,
-         .statement =
-             "rate, rate/2, rate/4: the peak converges; the platens' forces differ by less than 1 % of the peak "
-             "before it",
+         .statement = "with the rate, half and a quarter of it the peak converges; before the peak, the platens' "
+                      "forces differ by less than 1 % of it",
          .check = slow_loading_is_quasi_static,
          .slow = true,
-         .note = "In so small a specimen one bond carries a good share of the force at peak. What its break sets free "
-                 "reaches one platen before the other at any rate, so that the largest difference before the peak is "
-                 "no measure of the rate and is only shown: it exceeds the reference's 1 %."},
+         .note = "In such a small specimen one bond carries a considerable part of the peak force. At any rate, the "
+                 "force released by its break reaches one platen before the other. The largest difference before the "
+                 "peak therefore does not measure the rate; it exceeds the reference's 1 % and is only reported."},
     };
 }
 

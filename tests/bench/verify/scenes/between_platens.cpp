@@ -22,7 +22,7 @@ LoadedSpecimen between_platens(Kind kind, double speed, const IntactOptions& int
         request.columns = 8, request.rows = 12, request.mean_overlap = 2e-4;
         scene = disordered_discs(request, rock(friction_angle));
         scene.thick = bond_thick = 1e-3;
-        const double reach = 0.02 + scene.thick - 2e-4;  // platens overlap the end rows as much as discs each other
+        const double reach = 0.02 + scene.thick - 2e-4;  // platens overlap the end rows as discs do
         bottom = -reach;
         top = 11.0 * (0.04 - 2e-4) * 0.5 * std::sqrt(3.0) + reach;
     } else {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small regular specimens bonded between two flat segments, both held laterally and in rotation, the upper one moving.
+// Small regular specimens bonded between two flat segments. Both segments are held laterally and in rotation; the upper
+// one moves.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
@@ -11,12 +12,13 @@ namespace crackle::verification {
 struct LoadedSpecimen {
     World world;
     BodyIndex low = 0, high = 0;  // platens
-    double height = 0.0;          // m, between them
+    double height = 0.0;          // m, distance between the platens
 };
 
-/// @param speed of the upper platen, m/s, upwards; particles start with the velocity linear between the platens
+/// @param speed velocity of the upper platen, m/s, positive upwards; initial velocities of particles vary linearly
+/// between the platens
 /// @param friction_angle degrees  @param damping_ratio -
-/// @param time_step s; 0: derived
+/// @param time_step s; 0 for an automatic step
 LoadedSpecimen between_platens(Kind kind, double speed, const IntactOptions& intact, double friction_angle = 27.0,
                                double damping_ratio = 0.2, double time_step = 0.0);
 

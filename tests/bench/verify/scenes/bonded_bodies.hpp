@@ -10,10 +10,12 @@ namespace crackle::verification {
 enum class Kind { discs, polygons };
 const char* name_of(Kind kind);
 
-/// Disordered, around the origin. Polygons: gap 1 mm, bonded with 1.08 mm, so that faces overlap by 0.08 mm.
+/// A disordered specimen around the origin. Polygons have gaps of 1 mm and are bonded with a thickness of 1.08 mm, so
+/// that faces overlap by 0.08 mm.
 World free_specimen(Kind kind, double friction_angle, double step_share = 0.5, IntactOptions intact = {});
 
-/// Bodies fly apart from the centre at a few strains a second and at random on top, so that bonds break and lists age.
+/// A specimen whose bodies fly apart from the centre, at strain rates of a few per second plus random velocities. Bonds
+/// break, and neighbour lists are rebuilt.
 World bursting_specimen(Kind kind);
 
 }  // namespace crackle::verification

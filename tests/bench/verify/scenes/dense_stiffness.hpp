@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Dense stiffness of a bonded world by finite differences of the force routine itself: what the step would feel, found
-// without looking at how the sparse solve assembles its springs. Needs a world without damping.
+// Dense stiffness of a bonded world from finite differences of the force routine, independent of how the sparse solve
+// assembles its springs. The world must have no damping.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
@@ -14,7 +14,7 @@
 namespace crackle::verification {
 
 /// Contact forces on all bodies (x, y, moment; N and N m) after one body has moved by `by` along one degree of freedom.
-/// The shear springs take the slip of a drift of 1 s at the velocity that leads there.
+/// The slip of the shear springs is that of a drift of 1 s at the corresponding velocity.
 inline Eigen::VectorXd forces_after(const World& start, std::size_t b, int dof, double by) {
     World world = start;
     for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;
@@ -42,8 +42,8 @@ inline Eigen::VectorXd forces_after(const World& start, std::size_t b, int dof, 
     return forces;
 }
 
-/// K = -∂F/∂u, rows and columns (x, y, rotation) per body, by central differences with Richardson's step.
-/// @param move finite displacement, m; well below the curvature radii of the contacts (discs, thick at corners)
+/// K = -∂F/∂u with rows and columns (x, y, rotation) per body, by central differences with Richardson extrapolation.
+/// @param move displacement, m; much smaller than the radii of curvature at contacts (discs, thickness at corners)
 inline Eigen::MatrixXd dense_stiffness(const World& world, double move) {
     const auto rows = 3 * static_cast<Eigen::Index>(world.bodies.size());
     Eigen::MatrixXd stiffness(rows, rows);
@@ -59,7 +59,8 @@ inline Eigen::MatrixXd dense_stiffness(const World& world, double move) {
     return stiffness;
 }
 
-/// Square root of the largest eigenvalue of M^-½ K M^-½, 1/s: the exact stable step without damping is 2 over it.
+/// Square root of the largest eigenvalue of M^-½ K M^-½, 1/s: without damping, the exact stable step is 2 divided by
+/// it.
 inline double highest_frequency(const World& world, const Eigen::MatrixXd& stiffness) {
     Eigen::VectorXd root(stiffness.rows());
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A triangular lattice of discs as the particle file of a case that tests it, or their cells, regular hexagons.
+// A case for a triangular lattice of discs, given as a particle file, or for their cells, which are regular hexagons.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
@@ -14,15 +14,16 @@ struct LatticeCase {
     static constexpr double kn = 1e9, share = 0.5;                                            // N/m, k_s/k_n
 
     int columns = 0, rows = 0;
-    std::string loading;     ///< [loading] and tables after it
-    bool hexagons = false;   ///< with coulomb bonds: they end where an outline does
-    std::string shape = {};  ///< [shape] and its keys
-    /// By which the packing's box is wider at its right side: its middle then lies between centres in every row.
+    std::string loading;     ///< table [loading] and those that follow it, as TOML
+    bool hexagons = false;   ///< whether the particles are hexagons with coulomb bonds
+    std::string shape = {};  ///< table [shape], as TOML
+    /// Additional width of the packing's box at its right side, so that its middle lies between the centres of every
+    /// row.
     double room = 0.0;  // m
 
-    /// Made and bonded, with its linear solution; not loaded. Its files are gone.
+    /// The specimen, bonded, with its linear solution; it is not loaded. Its files have been removed.
     VirtualTest bonded() const;
-    /// E of the infinite lattice, N/m (assembly/triangular_lattice.cpp); a face of hexagons has four points.
+    /// E of the infinite lattice, N/m (assembly/triangular_lattice.cpp); hexagons have four points per face.
     double modulus() const;
 };
 

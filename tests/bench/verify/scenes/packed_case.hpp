@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A small packed rock as a case, without a file: the shipped rock's material, fewer circles.
+// A case for a small packed rock, without a file: the shipped rock's material with fewer circles.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace crackle::verification {
 
-/// 120 circles in a box twice as high as wide, uniform radii 15 to 25 mm, mean overlap 77.4 µm; k_n 1e7 N/m,
-/// k_s = k_n/4, φ 27 degrees, damping ratio 0.2.
+/// 120 circles in a box twice as high as wide, with uniformly distributed radii of 15 to 25 mm and a mean overlap of
+/// 77.4 µm; k_n 1e7 N/m, k_s = k_n/4, φ 27 degrees, damping ratio 0.2.
 /// @param rate 1/s
 TestCase packed_case(std::int64_t seed, LoadingKind kind, double rate, double max_strain);
-/// Meshed into Voronoi cells 1 mm apart, bonded with 1.08 mm.
+/// Adds a mesh of Voronoi cells with gaps of 1 mm, bonded with a thickness of 1.08 mm.
 void mesh_voronoi(TestCase& test);
 
 }  // namespace crackle::verification

@@ -15,16 +15,17 @@
 namespace crackle::verification {
 namespace {
 
-constexpr double distance = 0.01;  // kept from the exact step, as a share of it
+constexpr double distance = 0.01;  // relative distance from the exact step
 
-/// Largest energy over the energy put in as random velocities.
+/// Largest allowed energy relative to the energy of the random velocities.
 ///
-/// H = ½v(M - Δt C/2 - Δt²K/4)v + ½x̄Kx̄, v at half a step and x̄ the mean of the positions around it, never grows under
-/// leapfrog with the lagged dashpot and starts below what was put in. A share q of the exact step off it the matrix is
-/// at least qM, so the kinetic energy stays below H/q and the strain energy below H(1 + 1/√q)².
+/// H = ½v(M - Δt C/2 - Δt²K/4)v + ½x̄Kx̄, with v at half steps and x̄ the mean of the positions before and after. Under
+/// leapfrog with the lagged dashpot H never grows, and it starts below the initial energy. At a relative distance q
+/// from the exact step the matrix is at least qM, so the kinetic energy stays below H/q and the strain energy below H(1
+/// + 1/√q)².
 constexpr double largest_growth_below = 1.0 / distance + (1.0 + 10.0) * (1.0 + 10.0);
 
-/// Random velocities of the bodies that are free.
+/// Gives random velocities to all free bodies.
 void shake_free(World& world, double energy, std::uint64_t seed) {
     shake(world, energy, seed);
     for (const ControlState& control : world.bodies.controls) {
@@ -33,10 +34,10 @@ void shake_free(World& world, double energy, std::uint64_t seed) {
     }
 }
 
-/// Stopped when far beyond that.
+/// The run stops once the limit is clearly exceeded.
 double energy_growth(World world, double time_step) {
     world.stepping.time_step = time_step;
-    const double energy = 1e-15 * breaking_energy(world);  // the weakest bonds are to bear a hundred times as much
+    const double energy = 1e-15 * breaking_energy(world);  // a hundredth of what the weakest bonds withstand
     shake_free(world, energy, 5);
     double largest = 0.0;
     for (int n = 0; n < 2000 && largest < 1e6; ++n) {
@@ -48,7 +49,7 @@ double energy_growth(World world, double time_step) {
     return largest;
 }
 
-/// The unstable mode's motion, from positions.
+/// Amplitude of the unstable mode, from the positions.
 class Projection {
   public:
     Projection(const World& rest, std::vector<BodyMotion> mode) : rest_(rest.bodies.state), mode_(std::move(mode)) {}
@@ -72,14 +73,16 @@ struct Growth {
     std::int64_t broken;
 };
 
-/// From the mode itself and a thousandth of noise, until it has grown by 1e6; over the later half.
+/// Starts from the mode plus a thousandth of noise and runs until it has grown by 1e6; growth is measured in the second
+/// half.
 Growth measured_growth(World world, const std::vector<BodyMotion>& mode, double time_step, double predicted) {
     const Projection projection(world, mode);
     world.stepping.time_step = time_step;
     double longest = 0.0;
     for (const BodyMotion& m : mode) longest = std::max({longest, std::abs(m.x), std::abs(m.y)});
     double energy = 0.0;
-    // 1e-15 m in the first step: a few roundings of the positions, and still 1e-9 m in the end, far from any limit.
+    // The first step moves by 1e-15 m, a few times the round-off of positions; the final amplitude of 1e-9 m is still
+    // far from any limit.
     const double speed = 1e-15 / (time_step * longest);
     for (std::size_t b = 0; b < mode.size(); ++b) {
         const BodyMotion v{speed * mode[b].x, speed * mode[b].y, speed * mode[b].rotation};
@@ -130,11 +133,11 @@ void check_step_limit(Rows& rows, const std::string& name, const World& rest) {
     const double above = (1.0 + distance) * exact.root;
     const double predicted = growth_per_step(rest, ClosedPoints::touching, above);
     const Growth growth = measured_growth(rest, exact.mode, above, predicted);
-    // The mode at the limit and 1 % beyond it differ by about 1 % where damping is uneven. Other modes come in by as
-    // much, which shows in the projection by 1 % of that.
+    // With uneven damping, the modes at the limit and 1 % above it differ by about 1 %. Other modes are excited by as
+    // much, which changes the projection by 1 % of that.
     rows.relative(name + ": growth a step at 1.01, less 1", growth.per_step - 1.0, predicted - 1.0, 1e-4,
                   "other modes");
-    rows.exactly(name + ": bonds broken meanwhile", static_cast<double>(growth.broken), 0.0);
+    rows.exactly(name + ": bonds broken during the run", static_cast<double>(growth.broken), 0.0);
 }
 
 }  // namespace crackle::verification

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs just below and just above a world's exact stable step.
+// Runs a world just below and just above its exact stable step.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace crackle::verification {
 
-/// A bonded specimen at its stress-free positions, where nothing moves and nothing is driven.
+/// The bonded specimen at its stress-free positions, without velocities and drives.
 World at_rest(World world);
 
-/// Rows: the engine's bounds lie below the exact step. At 0.99 of it random velocities stay bounded; at 1.01 the mode
-/// that it names grows at the predicted rate. No bond breaks meanwhile.
+/// Adds rows that check that the engine's bounds are below the exact step. At 0.99 of the exact step, random velocities
+/// must stay bounded; at 1.01 the mode found must grow at the predicted rate. No bond may break.
 void check_step_limit(Rows& rows, const std::string& name, const World& rest);
 
 }  // namespace crackle::verification

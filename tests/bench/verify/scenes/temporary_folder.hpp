@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A folder for the files of a case that is made on the spot.
+// A folder for the files of a generated case.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
@@ -13,11 +13,11 @@
 
 namespace crackle::verification {
 
-/// Empty, and gone with all in it at the end.
+/// An empty folder that is removed with all its files on destruction.
 class TemporaryFolder {
   public:
     TemporaryFolder() {
-        // Six letters that mkdtemp() fills in.
+        // mkdtemp() replaces the six letters.
         std::string name = (std::filesystem::temp_directory_path() / "crackle_").string() + std::string(6, 'X');
         if (::mkdtemp(name.data()) == nullptr)
             throw OutputError(name + ": cannot be made, expected room for a folder; set TMPDIR");

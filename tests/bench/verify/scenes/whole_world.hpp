@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quantities of a whole world that conservation laws speak of, and small ways of preparing one.
+// Conserved quantities of a whole world, and functions that prepare a world.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
@@ -23,8 +23,8 @@ inline Material rock(double friction_angle = 27.0, double shear_share = 0.25) {
 struct Momentum {
     double x = 0.0, y = 0.0;     // N s
     double angular = 0.0;        // N m s about the origin
-    double scale = 0.0;          // N s, sum of the bodies' momenta by size
-    double angular_scale = 0.0;  // N m s, likewise
+    double scale = 0.0;          // N s, sum of the magnitudes of the bodies' momenta
+    double angular_scale = 0.0;  // N m s, sum of the magnitudes of the angular momenta
 };
 
 inline Momentum momentum_of(const World& world) {
@@ -41,13 +41,13 @@ inline Momentum momentum_of(const World& world) {
     return sum;
 }
 
-/// Largest change of any of the three against their scales at the start.
+/// Largest change of any of the three components, relative to their initial scales.
 inline double momentum_error(const Momentum& start, const Momentum& now) {
     return std::max({std::abs(now.x - start.x) / start.scale, std::abs(now.y - start.y) / start.scale,
                      std::abs(now.angular - start.angular) / start.angular_scale});
 }
 
-/// Energy that breaking every bond would take, J: sum of ½ k_n δ0².
+/// Energy needed to break every bond, J: the sum of ½ k_n δ0².
 inline double breaking_energy(const World& world) {
     double sum = 0.0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
@@ -59,7 +59,7 @@ inline double breaking_energy(const World& world) {
     return sum;
 }
 
-/// Random velocities and spins of free bodies, the kinetic energy scaled to `energy` (J).
+/// Gives random velocities and spins to free bodies, scaled to a total kinetic energy of `energy` (J).
 inline void shake(World& world, double energy, std::uint64_t seed) {
     std::mt19937_64 generator(seed);
     double sum = 0.0;
@@ -80,7 +80,7 @@ inline void shake(World& world, double energy, std::uint64_t seed) {
     }
 }
 
-/// Sets the turn of a body, keeping the body frame of clumps and chains in step with it.
+/// Sets the rotation of a body, including the body frame of clumps and chains.
 inline void turn_body(World& world, std::size_t b, double angle) {
     BodyState& body = world.bodies.state[b];
     if (!world.bodies.info(b).single_circle) {
@@ -92,7 +92,7 @@ inline void turn_body(World& world, std::size_t b, double angle) {
     body.angle += angle;
 }
 
-/// FNV-1a of all state bytes.
+/// FNV-1a hash of a string's bytes.
 inline std::uint64_t hash_of(const std::string& bytes) {
     std::uint64_t hash = 0xcbf29ce484222325ULL;
     for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Axes of a plan in words, with symbols and units.
+// Tests labels for the axes of a plan, with symbols and units.
 
 #include "tools/campaign/page/labels.hpp"
 
