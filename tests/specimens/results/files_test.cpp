@@ -99,7 +99,7 @@ class TestFolder : public ::testing::Test {
     static TestHooks stopping_at(int questions) {
         TestHooks hooks;
         const auto loading = std::make_shared<bool>(false);
-        // Solves also call this; the last line before loading starts the count.
+        // Linear solutions also report stages; counting starts after the last line before loading.
         hooks.detail = [loading](const std::string& line) {
             *loading = *loading || line.find(" steps to max_axial_strain") != std::string::npos;
         };
