@@ -25,12 +25,12 @@ using LinearFigures = std::array<double, linear_figures>;
 // name is no UTF-8.
 constexpr char solved = 's', refused_case = 'r', unwritten_file = 'u', failed_system = 'f';
 
-LinearFigures moduli_of_case(TestCase test, PackingStore& packings) {
+LinearFigures moduli_of_case(ResolvedCase test, PackingStore& packings) {
     test.numerics.threads = 1;  // a worker has one processor, and a forked process has no other threads
     LinearFigures found{};
     found.fill(std::nan(""));
     TestHooks hooks;
-    hooks.keep_packing = [&](const TestCase& of, const PackingRequest& request, const auto& make) {
+    hooks.keep_packing = [&](const ResolvedCase& of, const PackingRequest& request, const auto& make) {
         return packings.get(of, request, make);
     };
     const auto look = [&](const World&, const TestSetup&, const Moduli& moduli) {

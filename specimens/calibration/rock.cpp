@@ -207,12 +207,12 @@ void judge_laws(const Rock& rock) {
     for (const Target& target : rock.targets) {
         std::set<double> pressures;
         for (const std::size_t test : target.tests) {
-            const TestCase of = rock.case_of(test, start);
-            if (test_kind(of.loading.kind).pulls()) {
+            const ResolvedCase of = rock.case_of(test, start);
+            if (of.loading.kind == LoadingKind::tension) {
                 throw InputError(fmt::format("{}: [[target]] tests: found {}, a tension, expected compressions",
                                              target.where, rock.tests[test].name));
             }
-            pressures.insert(of.confinement.pressure.value_or(0.0));
+            pressures.insert(of.pressure());
         }
         if (target.of_law() && pressures.size() < fewest_confinements) {
             throw InputError(fmt::format("{}: [[target]] tests: found {} confining pressures, expected {} or more",
@@ -254,7 +254,7 @@ std::vector<CaseSetting> Rock::settings(std::span<const double> values) const {
     return all;
 }
 
-TestCase Rock::case_of(std::size_t test, std::span<const double> values) const {
+ResolvedCase Rock::case_of(std::size_t test, std::span<const double> values) const {
     std::vector<CaseSetting> all = tests[test].settings;
     for (CaseSetting& setting : settings(values)) all.push_back(std::move(setting));
     return tests[test].files.with(all);

@@ -95,7 +95,7 @@ struct Rock {
     /// The case of a test with given values of the free keys.
     /// @param test  index into `tests`
     /// @param values  values of the free keys in order
-    TestCase case_of(std::size_t test, std::span<const double> values) const;
+    ResolvedCase case_of(std::size_t test, std::span<const double> values) const;
 };
 
 /// @throws InputError «file:line: key: found X, expected Y», also if a combination of the bounds gives an impossible

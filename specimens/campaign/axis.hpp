@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "solver/base/names.hpp"
-#include "specimens/case/test_case.hpp"
+#include "specimens/case/case_file.hpp"
 
 namespace crackle {
 

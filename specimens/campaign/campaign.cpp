@@ -108,10 +108,10 @@ class RowWorker {
     std::string packing(const Task& task) {
         return answer([&] {
             TestHooks hooks;
-            hooks.keep_packing = [&](const TestCase& of, const PackingRequest& request, const auto& make) {
+            hooks.keep_packing = [&](const ResolvedCase& of, const PackingRequest& request, const auto& make) {
                 return packings_.get(of, request, make);
             };
-            TestCase test = plan_.test_of(plan_.rows[task.row]);
+            ResolvedCase test = plan_.test_of(plan_.rows[task.row]);
             test.numerics.threads = 1;  // a worker process uses one processor and starts no threads
             try {
                 packing_of(test, hooks);
@@ -129,7 +129,7 @@ class RowWorker {
         return answer([&] {
             const PlanRow& row = plan_.rows[task.row];
             const Keep keep = row.variant == Variant::as_asked ? plan_.keep : Keep::figures;
-            const TestCase test = plan_.test_of(row);
+            const ResolvedCase test = plan_.test_of(row);
             const std::string name = kept_.name(task.identity).value_or(kept_name(plan_, row, task.identity));
             const RowResult result = run_row(test, {task.identity, name}, keep, place_, packings_);
             if (kind_of_row(result.state) != RowKind::failure && task.reads_files && is_changed(test, task.identity))
@@ -142,7 +142,7 @@ class RowWorker {
     }
 
     /// Whether files read by the test have changed or are missing.
-    static bool is_changed(const TestCase& test, const std::string& identity) {
+    static bool is_changed(const ResolvedCase& test, const std::string& identity) {
         FileHashes now;
         try {
             return identity_of(test, now) != identity;

@@ -28,7 +28,7 @@ std::map<std::string, double> measured_seconds(const CampaignLedger& ledger) {
 }
 
 /// Processor time of one test as estimated by --check, s.
-double checked_seconds(TestCase description, const TestHooks& hooks, std::vector<std::string>& warnings) {
+double checked_seconds(ResolvedCase description, const TestHooks& hooks, std::vector<std::string>& warnings) {
     description.numerics.threads = 1;
     const TestCheck check = check_test(description, hooks);
     for (const std::string& warning : check.warnings)

@@ -12,7 +12,7 @@
 
 #include "solver/base/version.hpp"
 #include "solver/files/read_file.hpp"
-#include "specimens/case/parameters.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/results/sha256.hpp"
 
 namespace crackle {
@@ -23,8 +23,8 @@ constexpr std::array<std::string_view, 6> without_figures{"title",         "nume
                                                           "output.frames", "output.frame_precision",
                                                           "output.slips",  "output.checkpoint_interval"};
 
-std::string text_of(const TestCase& test, const ResolvedKey& key, FileHashes& files) {
-    if (key.parameter->is_path) return files.of(test.resolve_path(key.label, std::get<std::string>(key.value)));
+std::string text_of(const ResolvedKey& key, FileHashes& files) {
+    if (!key.file.empty()) return files.of(key.file);
     return std::visit(
         [](const auto& value) {
             if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::array<std::string, 2>>)
@@ -42,21 +42,20 @@ std::string hash_of(const std::string& text) {
 
 /// Lines "key = value" of the wanted keys. The length of each value precedes it, so that the text is unambiguous.
 template <class Wanted>
-std::string listed(const TestCase& test, FileHashes& files, const Wanted& wanted) {
+std::string listed(const ResolvedCase& test, FileHashes& files, const Wanted& wanted) {
     std::string text = fmt::format("results {}\n", results_version);
     for (const ResolvedKey& key : resolved_keys(test)) {
         if (!wanted(key)) continue;
-        const std::string value = text_of(test, key, files);
+        const std::string value = text_of(key, files);
         text += fmt::format("{} {} {}\n", key.label, value.size(), value);
     }
     return text;
 }
 
-bool states_material(const TestCase& test) {
-    const TestCase::MaterialKeys& m = test.material;
-    const bool stiff =
-        test.area_units() ? m.contact_modulus && m.stiffness_ratio : m.normal_stiffness && m.shear_stiffness;
-    return m.density && stiff && m.friction_angle && (m.damping_ratio || (m.normal_damping && m.shear_damping));
+bool states_material(const ResolvedCase& test) {
+    const parts::MaterialValues& m = test.material;
+    return m.density && m.normal_stiffness && m.shear_stiffness && m.friction_angle &&
+           (m.damping_ratio || (m.normal_damping && m.shear_damping));
 }
 
 }  // namespace
@@ -67,7 +66,7 @@ const std::string& FileHashes::of(const std::filesystem::path& file) {
     return known->second;
 }
 
-std::string identity_of(const TestCase& test, FileHashes& files) {
+std::string identity_of(const ResolvedCase& test, FileHashes& files) {
     const auto counts = [](const ResolvedKey& key) {
         return std::find(without_figures.begin(), without_figures.end(), key.label) == without_figures.end();
     };
@@ -83,20 +82,21 @@ bool differs_within_a_rock(const std::string& key) {
            std::ranges::any_of(tables, [&](std::string_view table) { return key.starts_with(table); });
 }
 
-std::map<std::string, std::string> keys_of_rock(const TestCase& test, FileHashes& files) {
+std::map<std::string, std::string> keys_of_rock(const ResolvedCase& test, FileHashes& files) {
     std::map<std::string, std::string> keys;
     for (const ResolvedKey& key : resolved_keys(test)) {
         if (differs_within_a_rock(key.label)) continue;
         if (key.label == "particles.file" && states_material(test)) continue;
-        keys[key.label] = text_of(test, key, files);
+        keys[key.label] = text_of(key, files);
     }
     return keys;
 }
 
-std::string packing_identity(const TestCase& test, FileHashes& files) {
-    const bool for_cells = test.packing.cell_diameter.has_value();
+std::string packing_identity(const ResolvedCase& test, FileHashes& files) {
+    const parts::Packing* packing = test.packing();
+    const bool for_cells = packing != nullptr && std::holds_alternative<parts::CellDiameters>(packing->sizes);
     return hash_of(listed(test, files, [&](const ResolvedKey& key) {
-        return key.parameter->table == "packing" || (for_cells && key.parameter->table == "mesh");
+        return key.label.starts_with("packing.") || (for_cells && key.label.starts_with("mesh."));
     }));
 }
 

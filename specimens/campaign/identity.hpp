@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "specimens/campaign/plan.hpp"
-#include "specimens/case/case_file.hpp"
+#include "specimens/parts/resolved_case.hpp"
 
 namespace crackle {
 
@@ -26,10 +26,10 @@ class FileHashes {
 /// Identity of a test, 32 hexadecimal digits: XXH3 (128 bits) of the results version, every key that can affect a
 /// result, and the contents of the files that keys name. Titles, threads and keys that only choose outputs (frames,
 /// slips, checkpoints) are excluded.
-std::string identity_of(const TestCase& test, FileHashes& files);
+std::string identity_of(const ResolvedCase& test, FileHashes& files);
 
 /// Identity of the packing alone; tests with the same identity start from the same circles.
-std::string packing_identity(const TestCase& test, FileHashes& files);
+std::string packing_identity(const ResolvedCase& test, FileHashes& files);
 
 /// Whether a key may differ between tests of the same rock: title, seeds, confinement, loading, threads and output.
 bool differs_within_a_rock(const std::string& key);
@@ -37,7 +37,7 @@ bool differs_within_a_rock(const std::string& key);
 /// Keys that define the rock of a test, with their values: all keys for which differs_within_a_rock() is false. Files
 /// are represented by their contents. A particle file is excluded, like a seed, if the case states the material;
 /// otherwise, the file provides the material and is included.
-std::map<std::string, std::string> keys_of_rock(const TestCase& test, FileHashes& files);
+std::map<std::string, std::string> keys_of_rock(const ResolvedCase& test, FileHashes& files);
 
 /// Text that is equal for plans with the same rows, no matter how the plans are written.
 std::string rows_mark(const Plan& plan, const std::vector<std::string>& identities);

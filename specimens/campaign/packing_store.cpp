@@ -33,7 +33,8 @@ class Removal {
 
 }  // namespace
 
-Packing PackingStore::get(const TestCase& test, const PackingRequest& request, const std::function<Packing()>& make) {
+Packing PackingStore::get(const ResolvedCase& test, const PackingRequest& request,
+                          const std::function<Packing()>& make) {
     const std::string identity = packing_identity(test, files_);
     const std::filesystem::path path = folder_ / (identity + ".json");
     if (identity != last_identity_) {

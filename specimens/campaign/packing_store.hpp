@@ -19,7 +19,7 @@ class PackingStore {
     PackingStore(std::filesystem::path folder, FileHashes& files) : folder_(std::move(folder)), files_(files) {}
 
     /// The packing for a case, read from the store or newly made. Both give the same bits. @throws OutputError
-    Packing get(const TestCase& test, const PackingRequest& request, const std::function<Packing()>& make);
+    Packing get(const ResolvedCase& test, const PackingRequest& request, const std::function<Packing()>& make);
 
   private:
     std::filesystem::path folder_;

@@ -54,12 +54,14 @@ void add_points(Plan& plan, std::size_t test, const std::vector<std::vector<doub
 }
 
 /// Names of all seed keys of a case.
-std::vector<std::string> seeds_of(const TestCase& test) {
+std::vector<std::string> seeds_of(const ResolvedCase& test) {
     std::vector<std::string> keys;
-    if (test.has_table("packing")) keys.emplace_back("packing.seed");
-    if (test.bond.strength_distribution != StrengthDistribution::none) keys.emplace_back("bond.strength_seed");
-    if (!test.mineral.empty() && test.minerals.assign == MineralAssignment::random) keys.emplace_back("minerals.seed");
-    if (!test.joint_set.empty()) keys.emplace_back("joints.seed");
+    if (test.packing() != nullptr) keys.emplace_back("packing.seed");
+    if (test.bond.random) keys.emplace_back("bond.strength_seed");
+    const parts::Minerals& minerals = test.minerals;
+    if (!minerals.list.empty() && std::holds_alternative<parts::RandomGrains>(minerals.assign))
+        keys.emplace_back("minerals.seed");
+    if (!test.joints.sets.empty()) keys.emplace_back("joints.seed");
     return keys;
 }
 
@@ -82,15 +84,13 @@ std::string value_text(const CaseValue& value) {
     return fmt::format("{}", std::get<double>(value));
 }
 
-TestCase Plan::test_of(const PlanRow& row) const {
+ResolvedCase Plan::test_of(const PlanRow& row) const {
     const PlanPoint& point = points[row.point];
     std::vector<CaseSetting> settings = settings_of(*this, point);
     const PlannedTest& kind = tests[point.test];
     for (const std::string& key : point.seeds) settings.push_back({key, row.seed, file.string() + ":1"});
-    TestCase test = kind.files.with(settings);
-    if (row.variant == Variant::half_step) test.halve_step();
-    if (row.variant == Variant::half_rate) test.loading.scale_rate(0.5);
-    return test;
+    return kind.files.with(settings, {.rate = row.variant == Variant::half_rate ? 0.5 : 1.0,
+                                      .step = row.variant == Variant::half_step ? 0.5 : 1.0});
 }
 
 // Makes the case of every point, so that no test runs before all cases are known to be valid.
@@ -98,8 +98,8 @@ void judge_points(Plan& plan) {
     for (PlanPoint& point : plan.points) {
         const PlannedTest& kind = plan.tests[point.test];
         try {
-            const TestCase test = kind.files.with(settings_of(plan, point));
-            point.own_seed = test.packing.seed;
+            const ResolvedCase test = kind.files.with(settings_of(plan, point));
+            if (test.packing() != nullptr) point.own_seed = test.packing()->seed;
             if (plan.own_seeds) continue;
             point.seeds = seeds_of(test);
             for (const CaseSetting& setting : point.settings) {

@@ -78,7 +78,7 @@ struct Plan {
     std::vector<PlanRow> rows;
 
     /// The test of a row. @throws InputError as read_case() does
-    TestCase test_of(const PlanRow& row) const;
+    ResolvedCase test_of(const PlanRow& row) const;
     /// The planned test to which a row belongs.
     const PlannedTest& kind_of(const PlanRow& row) const { return tests[points[row.point].test]; }
 };

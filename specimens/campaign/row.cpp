@@ -76,7 +76,7 @@ std::string curve_text(const VirtualTest& test) {
     return text;
 }
 
-Summary loaded_in_memory(const TestCase& description, const RowPlace& place, const TestHooks& hooks,
+Summary loaded_in_memory(const ResolvedCase& description, const RowPlace& place, const TestHooks& hooks,
                          std::string* curve) {
     VirtualTest test = prepare_test(description, hooks);
     const RunEstimate run = expected_run(test, description.loading.max_axial_strain, roughly_steps_per_second(test));
@@ -87,7 +87,7 @@ Summary loaded_in_memory(const TestCase& description, const RowPlace& place, con
     return make_summary(test.description, test.setup, test.state, test.world, {});
 }
 
-Summary loaded_with_files(const TestCase& description, const std::filesystem::path& folder, const RowPlace& place,
+Summary loaded_with_files(const ResolvedCase& description, const std::filesystem::path& folder, const RowPlace& place,
                           const TestHooks& hooks) {
     TestOptions options;
     options.folder = folder;
@@ -120,18 +120,18 @@ Figures figures_of(const Summary& summary) {
     return figures;
 }
 
-RowResult run_row(const TestCase& test, const RowNames& names, Keep keep, const RowPlace& place, PackingStore& packings,
-                  const std::function<bool()>& interrupted) {
+RowResult run_row(const ResolvedCase& test, const RowNames& names, Keep keep, const RowPlace& place,
+                  PackingStore& packings, const std::function<bool()>& interrupted) {
     const auto begun = std::chrono::steady_clock::now();
     const double before = processor_seconds();
     RowResult result;
     result.identity = names.identity;
     TestHooks hooks;
     hooks.interrupted = interrupted;
-    hooks.keep_packing = [&](const TestCase& of, const PackingRequest& request, const auto& make) {
+    hooks.keep_packing = [&](const ResolvedCase& of, const PackingRequest& request, const auto& make) {
         return packings.get(of, request, make);
     };
-    TestCase description = test;
+    ResolvedCase description = test;
     description.numerics.threads = 1;
     const auto went_wrong = [&](const char* state, int exit, const std::string& message) {
         result.state = state;

@@ -78,7 +78,7 @@ struct RowNames {
 
 /// Runs the test of one row. @param keep  which files to keep: curves/NAME.csv, tests/NAME/
 /// @throws OutputError if the campaign's folder cannot be written
-RowResult run_row(const TestCase& test, const RowNames& names, Keep keep, const RowPlace& place, PackingStore& packings,
-                  const std::function<bool()>& interrupted = {});
+RowResult run_row(const ResolvedCase& test, const RowNames& names, Keep keep, const RowPlace& place,
+                  PackingStore& packings, const std::function<bool()>& interrupted = {});
 
 }  // namespace crackle

@@ -18,19 +18,19 @@ Tasks tasks_of(const Plan& plan, const Shard& shard, const std::function<bool()>
     std::vector<Task> tasks;
     for (std::size_t k = 0; k < plan.rows.size(); ++k) {
         if (interrupted && k % 100 == 0 && interrupted()) throw TestInterrupted();
-        const TestCase test = plan.test_of(plan.rows[k]);
+        const ResolvedCase test = plan.test_of(plan.rows[k]);
         all.identities.push_back(identity_of(test, files));
         const auto [known, is_new] = seen.emplace(all.identities.back(), tasks.size());
         if (!is_new) {
             if (plan.rows[k].variant == Variant::as_asked) tasks[known->second].row = k;
             continue;
         }
-        const bool packs = test.has_table("packing");
+        const bool packs = test.packing() != nullptr;
         // A test without a packing forms a group of its own.
         const std::string group = packs ? packing_identity(test, files) : all.identities.back();
         const auto [at, added] = groups.emplace(group, groups.size());
         if (added) all.groups.push_back(packs ? group : "");
-        tasks.push_back({k, all.identities.back(), at->second, files_read(test).size() > test.inputs.size()});
+        tasks.push_back({k, all.identities.back(), at->second, !test.data_files.empty()});
     }
     // Whole packings are dealt out if there are enough of them, otherwise single tests.
     const auto shares = static_cast<std::size_t>(shard.whole() ? 1 : shard.of);

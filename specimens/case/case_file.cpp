@@ -23,6 +23,7 @@
 #include "specimens/case/consistency.hpp"
 #include "specimens/case/joint_checks.hpp"
 #include "specimens/case/parameters.hpp"
+#include "specimens/case/resolve.hpp"
 #include "specimens/case/toml_file.hpp"
 #include "specimens/case/toml_shape.hpp"
 
@@ -95,7 +96,8 @@ const TableDescription* find_table(const std::string& name) {
     return nullptr;
 }
 
-/// Label of a table in error messages and in TestCase::position; a table that may occur several times gets a number.
+/// Label of a table in error messages and in WrittenPlaces::position; a table that may occur several times gets a
+/// number.
 std::string table_label(const std::string& table, std::size_t entry) {
     return find_table(table)->repeated() ? fmt::format("{}[{}]", table, entry + 1) : table;
 }
@@ -323,26 +325,36 @@ void fill_defaults(TestCase& test) {
 }  // namespace
 
 CaseFiles::CaseFiles(const fs::path& path) {
-    written_.source = path;
-    take_with_includes(written_, path, {});
+    TestCase written;
+    written.source = path;
+    take_with_includes(written, path, {});
+    written_ = std::make_shared<const TestCase>(std::move(written));
 }
 
 CaseFiles::CaseFiles(const CaseText& text) {
-    written_.source = text.name;
-    take_content(written_, text.name,
+    TestCase written;
+    written.source = text.name;
+    take_content(written, text.name,
                  text.json ? toml_of_json(text.name, text.text) : parse_toml_text(text.name, text.text), {});
+    written_ = std::make_shared<const TestCase>(std::move(written));
 }
 
-TestCase CaseFiles::with(std::span<const CaseSetting> settings) const {
-    TestCase test = written_;
+ResolvedCase CaseFiles::with(std::span<const CaseSetting> settings, const RunScale& scale) const {
+    TestCase test = *written_;
     for (const CaseSetting& setting : settings) take_setting(test, setting);
     fill_defaults(test);
     check_consistency(test);
-    return test;
+    if (test.loading.axial_strain_rate) *test.loading.axial_strain_rate *= scale.rate;
+    // The tolerance is proportional to the square of the rate.
+    if (test.loading.rate_tolerance) *test.loading.rate_tolerance *= scale.rate * scale.rate;
+    if (test.numerics.time_step) *test.numerics.time_step *= scale.step;
+    ResolvedCase resolved = resolve(std::make_shared<const TestCase>(std::move(test)));
+    resolved.step_scale = scale.step;
+    return resolved;
 }
 
-TestCase CaseFiles::joints() const {
-    TestCase test = written_;
+JointCase CaseFiles::joints() const {
+    TestCase test = *written_;
     for (const Parameter& p : case_parameters()) {
         if (p.table != "joints" && p.table != "joint_set" && p.table != "trace") continue;
         const TableDescription& table = *find_table(p.table);
@@ -350,11 +362,12 @@ TestCase CaseFiles::joints() const {
         for (std::size_t entry = 0; entry < entries; ++entry) fill_default(test, p, entry);
     }
     check_joints(test);
-    return test;
+    return resolve_joints(std::make_shared<const TestCase>(std::move(test)));
 }
 
-TestCase read_case(const fs::path& path) { return CaseFiles(path).with({}); }
-TestCase read_case(const CaseText& text) { return CaseFiles(text).with({}); }
+ResolvedCase read_case(const fs::path& path) { return CaseFiles(path).with({}); }
+ResolvedCase read_case(const CaseText& text) { return CaseFiles(text).with({}); }
+JointCase joints_of(const ResolvedCase& test) { return resolve_joints(written_case(test)); }
 
 namespace {
 
@@ -365,7 +378,7 @@ std::string quoted_text(const std::string& text) {
 }
 
 /// Formats a value as in a case file. @param folder  the folder that written paths are relative to
-std::string written_value(const TestCase& test, const ResolvedKey& key, const fs::path& folder) {
+std::string written_value(const ResolvedKey& key, const fs::path& folder) {
     const Parameter& p = *key.parameter;
     const CaseValue& value = key.value;
     if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
@@ -384,8 +397,7 @@ std::string written_value(const TestCase& test, const ResolvedKey& key, const fs
         return fmt::format("[{}, {}]", quoted_text((*texts)[0]), quoted_text((*texts)[1]));
     const std::string& text = std::get<std::string>(value);
     if (!p.is_path) return quoted_text(text);
-    const fs::path target = test.resolve_path(key.label, text);
-    return quoted_text(fs::absolute(target)
+    return quoted_text(fs::absolute(key.file)
                            .lexically_normal()
                            .lexically_proximate(fs::absolute(folder).lexically_normal())
                            .generic_string());
@@ -399,9 +411,13 @@ bool left_out(const TestCase& test, const std::string& table) {
     return (table == "packing" || table == "mesh") && !test.has_table(table);
 }
 
-}  // namespace
-
-std::vector<ResolvedKey> resolved_keys(const TestCase& test) {
+/// The keys of a case as they are after reading, and after the specimen has been made.
+std::vector<ResolvedKey> keys_with(const ResolvedCase& resolved, const MadeValues& made) {
+    TestCase test = *written_case(resolved);
+    test.numerics.threads = resolved.numerics.threads;
+    test.numerics.allow_unstable = resolved.numerics.allow_unstable;
+    if (made.mesh_thick) test.mesh.thick = made.mesh_thick;
+    if (made.frames) test.output.frames = made.frames;
     std::vector<ResolvedKey> keys;
     for (const TableDescription& table : case_tables()) {
         if (left_out(test, table.name)) continue;
@@ -409,17 +425,24 @@ std::vector<ResolvedKey> resolved_keys(const TestCase& test) {
         for (std::size_t entry = 0; entry < entries; ++entry) {
             for (const Parameter& p : case_parameters()) {
                 if (p.table != table.name) continue;
-                if (std::optional<CaseValue> value = p.get(test, entry))
-                    keys.push_back({key_label(p, entry), &p, *std::move(value)});
+                const std::optional<CaseValue> value = p.get(test, entry);
+                if (!value) continue;
+                const std::string label = key_label(p, entry);
+                keys.push_back({label, &p, *value,
+                                p.is_path ? test.resolve_path(label, std::get<std::string>(*value)) : fs::path()});
             }
         }
     }
     return keys;
 }
 
-void write_resolved_case(std::ostream& out, const TestCase& test, const fs::path& folder) {
+}  // namespace
+
+std::vector<ResolvedKey> resolved_keys(const ResolvedCase& test) { return keys_with(test, {}); }
+
+void write_resolved_case(std::ostream& out, const ResolvedCase& test, const fs::path& folder, const MadeValues& made) {
     std::string table;
-    for (const ResolvedKey& key : resolved_keys(test)) {
+    for (const ResolvedKey& key : keys_with(test, made)) {
         const Parameter& p = *key.parameter;
         const std::string own = key.label.substr(0, key.label.size() - p.key.size());
         if (own != table) {
@@ -427,8 +450,8 @@ void write_resolved_case(std::ostream& out, const TestCase& test, const fs::path
             out << '\n' << described.heading() << "  # " << described.sentence << '\n';
             table = own;
         }
-        out << fmt::format("{} = {}  # {}{}\n", p.key, written_value(test, key, folder),
-                           p.unit.empty() ? "" : p.unit + ": ", p.sentence);
+        out << fmt::format("{} = {}  # {}{}\n", p.key, written_value(key, folder), p.unit.empty() ? "" : p.unit + ": ",
+                           p.sentence);
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Case files. A case file is a TOML file that completely describes one virtual test (test_case.hpp).
+// Case files. A case file is a TOML file that completely describes one virtual test.
 //
 // Every parameter is declared once (declare_parameter.hpp): table, key, unit, default, range and a one-sentence
 // description. The reader, the error messages, `crackle test --keys` and the resolved case stored with the results all
@@ -7,13 +7,17 @@
 // from the other file, so several tests can share one specimen.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "specimens/case/test_case.hpp"
+#include "specimens/case/parameter.hpp"
+#include "specimens/parts/resolved_case.hpp"
 
 namespace crackle {
 
@@ -32,6 +36,11 @@ struct CaseText {
     bool json = false;  ///< whether the text is JSON; its keys then have no line numbers
 };
 
+/// Factors on the loading rate and on the time step, for companions of a test.
+struct RunScale {
+    double rate = 1.0, step = 1.0;
+};
+
 /// Values from a case file and its includes, before settings and defaults are applied. They are read once and used for
 /// many tests.
 class CaseFiles {
@@ -43,36 +52,45 @@ class CaseFiles {
 
     /// Returns the test with settings that override the files. If a key is set several times, the last setting applies.
     /// @throws InputError
-    TestCase with(std::span<const CaseSetting> settings) const;
+    ResolvedCase with(std::span<const CaseSetting> settings, const RunScale& scale = {}) const;
 
     /// Returns only the joints; the file may be an incomplete case. Only [joints], [[joint_set]] and [[trace]] get
     /// defaults and are checked. Other values stay as written in the files. @throws InputError
-    TestCase joints() const;
+    JointCase joints() const;
 
   private:
-    TestCase written_;
+    std::shared_ptr<const TestCase> written_;
 };
 
 /// Reads and checks a case. @throws InputError «file:line: key: found X, expected Y; what to do».
-TestCase read_case(const std::filesystem::path& path);
-/// Reads and checks a case that is given as text.
-TestCase read_case(const CaseText& text);
+ResolvedCase read_case(const std::filesystem::path& path);
+/// Likewise, but from a text instead of a file.
+ResolvedCase read_case(const CaseText& text);
+/// The joints of a case. @throws InputError if the case was not read
+JointCase joints_of(const ResolvedCase& test);
+
+/// Values of keys that are known only after the specimen has been made.
+struct MadeValues {
+    std::optional<double> mesh_thick;  // m
+    std::optional<std::int64_t> frames;
+};
 
 /// Writes the case with all values, each with its unit and description. Reading the output gives the same test.
 /// @param folder  the folder where the text will be stored; paths are written relative to this folder
-void write_resolved_case(std::ostream& out, const TestCase& test, const std::filesystem::path& folder);
-
-struct Parameter;
+/// @throws InputError if the case was not read
+void write_resolved_case(std::ostream& out, const ResolvedCase& test, const std::filesystem::path& folder,
+                         const MadeValues& made = {});
 
 /// One key of a case with its value, which is either set by a file or a default.
 struct ResolvedKey {
     std::string label;  ///< "material.cohesion", "mineral[2].cohesion"
     const Parameter* parameter;
     CaseValue value;
+    std::filesystem::path file;  ///< the file that the key names; empty for other keys
 };
 /// All keys that have a value, in the order in which a case is written. Tests with equal lists are equal, except for
 /// the contents of the files they name.
-std::vector<ResolvedKey> resolved_keys(const TestCase& test);
+std::vector<ResolvedKey> resolved_keys(const ResolvedCase& test);
 
 /// Prints a table of all keys with unit, default, range and description.
 void describe_case_keys(std::ostream& out);

@@ -14,6 +14,7 @@
 
 #include "solver/base/names.hpp"
 #include "specimens/case/parameter.hpp"
+#include "specimens/case/test_case.hpp"
 
 namespace crackle::declaring {
 
@@ -43,6 +44,8 @@ template <class T>
 CaseValue value_of(const T& held) {
     if constexpr (std::is_enum_v<T>)
         return std::string(name_of(held));
+    else if constexpr (std::is_same_v<T, int>)
+        return std::int64_t{held};
     else
         return held;
 }
@@ -58,7 +61,7 @@ Parameter declare(std::string table, std::string key, std::string unit, Member m
     p.unit = std::move(unit);
     p.sentence = std::move(sentence);
     p.kind = std::is_same_v<T, bool>                  ? ValueKind::flag
-             : std::is_same_v<T, std::int64_t>        ? ValueKind::integer
+             : std::is_integral_v<T>                  ? ValueKind::integer
              : std::is_same_v<T, double>              ? ValueKind::real
              : std::is_same_v<T, std::string>         ? ValueKind::text
              : std::is_enum_v<T>                      ? ValueKind::text
@@ -69,6 +72,8 @@ Parameter declare(std::string table, std::string key, std::string unit, Member m
     p.set = [member](TestCase& c, const CaseValue& value, std::size_t entry) {
         if constexpr (std::is_enum_v<T>)
             reach(member, c, entry) = from_name<T>(std::get<std::string>(value)).value();
+        else if constexpr (std::is_same_v<T, int>)
+            reach(member, c, entry) = static_cast<int>(std::get<std::int64_t>(value));
         else
             reach(member, c, entry) = std::get<T>(value);
     };

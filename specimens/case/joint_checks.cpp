@@ -237,16 +237,6 @@ class JointAgainstRock {
             friction(rock);
             if (!own_.open()) strengths(rock);
         }
-        if (own_.aperture && test_.mesh.thick) aperture_within(*test_.mesh.thick);
-    }
-
-    void aperture_within(double gap) const {
-        if (own_.aperture.value_or(0.0) <= gap) return;
-        const bool meshed = test_.has_table("mesh");
-        refuse("aperture", fmt::format("{} m", *own_.aperture),
-               fmt::format("at most {}, {:.6g} m", meshed ? "the gap of the mesh" : "the radius of the smallest circle",
-                           gap),
-               meshed ? "this is the distance between the faces; lower the aperture or raise mesh.thick" : "lower it");
     }
 
   private:
@@ -313,10 +303,6 @@ class JointAgainstRock {
 }  // namespace
 
 void check_joints(const TestCase& test) { JointCheck(test).run(); }
-
-void check_apertures(const TestCase& test, double gap) {
-    for (const JointTable& table : joint_tables(test)) JointAgainstRock(test, table).aperture_within(gap);
-}
 
 void check_jointed_specimen(const TestCase& test) {
     if (!test.jointed()) return;

@@ -15,8 +15,4 @@ void check_joints(const TestCase& test);
 /// @throws InputError
 void check_jointed_specimen(const TestCase& test);
 
-/// Checks that the apertures of joints can close. In a mesh with a derived gap, they must not exceed this gap, m. Among
-/// circles, they must not exceed the smallest radius. @throws InputError
-void check_apertures(const TestCase& test, double gap);
-
 }  // namespace crackle

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "specimens/case/parameter.hpp"
+#include "specimens/case/test_case.hpp"
 
 namespace crackle {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "solver/base/names.hpp"
-#include "specimens/case/test_case.hpp"
+#include "specimens/case/parameter.hpp"
 #include "specimens/case/toml_file.hpp"
 
 namespace crackle {

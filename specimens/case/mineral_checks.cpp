@@ -10,7 +10,6 @@
 #include <set>
 
 #include "solver/base/errors.hpp"
-#include "specimens/case/colour.hpp"
 #include "specimens/case/parameters.hpp"
 
 namespace crackle {
@@ -79,7 +78,8 @@ class MineralCheck {
                 refuse(key_of(k, "area_share"), fmt::format("{}, which makes a sum of {:g}", *share, sum),
                        "a sum of at most 1", "lower a share");
         }
-        if (!test_.minerals.by_share()) return;  // area fractions follow from the labels or the image
+        if (test_.minerals.assign != MineralAssignment::random && test_.minerals.assign != MineralAssignment::size)
+            return;  // area fractions follow from the labels or the image
         if (open > 1) {
             refuse("mineral[1]", fmt::format("{} minerals without area_share", open), "at most one",
                    "give the others their shares");
@@ -173,6 +173,12 @@ class MineralCheck {
 };
 
 }  // namespace
+
+std::optional<std::uint32_t> colour_of(const std::string& text) {
+    const auto is_digit = [](char c) { return std::isxdigit(static_cast<unsigned char>(c)) != 0; };
+    if (text.size() != 7 || text[0] != '#' || !std::all_of(text.begin() + 1, text.end(), is_digit)) return {};
+    return static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
+}
 
 void check_minerals(const TestCase& test) { MineralCheck(test).run(); }
 

@@ -12,12 +12,16 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <type_traits>
+#include <variant>
 #include <vector>
 
-#include "specimens/case/test_case.hpp"
-
 namespace crackle {
+
+struct TestCase;
+
+/// Value of a key: one of the types that TOML provides.
+using CaseValue =
+    std::variant<bool, std::int64_t, double, std::string, std::array<std::string, 2>, std::vector<double>>;
 
 /// Type of a value in a case file.
 enum class ValueKind { flag, integer, real, text, text_pair, reals };

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One test case as data: the complete description of a virtual test. case_file.hpp reads it; parameters.hpp declares
-// its keys.
-//
-// Units: any consistent set; the supplied cases use SI. The model is strictly 2D: stiffnesses, stresses and moduli are
-// in N/m.
+// One test case as written, with defaults filled in. case_file.hpp reads it, parameters.hpp declares its keys, and
+// resolve.hpp turns it into the parts that the stages of a test use.
 // Tested by tests/specimens/case/case_file_test.cpp.
 #pragma once
 
@@ -13,28 +10,13 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "mesher/mesher.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/base/names.hpp"
-#include "solver/scene/bond_strength.hpp"
-#include "solver/scene/scene.hpp"
-#include "specimens/case/kinds/test_kind.hpp"
+#include "specimens/parts/resolved_case.hpp"
 
 namespace crackle {
-
-/// Value of a key: one of the types that TOML provides.
-using CaseValue =
-    std::variant<bool, std::int64_t, double, std::string, std::array<std::string, 2>, std::vector<double>>;
-
-/// Distribution of the radii in a packing.
-enum class RadiusLaw : std::uint8_t { uniform, lognormal, sieve };
-constexpr auto list_names(RadiusLaw) { return in_order("uniform", "lognormal", "sieve"); }
-
-constexpr auto list_names(MeshKind) { return in_order("delaunay", "voronoi"); }
-constexpr auto list_names(Boundary) { return in_order("domain", "seeds"); }
 
 /// How minerals are assigned to grains.
 enum class MineralAssignment : std::uint8_t { random, size, labels, image };
@@ -58,35 +40,11 @@ constexpr auto list_names(JointLength) {
 enum class JointSpacing : std::uint8_t { fixed, uniform, exponential, lognormal };
 constexpr auto list_names(JointSpacing) { return in_order("fixed", "uniform", "exponential", "lognormal"); }
 
-/// How platens hold the specimen.
-enum class PlatenKind : std::uint8_t { bonded, glued, frictional };
-constexpr auto list_names(PlatenKind) { return in_order("bonded", "glued", "frictional"); }
-
-/// Shape of the jaws of a Brazilian test.
-enum class JawShape : std::uint8_t { arc, flat, curved };
-constexpr auto list_names(JawShape) { return in_order("arc", "flat", "curved"); }
-
-/// The strain that is increased at a steady rate.
-enum class LoadingControl : std::uint8_t { axial, lateral };
-constexpr auto list_names(LoadingControl) { return in_order("axial", "lateral"); }
-
-/// What applies the confining pressure to the sides.
-enum class ConfiningSide : std::uint8_t { membrane, walls };
-constexpr auto list_names(ConfiningSide) { return in_order("membrane", "walls"); }
-
-/// Floating-point precision of the coordinates in frames.
-enum class FramePrecision : std::uint8_t { single_, double_ };
-constexpr auto list_names(FramePrecision) { return in_order("single", "double"); }
-
-/// Damping ratio of a packing if the case sets no damping. A particle vibrating on its contacts then loses 95 % of its
-/// energy per period, since exp(-4πh) = 1/20. This damping reduces the stable time step by a fifth.
-inline constexpr double default_damping_ratio = 0.2383941;  // ln(20)/(4π)
-
 /// Default grip: fraction of the height at each end that glued platens hold in tension.
 inline constexpr double default_grip = 0.1;
 
 /// One virtual test as the user wrote it, with defaults filled in. Units and ranges: see parameters.hpp.
-struct TestCase {
+struct TestCase : WrittenPlaces {
     std::string title;
 
     /// Table [particles].
@@ -112,21 +70,14 @@ struct TestCase {
     /// Table [mesh].
     struct Mesh {
         std::optional<MeshKind> kind;
-        std::optional<double> thick;  ///< m; empty until the cells have been counted, see derived_mesh_thick()
+        std::optional<double> thick;  // m
         std::optional<double> inset;  // m
         Boundary boundary = Boundary::domain;
         bool merge_destroyed = false;
     } mesh;
 
-    /// Keys of [material] that minerals and pairs of minerals also have.
-    struct MaterialKeys : BondConstants {
-        std::optional<double> density;                 // kg/m2
-        std::optional<double> normal_stiffness;        // N/m
-        std::optional<double> shear_stiffness;         // N/m
-        std::optional<double> friction_angle;          // degrees
-        std::optional<double> damping_ratio;           // -
-        std::optional<double> normal_damping;          // N s/m
-        std::optional<double> shear_damping;           // N s/m
+    /// Keys of [material], which minerals and pairs of minerals have, too.
+    struct MaterialKeys : parts::MaterialValues {
         StiffnessUnits units = StiffnessUnits::point;  // area: the two keys below replace stiffnesses
         std::optional<double> contact_modulus;         // Pa
         std::optional<double> stiffness_ratio;         // -, k_n over k_s
@@ -137,9 +88,6 @@ struct TestCase {
         MineralAssignment assign = MineralAssignment::random;
         std::int64_t seed = 1;
         std::optional<std::string> labels, image;  ///< paths as written in the case file
-
-        /// Whether the case states area fractions.
-        bool by_share() const { return assign == MineralAssignment::random || assign == MineralAssignment::size; }
     } minerals;
 
     /// A table [[mineral]].
@@ -235,10 +183,7 @@ struct TestCase {
         std::optional<std::int64_t> strength_seed;
     } bond;
 
-    /// Table [shape].
-    struct Shape {
-        std::optional<double> diameter, notch;  // m
-    } shape;
+    parts::Shape shape;  ///< table [shape]
 
     /// Table [loading].
     struct Loading {
@@ -266,13 +211,6 @@ struct TestCase {
         bool by_lateral_strain() const { return control == LoadingControl::lateral; }
         /// Whether the specimen is unloaded and reloaded.
         bool unloads() const { return unload_at_strain || unload_at_stress; }
-
-        /// Multiplies the loading rate by `by`. The rate tolerance is multiplied by `by` squared, because it is
-        /// proportional to the square of the rate.
-        void scale_rate(double by) {
-            if (axial_strain_rate) *axial_strain_rate *= by;
-            if (rate_tolerance) *rate_tolerance *= by * by;
-        }
     } loading;
 
     /// Table [confinement].
@@ -284,59 +222,22 @@ struct TestCase {
         bool by_walls() const { return side == ConfiningSide::walls; }
     } confinement;
 
-    /// Table [numerics].
-    struct Numerics {
-        std::optional<double> time_step;  // s
-        double safety_factor = 0.0;
-        std::int64_t threads = 1;
-        SegmentLaw contact_law = SegmentLaw::rounded;
-        Integrator integrator = Integrator::leapfrog;
-        bool intact = false;
-        bool allow_unstable = false;
-    } numerics;
+    parts::Numerics numerics;  ///< table [numerics]
+    parts::Output output;      ///< table [output]
 
-    /// Table [output].
-    struct Output {
-        std::int64_t curve_rows = 0;
-        std::optional<std::int64_t> frames;  ///< empty until the bodies have been counted, see default_frames()
-        FramePrecision frame_precision = FramePrecision::single_;
-        bool slips = false;
-        bool emission = false;
-        double checkpoint_interval = 0.0;              // s, wall clock
-        std::optional<double> out_of_plane_thickness;  // m
-    } output;
-
-    /// Factor on the damping of every material, applied after packing. It is not a key; only companion runs set it.
-    double damping_scale = 1.0;
-    double step_scale = 1.0;  ///< factor on the derived time step
-
-    /// Halves the time step. Halving the safety factor might not halve the step, which other bounds can limit.
-    void halve_step() {
-        if (numerics.time_step) *numerics.time_step *= 0.5;
-        step_scale *= 0.5;
-    }
-
-    std::filesystem::path source;                 ///< the case file
-    std::map<std::string, std::string> position;  ///< "table.key" or "list[2].key" → "file:line"
-    std::map<std::string, bool> table_present;    ///< "packing", "mesh", …
-    std::vector<std::filesystem::path> inputs;    ///< files read so far, starting with the case file
+    std::map<std::string, bool> table_present;  ///< "packing", "mesh", …
+    std::vector<std::filesystem::path> inputs;  ///< files read so far, starting with the case file
 
     /// Whether a file has this table. @param table  the name of the table, without brackets
     bool has_table(const std::string& table) const { return table_present.contains(table); }
     /// Whether a pressure acts on the sides.
     bool confined() const { return test_kind(loading.kind).confined; }
-    /// Whether a force other than that of the driving part does work; the curve then has a column for this work.
-    bool pressed() const { return test_kind(loading.kind).pressed(); }
     /// Whether the whole packing lies between platens, so that stress and strain are those of the rock.
     bool uniaxial() const { return test_kind(loading.kind).uniaxial; }
     /// What is true of its bonds by their law.
     const BondLawFacts& bond_facts() const { return facts_of(bond.law); }
     /// Whether stiffness and strengths are given per area, in Pa.
     bool area_units() const { return material.units == StiffnessUnits::area; }
-    /// Unit of stresses and moduli: force per length, or force per area.
-    const char* stress_unit() const { return area_units() ? "Pa" : "N/m"; }
-    /// «file:line: table.key», or «file: table.key» for a key that is not set in any file.
-    std::string at(const std::string& key) const;
     /// Path of a file named in the case, resolved relative to the file that names it.
     std::filesystem::path resolve_path(const std::string& key, const std::string& written) const;
 };
@@ -346,8 +247,5 @@ InputError key_needs(const TestCase& test, const std::string& key, const std::st
 
 /// Error for a key that conflicts with the rest of the case. @param because  a sentence that gives the reason
 InputError key_without_room(const TestCase& test, const std::string& key, const std::string& because);
-
-/// All files that a test of this case reads: the case, the files it includes, and the files named by its keys.
-std::vector<std::filesystem::path> files_read(const TestCase& test);
 
 }  // namespace crackle

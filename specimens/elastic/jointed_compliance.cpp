@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "solver/base/correctly_rounded.hpp"
-#include "specimens/case/joint_keys.hpp"
 #include "specimens/joints/joint_network.hpp"
 #include "specimens/making/specimen.hpp"
 #include "specimens/setup/bonded_specimen.hpp"
@@ -32,8 +31,8 @@ void add(Compliance& sum, const Compliance& other) {
 
 }  // namespace
 
-std::optional<JointedCompliance> jointed_compliance(const TestCase& test, const TestHooks& hooks) {
-    if (!test.jointed()) return std::nullopt;
+std::optional<JointedCompliance> jointed_compliance(const ResolvedCase& test, const TestHooks& hooks) {
+    if (test.joints.empty()) return std::nullopt;
     const Specimen specimen = make_specimen(test, hooks);
     if (!specimen.shape.whole()) return std::nullopt;
     const Domain& box = specimen.scene.domain;
@@ -44,18 +43,17 @@ std::optional<JointedCompliance> jointed_compliance(const TestCase& test, const 
     found.welded = compliance_of(bond_alone(specimen, test, Traces::welded), box, inset);
     const std::size_t centres =
         specimen.centres > 0 ? static_cast<std::size_t>(specimen.centres) : specimen.scene.bodies.size();
-    const JointNetwork network = make_joints(test, box, centres);
+    const JointNetwork network = make_joints(test.joints, box, centres);
     found.why_not = not_persistent(network);
     if (!found.why_not.empty()) return found;
-    const std::vector<JointTable> tables = joint_tables(test);
     found.expected = found.welded;
     constexpr double rigid = std::numeric_limits<double>::infinity();
     for (const JointTrace& trace : network.traces) {
-        const TestCase::JointKeys& keys = *tables[trace.source].keys;
+        const Joint joint = network.sources[trace.source].mechanics.value_or(Joint{});
         const Vec2 along = trace.points.back() - trace.points.front();
         add(*found.expected,
             compliance_of_set(correctly_rounded::atan2(along.y, along.x), network.area() / trace.length(),
-                              keys.normal_stiffness.value_or(rigid), keys.shear_stiffness.value_or(rigid)));
+                              joint.normal_stiffness.value_or(rigid), joint.shear_stiffness.value_or(rigid)));
     }
     return found;
 }

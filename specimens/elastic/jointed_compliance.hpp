@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "specimens/case/case_file.hpp"
 #include "specimens/elastic/compliance.hpp"
 #include "specimens/making/hooks.hpp"
+#include "specimens/parts/resolved_case.hpp"
 
 namespace crackle {
 
@@ -25,6 +25,6 @@ struct JointedCompliance {
 /// Makes the specimen, bonds it without platens and solves for both compliances.
 /// @return empty if the case has no joints, or if its cells do not fill a box
 /// @throws InputError if there is no linear solution; TestInterrupted
-std::optional<JointedCompliance> jointed_compliance(const TestCase& test, const TestHooks& hooks);
+std::optional<JointedCompliance> jointed_compliance(const ResolvedCase& test, const TestHooks& hooks);
 
 }  // namespace crackle

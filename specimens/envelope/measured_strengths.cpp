@@ -175,15 +175,17 @@ StrengthTest read_test(const fs::path& folder, FileHashes& files) {
     const TestResults results = read_results(folder);
     test.figures = results.summary;
     test.curve = strain_and_stress(results.curve);
-    const TestCase made = read_case(folder / "case.toml");
+    const ResolvedCase made = read_case(folder / "case.toml");
     test.rock = keys_of_rock(made, files);
-    if (made.mesh.thick && is_derived_gap(*made.mesh.thick, test.figures.specimen)) test.rock.erase("mesh.thick");
-    if (made.particles.file) {
-        const std::string hash = files.of(made.resolve_path("particles.file", *made.particles.file));
-        test.packing = fmt::format("{:.8}, {}, {}, {}", hash, made.bond.strength_seed.value_or(0), made.minerals.seed,
-                                   made.joints.seed);
+    const auto* gap = made.mesh ? std::get_if<parts::MeshGap>(&made.mesh->gap) : nullptr;
+    if (gap != nullptr && is_derived_gap(gap->thick, test.figures.specimen)) test.rock.erase("mesh.thick");
+    if (const auto* file = std::get_if<parts::ParticleFile>(&made.source)) {
+        const auto* grains = std::get_if<parts::RandomGrains>(&made.minerals.assign);
+        test.packing =
+            fmt::format("{:.8}, {}, {}, {}", files.of(file->path), made.bond.random ? made.bond.random->seed : 0,
+                        grains != nullptr ? grains->seed : 1, made.joints.seed);
     } else {
-        test.packing = fmt::format("{}", made.packing.seed);
+        test.packing = fmt::format("{}", made.packing()->seed);
     }
     return test;
 }

@@ -29,7 +29,6 @@
 #include <string>
 #include <vector>
 
-#include "solver/base/quantity.hpp"
 #include "solver/base/vec2.hpp"
 #include "specimens/frames/frame.hpp"
 #include "specimens/frames/frame_forces.hpp"
@@ -37,17 +36,6 @@
 #include "specimens/frames/vtk_polydata.hpp"
 
 namespace crackle {
-
-/// Quantities that each file states for the whole frame, in file order.
-std::span<const Quantity> frame_fields();
-/// Arrays with a value for each particle, in file order.
-std::span<const Quantity> particle_arrays();
-/// Arrays with a value for each contact, in file order.
-std::span<const Quantity> contact_arrays();
-/// Arrays with a value for each crack, in file order.
-std::span<const Quantity> crack_arrays();
-/// Arrays with a value for each face on a joint, in file order.
-std::span<const Quantity> joint_arrays();
 
 /// Number of corners of a circle's polygon in files with `particles` particles.
 int circle_corners(std::int64_t particles);

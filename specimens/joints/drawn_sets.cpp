@@ -22,17 +22,6 @@ constexpr double radians = std::numbers::pi / 180.0;
 
 Vec2 unit(double angle) { return {cr::cos(angle), cr::sin(angle)}; }
 
-/// Distribution of lengths such as distances between lines or gaps between traces, from mean and optional deviation.
-LengthLaw spread_law(double mean, const std::optional<double>& deviation) {
-    return deviation ? LengthLaw::uniform(mean, *deviation) : LengthLaw::fixed(mean);
-}
-
-LengthLaw spacing_law(const TestCase::JointSet& set) {
-    if (set.spacing_law == JointSpacing::exponential) return LengthLaw::exponential(*set.spacing);
-    if (set.spacing_law == JointSpacing::lognormal) return LengthLaw::lognormal(*set.spacing, *set.spacing_deviation);
-    return spread_law(*set.spacing, set.spacing_law == JointSpacing::uniform ? set.spacing_deviation : std::nullopt);
-}
-
 /// A length distribution divided into strata. Stratum k contains the lengths exceeded by a fraction between 2^-(k+1)
 /// and 2^-k of all lengths.
 class LengthStrata {
@@ -73,72 +62,73 @@ class LengthStrata {
 
 class SetDrawing {
   public:
-    SetDrawing(const TestCase& test, std::size_t set, const OrientationLaw& directions, const Domain& box,
-               std::size_t source)
-        : test_(test),
+    SetDrawing(const JointRequest& joints, std::size_t set, const Domain& box)
+        : places_(joints.places),
           number_(set),
-          set_(test.joint_set[set]),
-          directions_(directions),
+          set_(joints.sets[set]),
+          amount_(set_.amount),
+          directions_(set_.directions),
           box_(box),
-          source_(source),
           width_(box.x2 - box.x1),
           height_(box.y2 - box.y1),
           diagonal_(norm({width_, height_})),
           centre_{0.5 * (box.x1 + box.x2), 0.5 * (box.y1 + box.y2)},
-          scan_line_(set_.scan_line ? *set_.scan_line * radians : directions.mean() + 0.5 * std::numbers::pi) {
-        const auto seed = static_cast<std::uint64_t>(test.joints.seed);
-        std::seed_seq mixed{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U),
+          scan_line_(set_.scan_line ? *set_.scan_line * radians : directions_.mean() + 0.5 * std::numbers::pi) {
+        std::seed_seq mixed{static_cast<std::uint32_t>(joints.seed), static_cast<std::uint32_t>(joints.seed >> 32U),
                             static_cast<std::uint32_t>(set)};
         generator_.seed(mixed);
     }
 
     std::vector<JointTrace> draw() {
         constexpr double parallel = 1e-6;  // sine below which directions count as parallel
-        if (set_.p10 && directions_.single() &&
+        if (is(AmountKind::p10) && directions_.single() &&
             std::abs(cross(unit(directions_.mean()), unit(scan_line_))) < parallel) {
             throw InputError(
                 fmt::format("{}: found {} deg, the direction of the set, expected another direction, since a line "
                             "along the set crosses none of its traces",
-                            at("scan_line"), *set_.scan_line));
+                            at(CaseKey::joint_set_scan_line), *set_.scan_line));
         }
-        if (set_.spacing)
+        if (is(AmountKind::spacing))
             lines_at_spacing();
-        else if (set_.length == JointLength::persistent || set_.length == JointLength::gaps)
-            lines_anywhere();
+        else if (const auto* law = std::get_if<LengthLaw>(&set_.length))
+            midpoints(*law);
         else
-            midpoints();
+            lines_anywhere();
         return std::move(traces_);
     }
 
   private:
-    std::string at(const char* key) const { return test_.at(fmt::format("joint_set[{}].{}", number_ + 1, key)); }
+    std::string at(CaseKey key) const { return places_.at(key, number_); }
+    bool is(AmountKind kind) const { return amount_.kind == kind; }
 
-    const char* amount() const {
-        return set_.number ? "number" : set_.p10 ? "p10" : set_.p20 ? "p20" : set_.p21 ? "p21" : "spacing";
+    /// The key that states the amount.
+    CaseKey key_of_amount() const {
+        using enum CaseKey;
+        constexpr std::array keys{joint_set_number, joint_set_p10, joint_set_p20, joint_set_p21, joint_set_spacing};
+        return keys[static_cast<std::size_t>(amount_.kind)];
     }
 
     /// The requested amount multiplied by the area, in the units in which measure_of() counts a trace.
     double asked() const {
         const double area = width_ * height_;
-        if (set_.number) return static_cast<double>(*set_.number);
-        if (set_.p10) return *set_.p10 * area;
-        if (set_.p21) return *set_.p21 * area;
-        const double midpoints = std::round(*set_.p20 * area);
+        if (is(AmountKind::number)) return amount_.value;
+        if (is(AmountKind::p10) || is(AmountKind::p21)) return amount_.value * area;
+        const double midpoints = std::round(amount_.value * area);
         if (midpoints < 1.0)
             throw InputError(
                 fmt::format("{}: found {} 1/m2, expected at least half a midpoint in the box of {:.4g} "
                             "m2; raise it",
-                            at("p20"), *set_.p20, area));
+                            at(CaseKey::joint_set_p20), amount_.value, area));
         return midpoints;
     }
     double measure_of(const JointTrace& trace) const {
-        if (set_.number) return 1.0;
-        if (set_.p10) return length_across(trace, scan_line_);
-        if (set_.p21) return trace.length();
+        if (is(AmountKind::number)) return 1.0;
+        if (is(AmountKind::p10)) return length_across(trace, scan_line_);
+        if (is(AmountKind::p21)) return trace.length();
         return trace.centred ? 1.0 : 0.0;
     }
 
-    bool full() const { return !set_.spacing && reached_ >= asked_; }
+    bool full() const { return !is(AmountKind::spacing) && reached_ >= asked_; }
 
     /// Adds a trace in the box. The last trace is shortened if the amount depends on lengths.
     void take(JointTrace trace) {
@@ -146,9 +136,9 @@ class SetDrawing {
             throw InputError(
                 fmt::format("{}: found more than {} traces in the box of {:.4g} m by {:.4g} m, expected "
                             "fewer; lower the amount",
-                            at(amount()), most_traces_of_a_set, width_, height_));
-        const double more = set_.spacing ? 0.0 : measure_of(trace);
-        if ((set_.p10 || set_.p21) && reached_ + more > asked_) {
+                            at(key_of_amount()), most_traces_of_a_set, width_, height_));
+        const double more = is(AmountKind::spacing) ? 0.0 : measure_of(trace);
+        if ((is(AmountKind::p10) || is(AmountKind::p21)) && reached_ + more > asked_) {
             const double share = (asked_ - reached_) / more;
             Vec2& end = trace.points.back();
             const Vec2 start = trace.points.front();
@@ -166,11 +156,11 @@ class SetDrawing {
         const Vec2 middle = 0.5 * (a + b);
         const bool centred = std::isfinite(whole_length) && middle.x >= box_.x1 && middle.x <= box_.x2 &&
                              middle.y >= box_.y1 && middle.y <= box_.y2;
-        take({{part->first, part->second}, source_, whole_length, centred});
+        take({{part->first, part->second}, number_, whole_length, centred});
     }
 
     /// @throws InputError if traces are so short that rounding reduces them to points, which never count
-    void refuse_points(const char* key, double found, double typical) const {
+    void refuse_points(CaseKey key, double found, double typical) const {
         if (!(typical >= least_share * diagonal_))
             throw InputError(fmt::format(
                 "{}: found {} m, expected lengths of at least {:.3g} m, a fraction of {} of the box's diagonal, "
@@ -179,13 +169,13 @@ class SetDrawing {
     }
 
     /// @throws InputError if midpoints are so widely distributed that hardly any of their traces meets the box
-    void refuse_endless(const char* key, double found, const LengthLaw& law, const LengthStrata& strata) const {
+    void refuse_endless(CaseKey key, double found, const LengthLaw& law, const LengthStrata& strata) const {
         // Midpoints per area of the whole plane. The length of a trace across any scan line is at most the length of
         // the trace.
         const double area = width_ * height_, mean = law.mean();
-        const double density = set_.number ? asked_ / (area + mean * (width_ + height_))
-                               : set_.p20  ? asked_ / area
-                                           : asked_ / (area * mean);
+        const double density = is(AmountKind::number) ? asked_ / (area + mean * (width_ + height_))
+                               : is(AmountKind::p20)  ? asked_ / area
+                                                      : asked_ / (area * mean);
         const double draws = density * strata.draws_of_a_midpoint();
         if (!(draws <= most_drawn))
             throw InputError(fmt::format(
@@ -195,15 +185,16 @@ class SetDrawing {
                 at(key), found, width_, height_, draws, most_drawn));
     }
 
-    void midpoints() {
+    void midpoints(const LengthLaw& law) {
         asked_ = asked();
-        const LengthLaw law = length_law(set_);
         const LengthStrata strata(law, width_, height_);
-        const bool power_law = set_.length == JointLength::power_law;
-        refuse_points(power_law ? "length_min" : "length_mean", power_law ? *set_.length_min : *set_.length_mean,
-                      law.exceeded_by(0.5));
-        refuse_endless(power_law ? "length_max" : "length_mean", power_law ? *set_.length_max : *set_.length_mean, law,
-                       strata);
+        if (law.has_power_law()) {
+            refuse_points(CaseKey::joint_set_length_min, law.shortest(), law.exceeded_by(0.5));
+            refuse_endless(CaseKey::joint_set_length_max, law.longest(), law, strata);
+        } else {
+            refuse_points(CaseKey::joint_set_length_mean, law.mean(), law.exceeded_by(0.5));
+            refuse_endless(CaseKey::joint_set_length_mean, law.mean(), law, strata);
+        }
         while (!full()) {
             const auto [length, longest] = strata.draw(generator_);
             const Vec2 half = 0.5 * length * unit(directions_.draw(generator_));
@@ -220,25 +211,25 @@ class SetDrawing {
         const Vec2 along = unit(angle);
         // The reach extends beyond the box at both ends, whatever point of the line is given.
         const double middle = dot(centre_ - through, along), reach = diagonal_;
-        if (set_.length == JointLength::persistent) {
+        const auto* gaps = std::get_if<TracesWithGaps>(&set_.length);
+        if (gaps == nullptr) {
             take_part(through + (middle - reach) * along, through + (middle + reach) * along,
                       std::numeric_limits<double>::infinity());
             return;
         }
-        const LengthLaw joint = spread_law(*set_.length_mean, set_.length_deviation),
-                        gap = spread_law(*set_.gap_mean, set_.gap_deviation);
+        const LengthLaw &joint = gaps->joint, &gap = gaps->gap;
         const double cycle = joint.mean() + gap.mean();
-        refuse_points("length_mean", joint.mean(), joint.mean());
+        refuse_points(CaseKey::joint_set_length_mean, joint.mean(), joint.mean());
         if (gap.mean() > most_gap_share * diagonal_)
             throw InputError(
                 fmt::format("{}: found {} m, expected at most {:.4g} m, {} diagonals of the box; with longer gaps, "
                             "hardly any line would have a joint in the box",
-                            at("gap_mean"), gap.mean(), most_gap_share * diagonal_, most_gap_share));
+                            at(CaseKey::joint_set_gap_mean), gap.mean(), most_gap_share * diagonal_, most_gap_share));
         if (2.0 * reach / cycle > static_cast<double>(most_traces_of_a_set))
             throw InputError(
                 fmt::format("{}: found {} m and gaps of {} m, expected at most {} joints along the box; "
                             "make them longer",
-                            at("length_mean"), joint.mean(), gap.mean(), most_traces_of_a_set));
+                            at(CaseKey::joint_set_length_mean), joint.mean(), gap.mean(), most_traces_of_a_set));
         // Joints and gaps begin well before the box, so that their distribution inside is stationary.
         double from = middle - reach - (settling_cycles + uniform_number(generator_)) * cycle;
         while (from < middle + reach && !full()) {
@@ -264,15 +255,15 @@ class SetDrawing {
     }
 
     void lines_at_spacing() {
-        const LengthLaw law = spacing_law(set_);
+        const LengthLaw& law = amount_.spacing;
         const Vec2 along = unit(directions_.mean()), normal = perpendicular(along);
         // Lines that deviate from the mean direction by d and meet the box lie up to 1/cos d times farther away.
         const double half_width = directions_.single() ? half_width_across(along) : 0.5 * diagonal_;
         const double reach = half_width * directions_.stretch();
         const auto refuse_beyond = [&](double length, double most, const char* lines) {
-            if (length / *set_.spacing > most)
+            if (length / amount_.value > most)
                 throw InputError(fmt::format("{}: found {} m, expected at most {:.0f} lines {}; make it larger",
-                                             at("spacing"), *set_.spacing, most, lines));
+                                             at(CaseKey::joint_set_spacing), amount_.value, most, lines));
         };
         refuse_beyond(2.0 * half_width, most_traces_of_a_set, "in the box");
         refuse_beyond(2.0 * reach, most_drawn, "beside the box, which may meet it because of their scatter");
@@ -284,18 +275,18 @@ class SetDrawing {
                 return;
             line(through, angle);
         };
-        if (!set_.through) {
+        if (!amount_.through) {
             double offset = -reach - (settling_cycles + uniform_number(generator_)) * law.mean();
             for (; offset <= reach; offset += law.draw(generator_))
                 if (offset >= -reach) place(offset);
             return;
         }
-        const double first = dot(Vec2{(*set_.through)[0], (*set_.through)[1]} - centre_, normal);
-        if ((std::abs(first) + half_width) / *set_.spacing > static_cast<double>(most_traces_of_a_set))
+        const double first = dot(*amount_.through - centre_, normal);
+        if ((std::abs(first) + half_width) / amount_.value > static_cast<double>(most_traces_of_a_set))
             throw InputError(
                 fmt::format("{}: found a point more than {} spacings away from the box, expected one "
                             "closer to the box; choose one inside",
-                            at("through"), most_traces_of_a_set));
+                            at(CaseKey::joint_set_through), most_traces_of_a_set));
         // Places lines upwards from the first one, then downwards, including lines that may meet the box only because
         // they scatter.
         const double furthest = std::abs(first) + reach;
@@ -311,12 +302,12 @@ class SetDrawing {
     static constexpr double most_drawn = 1e7;    // number of draws, which take some seconds
     static constexpr double least_share = 1e-9;  // relative to the box's diagonal; shorter traces are rounding errors
 
-    const TestCase& test_;
+    const Places& places_;
     std::size_t number_;
-    const TestCase::JointSet& set_;
+    const JointSet& set_;
+    const TraceAmount& amount_;
     const OrientationLaw& directions_;
     Domain box_;
-    std::size_t source_;
     double width_, height_, diagonal_;
     Vec2 centre_;
     double scan_line_;
@@ -327,36 +318,8 @@ class SetDrawing {
 
 }  // namespace
 
-OrientationLaw orientation_law(const TestCase& test, std::size_t set) {
-    const TestCase::JointSet& s = test.joint_set[set];
-    if (s.orientation == JointOrientation::fisher) {
-        const double trend = *test.joints.section_trend * radians;
-        const Section section =
-            test.joints.section == JointSection::vertical ? Section::vertical(trend) : Section::horizontal(trend);
-        try {
-            return OrientationLaw::fisher(*s.dip * radians, *s.dip_direction * radians, *s.fisher_k, section);
-        } catch (const InputError& error) {
-            throw InputError(fmt::format("{}: {}", test.at(fmt::format("joint_set[{}].dip", set + 1)), error.what()));
-        }
-    }
-    const double angle = *s.angle * radians;
-    if (s.orientation == JointOrientation::uniform) return OrientationLaw::uniform(angle, *s.angle_deviation * radians);
-    if (s.orientation == JointOrientation::von_mises) return OrientationLaw::von_mises(angle, *s.kappa);
-    return OrientationLaw::fixed(angle);
-}
-
-LengthLaw length_law(const TestCase::JointSet& set) {
-    if (set.length == JointLength::uniform) return LengthLaw::uniform(*set.length_mean, *set.length_deviation);
-    if (set.length == JointLength::lognormal) return LengthLaw::lognormal(*set.length_mean, *set.length_deviation);
-    if (set.length == JointLength::exponential) return LengthLaw::exponential(*set.length_mean);
-    if (set.length == JointLength::power_law)
-        return LengthLaw::power_law(*set.length_min, *set.length_max, *set.length_exponent);
-    return LengthLaw::fixed(*set.length_mean);
-}
-
-std::vector<JointTrace> draw_set(const TestCase& test, std::size_t set, const OrientationLaw& directions,
-                                 const Domain& box, std::size_t source) {
-    return SetDrawing(test, set, directions, box, source).draw();
+std::vector<JointTrace> draw_set(const JointRequest& joints, std::size_t set, const Domain& box) {
+    return SetDrawing(joints, set, box).draw();
 }
 
 double length_across(const JointTrace& trace, double scan_line) {

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "specimens/case/joint_keys.hpp"
-
 namespace crackle {
 namespace {
 
@@ -34,43 +32,23 @@ TraceSide side_of(const JointTrace& trace, std::int32_t number, Vec2 from, Vec2 
     return 2 * number + (along ? 0 : 1);
 }
 
-}  // namespace
-
-Joint joint_of(const TestCase::JointKeys& keys) {
-    Joint joint;
-    joint.bonded = !keys.open();
-    joint.strength_factor = keys.strength_factor.value_or(1.0);
-    joint.tensile_strength = keys.tensile_strength;
-    joint.cohesion = keys.cohesion;
-    joint.friction_angle = keys.friction_angle;
-    joint.residual_friction_angle = keys.residual_friction_angle;
-    joint.normal_stiffness = keys.normal_stiffness;
-    joint.shear_stiffness = keys.shear_stiffness;
-    joint.dilation_angle = keys.dilation_angle.value_or(0.0);
-    if (keys.dilation_slip) joint.dilation_slip = *keys.dilation_slip;
-    joint.aperture = keys.aperture.value_or(0.0);
-    return joint;
-}
-
-namespace {
-
 /// Whether a point is on a wall. Traces that a wall cuts end exactly on the wall.
 bool on_rim(const Domain& box, Vec2 p) { return p.x == box.x1 || p.x == box.x2 || p.y == box.y1 || p.y == box.y2; }
 
 /// Assigns the mechanics of each trace to its faces.
-void set_mechanics(Scene& scene, const JointNetwork& network, const TestCase& test) {
+void set_mechanics(Scene& scene, const JointNetwork& network) {
     std::vector<std::int32_t> of_source;
-    for (const JointTable& table : joint_tables(test)) {
-        of_source.push_back(table.keys->as_rock() ? -1 : static_cast<std::int32_t>(scene.joints.size()));
-        if (!table.keys->as_rock()) scene.joints.push_back(joint_of(*table.keys));
+    for (const JointSource& source : network.sources) {
+        of_source.push_back(source.mechanics ? static_cast<std::int32_t>(scene.joints.size()) : -1);
+        if (source.mechanics) scene.joints.push_back(*source.mechanics);
     }
     for (const JointTrace& trace : network.traces) scene.trace_joints.push_back(of_source[trace.source]);
 }
 
 }  // namespace
 
-void set_joints_of_circles(Scene& scene, const JointNetwork& network, const TestCase& test) {
-    set_mechanics(scene, network, test);
+void set_joints_of_circles(Scene& scene, const JointNetwork& network) {
+    set_mechanics(scene, network);
     for (std::size_t number = 0; number < network.traces.size(); ++number) {
         const std::vector<Vec2>& points = network.traces[number].points;
         for (std::size_t k = 0; k + 1 < points.size(); ++k)
@@ -80,8 +58,8 @@ void set_joints_of_circles(Scene& scene, const JointNetwork& network, const Test
     }
 }
 
-void set_joints(Scene& scene, const Mesh& mesh, const JointNetwork& network, const TestCase& test) {
-    set_mechanics(scene, network, test);
+void set_joints(Scene& scene, const Mesh& mesh, const JointNetwork& network) {
+    set_mechanics(scene, network);
     for (const Cell& cell : mesh.cells) {
         const std::span<const Point> outline = mesh.outline(cell);
         for (std::size_t k = 0; k < outline.size(); ++k) {
@@ -94,11 +72,10 @@ void set_joints(Scene& scene, const Mesh& mesh, const JointNetwork& network, con
     }
 }
 
-std::string sources_as_rock(const JointNetwork& network, const TestCase& test) {
-    const std::vector<JointTable> tables = joint_tables(test);
+std::string sources_as_rock(const JointNetwork& network) {
     std::string names;
-    for (std::size_t k = 0; k < tables.size(); ++k)
-        if (tables[k].keys->as_rock()) names += (names.empty() ? "" : ", ") + network.sources[k].name;
+    for (const JointSource& source : network.sources)
+        if (!source.mechanics) names += (names.empty() ? "" : ", ") + source.name;
     return names;
 }
 

@@ -6,23 +6,19 @@
 
 #include "mesher/mesher.hpp"
 #include "solver/scene/scene.hpp"
-#include "specimens/case/test_case.hpp"
 #include "specimens/joints/joint_network.hpp"
 
 namespace crackle {
 
-/// Joint with the properties in the keys of a case.
-Joint joint_of(const TestCase::JointKeys& keys);
-
 /// Assigns joints to the faces of cells.
 /// @param scene  scene whose bodies are the cells of `mesh`, in the same order
 /// @param mesh  mesh made with the traces of `network`
-void set_joints(Scene& scene, const Mesh& mesh, const JointNetwork& network, const TestCase& test);
+void set_joints(Scene& scene, const Mesh& mesh, const JointNetwork& network);
 
 /// Assigns joints to circles. @param scene  scene whose bodies are circles inside the network's box
-void set_joints_of_circles(Scene& scene, const JointNetwork& network, const TestCase& test);
+void set_joints_of_circles(Scene& scene, const JointNetwork& network);
 
 /// Names of the sources whose traces have the properties of the rock: "a, b"; empty if there are none.
-std::string sources_as_rock(const JointNetwork& network, const TestCase& test);
+std::string sources_as_rock(const JointNetwork& network);
 
 }  // namespace crackle

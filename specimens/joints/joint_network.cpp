@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "mesher/mesher.hpp"
 #include "solver/base/errors.hpp"
@@ -41,41 +40,29 @@ struct Measured {
     std::string file;  // name of the file
 };
 
-Measured measured(const TestCase& test, std::size_t number) {
-    const TestCase::Trace& t = test.trace[number];
+Measured measured(const JointRequest& joints, std::size_t number) {
     Measured found;
-    if (t.points) {
-        std::vector<Vec2>& points = found.traces.emplace_back();
-        for (std::size_t k = 0; k < t.points->size(); k += 2) points.push_back({(*t.points)[k], (*t.points)[k + 1]});
+    const auto* file = std::get_if<TraceFile>(&joints.traces[number].from);
+    if (file == nullptr) {
+        found.traces.push_back(std::get<std::vector<Vec2>>(joints.traces[number].from));
         return found;
     }
-    const std::string key = fmt::format("trace[{}].file", number + 1);
-    const std::filesystem::path path = test.resolve_path(key, *t.file);
-    found.file = path.filename().string();
+    found.file = file->path.filename().string();
     try {
-        found.traces = read_traces(path, t.layer.value_or(""), &found.rows);
+        found.traces = read_traces(file->path, file->layer, &found.rows);
     } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: {}", test.at(key), error.what()));
+        throw InputError(fmt::format("{}: {}", joints.places.at(CaseKey::trace_file, number), error.what()));
     }
-    const double scale = t.scale.value_or(1.0);
-    const Vec2 offset = t.offset ? Vec2{(*t.offset)[0], (*t.offset)[1]} : Vec2{};
     for (std::vector<Vec2>& points : found.traces)
-        for (Vec2& p : points) p = scale * p + offset;
+        for (Vec2& p : points) p = file->scale * p + file->offset;
     return found;
 }
 
-std::string name_of(const TestCase::Trace& trace, std::size_t number) {
-    if (trace.name) return *trace.name;
-    if (trace.file) return std::filesystem::path(*trace.file).stem().string();
-    return fmt::format("trace {}", number + 1);
-}
-
-/// Adds the traces of a [[trace]] table. @param join  whether to join rows that are segments of one fault
-void take_measured(JointNetwork& network, const TestCase& test, std::size_t number, bool join, double snap) {
+/// Adds measured traces. @param join  whether to join rows that are segments of one fault
+void take_measured(JointNetwork& network, const JointRequest& joints, std::size_t number, bool join, double snap) {
     const std::size_t source = network.sources.size();
-    const Measured read = measured(test, number);
-    network.sources.push_back({name_of(test.trace[number], number)});
-    network.sources.back().file = read.file;
+    const Measured read = measured(joints, number);
+    network.sources.push_back({joints.traces[number].name, joints.traces[number].mechanics, read.file});
     const std::string& name = network.sources.back().name;
     if (const std::vector<int>& without = read.rows.without_length; !without.empty())
         network.notices.push_back(fmt::format("{}: {} of {} traces {} no length and {} passed over, the first at {}:{}",
@@ -115,8 +102,8 @@ void take_measured(JointNetwork& network, const TestCase& test, std::size_t numb
             fmt::format("{}: found all of its traces outside of the box x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, "
                         "expected one inside; "
                         "{}",
-                        test.at(fmt::format("trace[{}]", number + 1)), network.box.x1, network.box.x2, network.box.y1,
-                        network.box.y2, test.trace[number].file ? "give scale and offset" : "correct its points"));
+                        joints.places.at(CaseKey::trace, number), network.box.x1, network.box.x2, network.box.y1,
+                        network.box.y2, read.file.empty() ? "correct its points" : "give scale and offset"));
     }
     if (outside > 0)
         network.notices.push_back(
@@ -139,57 +126,71 @@ void leave_out_short(JointNetwork& network, double shortest, const char* why) {
 }
 
 /// The snap distance, m. @param spacing  mean spacing of the grains, m; 0 if no cells follow the traces
-double snap_of(const TestCase& test, const Domain& box, double spacing) {
-    if (!test.joints.snap) return snap_share * spacing;
-    const double snap = *test.joints.snap, side = std::min(box.x2 - box.x1, box.y2 - box.y1);
+double snap_of(const JointRequest& joints, const Domain& box, double spacing) {
+    if (!joints.snap) return snap_share * spacing;
+    const double snap = *joints.snap, side = std::min(box.x2 - box.x1, box.y2 - box.y1);
     const double most = spacing > 0.0 ? spacing : most_of_a_side * side, least = least_of_a_side * side;
     if (snap > 0.0 && (snap < least || snap > most))
         throw InputError(fmt::format(
-            "{}: found {:.4g}, expected 0, or {:.4g} to {:.4g} m: {}", test.at("joints.snap"), snap, least, most,
+            "{}: found {:.4g}, expected 0, or {:.4g} to {:.4g} m: {}", joints.places.at(CaseKey::joints_snap), snap,
+            least, most,
             spacing > 0.0 ? "at most the mean spacing of the grains" : "at most a tenth of the shorter side"));
     return snap;
 }
 
 /// Cleans the traces by merging nodes that nearly coincide.
-void clean(const TestCase& test, JointNetwork& network, double snap, double spacing) {
+void clean(const JointRequest& joints, JointNetwork& network, double snap, double spacing) {
     const bool any = !network.traces.empty();
     try {
         network.cleaning = clean_traces(network.traces, network.box, snap, trace_reach_share * spacing);
     } catch (const MeshError& error) {  // too many crossings for the memory; traces stay as they are
         network.notices.push_back(fmt::format("nodes that nearly coincide are not merged: {}", error.what()));
     }
-    if (any && network.traces.empty() && test.joints.snap)
+    if (any && network.traces.empty() && joints.snap)
         throw InputError(
             fmt::format("{}: found no trace left after nodes closer than {:.4g} m were merged, expected at least "
                         "one; lower this value",
-                        test.at("joints.snap"), 0.5 * snap));
+                        joints.places.at(CaseKey::joints_snap), 0.5 * snap));
 }
 
 }  // namespace
 
-JointNetwork make_joints(const TestCase& test, const Domain& box, std::size_t centres) {
+JointNetwork make_joints(const JointRequest& joints, const Domain& box, std::size_t centres) {
     JointNetwork network;
     network.box = box;
     const double spacing = centres > 0 ? std::sqrt(network.area() / static_cast<double>(centres)) : 0.0;
-    const double snap = snap_of(test, box, spacing);
-    for (std::size_t set = 0; set < test.joint_set.size(); ++set) {
-        const std::size_t source = network.sources.size();
-        const OrientationLaw directions = orientation_law(test, set);
-        network.sources.push_back({test.joint_set[set].name, true, set, directions.mean()});
-        const std::vector<JointTrace> traces = draw_set(test, set, directions, box, source);
-        if (traces.empty())
-            network.notices.push_back(fmt::format("{}: no trace meets the box", test.joint_set[set].name));
+    const double snap = snap_of(joints, box, spacing);
+    for (std::size_t set = 0; set < joints.sets.size(); ++set) {
+        network.sources.push_back({joints.sets[set].name, joints.sets[set].mechanics});
+        const std::vector<JointTrace> traces = draw_set(joints, set, box);
+        if (traces.empty()) network.notices.push_back(fmt::format("{}: no trace meets the box", joints.sets[set].name));
         network.traces.insert(network.traces.end(), traces.begin(), traces.end());
     }
-    const bool join = snap > 0.0 || test.joints.shortest || centres > 0;
-    for (std::size_t number = 0; number < test.trace.size(); ++number) take_measured(network, test, number, join, snap);
-    if (test.joints.shortest)
-        leave_out_short(network, *test.joints.shortest, "joints.shortest");
+    const bool join = snap > 0.0 || joints.shortest || centres > 0;
+    for (std::size_t number = 0; number < joints.traces.size(); ++number)
+        take_measured(network, joints, number, join, snap);
+    if (joints.shortest)
+        leave_out_short(network, *joints.shortest, "joints.shortest");
     else if (centres > 0)
         leave_out_short(network, spacing, "the mean spacing of the cells; joints.shortest sets another limit");
-    clean(test, network, snap, spacing);
-    network.cleaning.derived = !test.joints.snap;
+    clean(joints, network, snap, spacing);
+    network.cleaning.derived = !joints.snap;
     return network;
+}
+
+void check_apertures(const JointRequest& joints, double gap, bool meshed) {
+    const auto check = [&](const auto& list, CaseKey key) {
+        for (std::size_t k = 0; k < list.size(); ++k) {
+            if (!list[k].mechanics || list[k].mechanics->aperture <= gap) continue;
+            throw InputError(fmt::format(
+                "{}: found {} m, expected at most {}, {:.6g} m; {}", joints.places.at(key, k),
+                list[k].mechanics->aperture, meshed ? "the gap of the mesh" : "the radius of the smallest circle", gap,
+                meshed ? "this is the distance between the faces; lower the aperture or raise mesh.thick"
+                       : "lower it"));
+        }
+    };
+    check(joints.sets, CaseKey::joint_set_aperture);
+    check(joints.traces, CaseKey::trace_aperture);
 }
 
 }  // namespace crackle

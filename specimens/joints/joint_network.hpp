@@ -4,31 +4,28 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "solver/scene/scene.hpp"
-#include "specimens/case/test_case.hpp"
 #include "specimens/joints/clean_traces.hpp"
+#include "specimens/joints/joint_request.hpp"
 #include "specimens/joints/joint_trace.hpp"
 
 namespace crackle {
 
-/// Origin of traces: a [[joint_set]] or a [[trace]] table.
+/// Origin of traces: a joint set, or measured traces.
 struct JointSource {
     std::string name;
-    bool drawn = false;   ///< whether the traces are drawn from distributions
-    std::size_t set = 0;  ///< index into TestCase::joint_set, for drawn traces
-    /// Mean direction of the distribution of a set, rad; NaN for measured traces.
-    double direction = std::numeric_limits<double>::quiet_NaN();
-    std::string file{};  ///< name of the file with the measured traces; empty if there is no file
+    std::optional<Joint> mechanics;  ///< empty: the joints have the properties of the rock
+    std::string file{};              ///< name of the file with the measured traces; empty if there is no file
 };
 
 /// The joint traces in a box.
 struct JointNetwork {
     Domain box;
-    /// The joint sets and then the [[trace]] tables, each in the order in which the case lists them.
+    /// The sets and then the measured traces, each in the order of the request.
     std::vector<JointSource> sources;
     std::vector<JointTrace> traces;    ///< ordered by source
     Cleaning cleaning;                 ///< result of merging nodes that nearly coincided
@@ -48,14 +45,17 @@ struct JointNetwork {
 /// direction are also drawn outside the box, up to a limit. This makes P10 perpendicular to that direction too small by
 /// at most 0.1 % (OrientationLaw::stretch).
 ///
-/// If joints.snap or joints.shortest is given, or the grain size is known, rows of a file that are segments of one
+/// If `snap` or `shortest` is given, or the grain size is known, rows of a file that are segments of one
 /// fault are joined (joined_rows). Finally, all traces are cleaned (clean_traces), so that a test, a mesh and a report
 /// use the same traces.
-/// @param centres  number of cells that will follow the traces; 0 if there are no cells. Without joints.shortest,
+/// @param centres  number of cells that will follow the traces; 0 if there are no cells. Without `shortest`,
 /// traces shorter than the mean spacing of the cells are left out: walls cut off such short pieces, and small cells
 /// beside them would limit the time step
-/// @throws InputError if a file cannot be read, if planes do not intersect the section, or if a set needs more than
-/// 100,000 traces
-JointNetwork make_joints(const TestCase& test, const Domain& box, std::size_t centres = 0);
+/// @throws InputError if a file cannot be read, or if a set needs more than 100,000 traces
+JointNetwork make_joints(const JointRequest& joints, const Domain& box, std::size_t centres = 0);
+
+/// Checks that the apertures of joints can close. In a mesh, they must not exceed its gap, m. Among circles, they must
+/// not exceed the smallest radius. @throws InputError
+void check_apertures(const JointRequest& joints, double gap, bool meshed);
 
 }  // namespace crackle

@@ -72,21 +72,25 @@ class Sums {
     double whole_lengths_ = 0.0;
 };
 
-void add_what_was_asked(SourceReport& r, const TestCase::JointSet& set, double direction) {
-    r.direction_asked = line_direction(direction * degrees);
-    if (set.kappa) r.kappa_asked = *set.kappa;
+void add_what_was_asked(SourceReport& r, const JointSet& set) {
+    r.direction_asked = line_direction(set.directions.mean() * degrees);
+    r.kappa_asked = set.directions.kappa();
     double persistence = 1.0;
-    if (set.length == JointLength::gaps) {
-        r.mean_length_asked = *set.length_mean;
-        persistence = *set.length_mean / (*set.length_mean + *set.gap_mean);
-    } else if (set.length != JointLength::persistent) {
-        r.mean_length_asked = length_law(set).mean();
+    if (const auto* gaps = std::get_if<TracesWithGaps>(&set.length)) {
+        r.mean_length_asked = gaps->joint.mean();
+        persistence = gaps->joint.mean() / (gaps->joint.mean() + gaps->gap.mean());
+    } else if (const auto* law = std::get_if<LengthLaw>(&set.length)) {
+        r.mean_length_asked = law->mean();
     }
-    if (set.number) r.amount = {"number", static_cast<double>(*set.number), static_cast<double>(r.traces)};
-    if (set.p10) r.amount = {"p10", *set.p10, r.p10};
-    if (set.p20) r.amount = {"p20", *set.p20, r.p20};
-    if (set.p21) r.amount = {"p21", *set.p21, r.p21};
-    if (set.spacing) r.amount = {"p10", persistence / *set.spacing, r.p10};
+    const auto [kind, value] = std::pair(set.amount.kind, set.amount.value);
+    if (kind == AmountKind::spacing)
+        r.amount = {name_of(AmountKind::p10), persistence / value, r.p10};
+    else
+        r.amount = {name_of(kind), value,
+                    kind == AmountKind::number ? static_cast<double>(r.traces)
+                    : kind == AmountKind::p10  ? r.p10
+                    : kind == AmountKind::p20  ? r.p20
+                                               : r.p21};
 }
 
 void count_blocks(JointReport& report, const JointNetwork& network) {
@@ -108,7 +112,7 @@ void count_blocks(JointReport& report, const JointNetwork& network) {
 
 }  // namespace
 
-JointReport report_joints(const TestCase& test, const JointNetwork& network) {
+JointReport report_joints(const JointRequest& joints, const JointNetwork& network) {
     JointReport report;
     report.notices = network.notices;
     std::vector<Sums> sums(network.sources.size());
@@ -119,14 +123,15 @@ JointReport report_joints(const TestCase& test, const JointNetwork& network) {
     }
     for (std::size_t k = 0; k < sums.size(); ++k) {
         const JointSource& source = network.sources[k];
-        if (!source.drawn) {
+        if (k >= joints.sets.size()) {  // measured
             report.sources.push_back(sums[k].report(source.name, SourceReport::none, network.area()));
             continue;
         }
-        const TestCase::JointSet& set = test.joint_set[source.set];
-        const double scan_line = set.scan_line ? *set.scan_line / degrees : source.direction + 0.5 * std::numbers::pi;
+        const JointSet& set = joints.sets[k];
+        const double scan_line =
+            set.scan_line ? *set.scan_line / degrees : set.directions.mean() + 0.5 * std::numbers::pi;
         report.sources.push_back(sums[k].report(source.name, scan_line, network.area()));
-        add_what_was_asked(report.sources.back(), set, source.direction);
+        add_what_was_asked(report.sources.back(), set);
     }
     report.all = all.report("all", SourceReport::none, network.area());
     count_blocks(report, network);

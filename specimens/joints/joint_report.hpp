@@ -61,6 +61,6 @@ struct JointReport {
 inline constexpr double block_reach_share = 1e-4;
 
 /// Statistics of all sources, and of the blocks between the traces.
-JointReport report_joints(const TestCase& test, const JointNetwork& network);
+JointReport report_joints(const JointRequest& joints, const JointNetwork& network);
 
 }  // namespace crackle

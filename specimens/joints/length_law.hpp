@@ -33,6 +33,11 @@ class LengthLaw {
         return {Kind::power_law, shortest, longest, exponent};
     }
 
+    /// Whether all lengths lie between two positive bounds, shortest() and longest().
+    bool has_power_law() const { return kind_ == Kind::power_law; }
+    double shortest() const { return first_; }  ///< m, of a power law
+    double longest() const { return second_; }  ///< m, of a power law
+
     /// Mean length, m.
     double mean() const;
     /// Fraction of all lengths that are shorter than `length`.
@@ -41,6 +46,8 @@ class LengthLaw {
     double exceeded_by(double share) const;
     /// Draws a length, m.
     double draw(std::mt19937_64& generator) const;
+
+    bool operator==(const LengthLaw&) const = default;
 
   private:
     enum class Kind : std::uint8_t { fixed, uniform, exponential, lognormal, power_law };

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <random>
 
 namespace crackle {
@@ -18,6 +19,8 @@ namespace crackle {
 /// Vector in space: east, north, up.
 struct Vec3 {
     double x = 0.0, y = 0.0, z = 0.0;
+
+    bool operator==(const Vec3&) const = default;
 };
 
 /// The plane of the model in space, given by unit vectors along its axes.
@@ -28,6 +31,8 @@ struct Section {
     static Section vertical(double trend);
     /// Horizontal section, seen from above. @param trend  direction of +x, rad from north, clockwise
     static Section horizontal(double trend);
+
+    bool operator==(const Section&) const = default;
 };
 
 /// Distribution of the directions of traces.
@@ -46,6 +51,8 @@ class OrientationLaw {
 
     /// Mean direction, or direction of the trace of the mean plane, rad.
     double mean() const { return mean_; }
+    /// κ of an axial von Mises distribution; NaN for the others.
+    double kappa() const { return kind_ == Kind::von_mises ? spread_ : std::numeric_limits<double>::quiet_NaN(); }
     /// Whether all directions are the same.
     bool single() const { return kind_ == Kind::fixed; }
     /// Draws a direction, rad.
@@ -53,6 +60,8 @@ class OrientationLaw {
     /// Factor by which lines must be drawn from farther away, so that all lines that cross a disc are included. It is
     /// 1/cos of the deviation from the mean that at most one line in a thousand exceeds, at most 1024.
     double stretch() const;
+
+    bool operator==(const OrientationLaw&) const = default;
 
   private:
     enum class Kind : std::uint8_t { fixed, uniform, von_mises, fisher };

@@ -43,7 +43,7 @@ Shape bending_shape(const KindRequest& request) {
     const double depth = shape.height, notch = *request.test.shape.notch;
     if (notch < shortest_notch * depth || notch > longest_notch * depth) {
         request.refuse(
-            "shape.notch", fmt::format("{} m", notch),
+            CaseKey::shape_notch, fmt::format("{} m", notch),
             fmt::format("between {} and {} of the beam's depth of {:.6g} m", shortest_notch, longest_notch, depth),
             "use a shorter notch, or a deeper beam");
     }
@@ -62,18 +62,18 @@ Apparatus bending_apparatus(const KindRequest& request, const Shape& shape) {
     const double depth = shape.height, span = span_of(request), pad = pad_width(request, depth);
     if (span + pad > shape.width) {
         request.refuse(
-            "loading.span",
+            CaseKey::loading_span,
             fmt::format("{:.6g} m{}", span, request.test.loading.span ? "" : ", four times the beam's depth"),
             fmt::format("supports within the beam: span plus the width of a pad, {:.4g} m, at most {:.6g} m", pad,
                         shape.width),
             "increase packing.width, or reduce the span");
     }
     if (span < 2.0 * pad) {
-        request.refuse("loading.span", fmt::format("{:.6g} m", span), fmt::format("at least two pads of {:.4g} m", pad),
-                       "increase the span");
+        request.refuse(CaseKey::loading_span, fmt::format("{:.6g} m", span),
+                       fmt::format("at least two pads of {:.4g} m", pad), "increase the span");
     }
     if (shape.notch && std::abs(span / (default_span * depth) - 1.0) > notched_span_share) {
-        request.refuse("loading.span", fmt::format("{:.6g} m", span),
+        request.refuse(CaseKey::loading_span, fmt::format("{:.6g} m", span),
                        fmt::format("four times the depth, {:.6g} m, for a notched beam", default_span * depth),
                        "the stress intensity of a notched beam is known only for this span; remove the key");
     }

@@ -77,7 +77,7 @@ std::vector<Vec2> bonded_face(const KindRequest& request, Vec2 centre, double ra
 /// about the centre
 std::vector<Vec2> touching_face(const KindRequest& request, Vec2 centre, double radius, double alpha,
                                 bool upside_down) {
-    const JawShape jaws = request.test.loading.jaws.value_or(JawShape::arc);
+    const JawShape jaws = request.test.loading.jaws;
     const bool flat = jaws == JawShape::flat, curved = jaws == JawShape::curved;
     double farthest = 0.0;  // m; largest distance of a surface point from the centre
     for (const SurfacePoint& point : request.surface)
@@ -111,7 +111,7 @@ double disc_diameter(const KindRequest& request, double room) {
     const double diameter = request.test.shape.diameter.value_or(room);
     if (diameter > room * (1.0 + 1e-12)) {
         request.refuse(
-            "shape.diameter", fmt::format("{} m", diameter),
+            CaseKey::shape_diameter, fmt::format("{} m", diameter),
             fmt::format("at most {:.6g} m: the packing is {:.6g} m wide and {:.6g} m high", room, width, height),
             "use a larger packing, or a smaller disc");
     }
@@ -158,7 +158,7 @@ Apparatus brazilian_apparatus(const KindRequest& request, const Shape& shape) {
     };
     Apparatus apparatus;
     apparatus.parts = {jaw(true), jaw(false)};
-    const bool over_an_arc = bonded || request.test.loading.jaws.value_or(JawShape::arc) == JawShape::arc;
+    const bool over_an_arc = bonded || request.test.loading.jaws == JawShape::arc;
     apparatus.section = 0.5 * std::numbers::pi * diameter / (over_an_arc ? brazilian_factor(alpha) : 1.0);
     apparatus.length = diameter;
     return apparatus;

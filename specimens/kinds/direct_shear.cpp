@@ -42,7 +42,7 @@ Apparatus direct_shear_apparatus(const KindRequest& request, const Shape& shape)
     const Domain& box = request.packing;
     const double gap = request.test.loading.box_gap.value_or(default_box_gap * request.particle);
     if (gap > widest_box_gap * shape.height) {
-        request.refuse("loading.box_gap", fmt::format("{:.4g} m", gap),
+        request.refuse(CaseKey::loading_box_gap, fmt::format("{:.4g} m", gap),
                        fmt::format("at most half of the height of {:.6g} m", shape.height),
                        "the boxes must hold the specimen; use a higher specimen, or a narrower gap");
     }
@@ -53,8 +53,8 @@ Apparatus direct_shear_apparatus(const KindRequest& request, const Shape& shape)
     for (Vec2& corner : upper.corners) corner = {2.0 * middle.x - corner.x, 2.0 * middle.y - corner.y};
     lower.x = lower.y = lower.rotation = upper.x = upper.rotation = {Drive::velocity, 0.0};
     Apparatus apparatus;
-    apparatus.normal_force = *request.test.loading.normal_stress * shape.width;
-    apparatus.normal_spring = request.test.loading.normal_stiffness.value_or(0.0) * shape.width;
+    apparatus.normal_force = request.test.loading.normal_stress * shape.width;
+    apparatus.normal_spring = request.test.loading.normal_stiffness * shape.width;
     upper.y = {Drive::force, -apparatus.normal_force, apparatus.normal_spring};
     apparatus.parts = {lower, upper};
     apparatus.axis = 0;

@@ -29,7 +29,7 @@ double notch_of(const KindRequest& request, double radius) {
     const double notch = request.test.shape.notch.value_or(half_disc_notch * radius);
     if (notch < half_disc_shortest_notch * radius * (1.0 - 1e-12) ||
         notch > half_disc_longest_notch * radius * (1.0 + 1e-12)) {
-        request.refuse("shape.notch", fmt::format("{} m", notch),
+        request.refuse(CaseKey::shape_notch, fmt::format("{} m", notch),
                        fmt::format("{} to {} of the radius of {:.6g} m", half_disc_shortest_notch,
                                    half_disc_longest_notch, radius),
                        "the stress intensity is known only in this range");
@@ -56,7 +56,7 @@ Shape scb_shape(const KindRequest& request) {
     const double half_pad = 0.5 * pad_width(request, radius);
     const Vec2 foot = foot_of(request);
     if (!(half_pad < 0.5 * radius)) {
-        request.refuse("loading.pad_width", fmt::format("{:.4g} m", 2.0 * half_pad),
+        request.refuse(CaseKey::loading_pad_width, fmt::format("{:.4g} m", 2.0 * half_pad),
                        fmt::format("less than the radius of {:.6g} m", radius),
                        "use narrower pads, or smaller particles");
     }
@@ -85,7 +85,7 @@ Apparatus scb_apparatus(const KindRequest& request, const Shape& shape) {
     const double span = request.test.loading.span.value_or(half_disc_span * shape.width);
     if (span < half_disc_shortest_span * shape.width * (1.0 - 1e-12) ||
         span > half_disc_longest_span * shape.width * (1.0 + 1e-12)) {
-        request.refuse("loading.span", fmt::format("{} m", span),
+        request.refuse(CaseKey::loading_span, fmt::format("{} m", span),
                        fmt::format("{} to {} of the diameter of {:.6g} m", half_disc_shortest_span,
                                    half_disc_longest_span, shape.width),
                        "the stress intensity is known only in this range");

@@ -14,7 +14,6 @@
 namespace crackle {
 namespace {
 
-constexpr double default_half_angle = 10.0;  // degrees, as in ISRM's jaws
 // Width of a pad relative to the depth of a beam or the radius of a half disc, and smallest width in particle sizes.
 // Narrower pads would push single grains into the specimen.
 constexpr double pad_share = 0.1, fewest_particles_of_a_pad = 2.0;
@@ -39,7 +38,7 @@ bool Shape::holds(Vec2 place) const {
     return true;
 }
 
-void KindRequest::refuse(const std::string& key, const std::string& found, const std::string& expected,
+void KindRequest::refuse(CaseKey key, const std::string& found, const std::string& expected,
                          const std::string& remedy) const {
     throw InputError(fmt::format("{}: found {}, expected {}; {}", test.at(key), found, expected, remedy));
 }
@@ -62,9 +61,7 @@ std::string kinds_with(const std::function<bool(const TestKind&)>& is) {
     return names.empty() ? last : fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
-double half_angle(const KindRequest& request) {
-    return request.test.loading.half_angle.value_or(default_half_angle) * std::numbers::pi / 180.0;
-}
+double half_angle(const KindRequest& request) { return request.test.loading.half_angle * std::numbers::pi / 180.0; }
 
 double pad_width(const KindRequest& request, double size) {
     return request.test.loading.pad_width.value_or(

@@ -22,7 +22,7 @@
 
 #include "solver/scene/scene.hpp"
 #include "specimens/case/kinds/test_kind.hpp"
-#include "specimens/case/test_case.hpp"
+#include "specimens/parts/resolved_case.hpp"
 
 namespace crackle {
 
@@ -86,7 +86,7 @@ struct SurfacePoint {
 
 /// Input from which a kind derives the specimen's shape and the apparatus.
 struct KindRequest {
-    const TestCase& test;
+    const ResolvedCase& test;
     Domain packing;           ///< the box of the packing
     double particle = 0.0;    ///< m, mean particle size: square root of a cell's area, or diameter of a circle
     double offset = 0.0;      ///< m, distance from a face of the packing to the face of a bonded part
@@ -94,8 +94,8 @@ struct KindRequest {
     std::vector<SurfacePoint> surface =
         {};  ///< surface points of the specimen; parts that are not bonded are placed so that they just touch it
 
-    /// Refuses a key of the case. @throws InputError «file:line: key: found X, expected Y; remedy», always
-    [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected,
+    /// Refuses a value of the case. @throws InputError «file:line: key: found X, expected Y; remedy», always
+    [[noreturn]] void refuse(CaseKey key, const std::string& found, const std::string& expected,
                              const std::string& remedy) const;
 };
 

@@ -69,7 +69,8 @@ std::optional<FirstLoss> loss_of(const ElasticAnalysis& analysis, const std::opt
     return FirstLoss{event->strain, event->stress, bond.body_i, bond.body_j};
 }
 
-void estimate_strength(TestCheck& check, const ElasticAnalysis& analysis, const TestCase& test, const TestSetup& own) {
+void estimate_strength(TestCheck& check, const ElasticAnalysis& analysis, const ResolvedCase& test,
+                       const TestSetup& own) {
     // Estimates apply only to unconfined uniaxial specimens.
     if (test.numerics.intact || test.confined() || !test.uniaxial()) return;
     const BreakShare rule = bond_break_share(own);
@@ -109,12 +110,10 @@ double bond_friction_angle(const World& world) {
 
 /// Estimates the compressive and tensile strength of a disc's rock from one linear solution of the whole packing
 /// between platens.
-std::optional<DiscOutlook> outlook_of(const TestCase& disc, const TestHooks& hooks) {
-    TestCase rock = disc;
+std::optional<DiscOutlook> outlook_of(const ResolvedCase& disc, const TestHooks& hooks) {
+    ResolvedCase rock = disc;
     rock.loading.kind = LoadingKind::compression;
     rock.loading.platens = PlatenKind::bonded;
-    rock.loading.jaws.reset();
-    rock.loading.half_angle.reset();
     rock.shape = {};
     DiscOutlook outlook;
     double strains[2] = {0.0, 0.0}, squares = 0.0;
@@ -147,9 +146,10 @@ std::optional<DiscOutlook> outlook_of(const TestCase& disc, const TestHooks& hoo
 
 void estimate_run(TestCheck& check) {
     const VirtualTest& test = check.test;
-    const TestCase::Loading& loading = test.description.loading;
-    check.rate = loading.axial_strain_rate ? *loading.axial_strain_rate : test.state.rate.rate;
-    check.slowest_rate = loading.axial_strain_rate ? check.rate : slowest_rate(test.setup.rate_rule);
+    const parts::Loading& loading = test.description.loading;
+    const double* given = loading.axial_strain_rate();
+    check.rate = given != nullptr ? *given : test.state.rate.rate;
+    check.slowest_rate = given != nullptr ? check.rate : slowest_rate(test.setup.rate_rule);
     check.to_end = expected_run(test, loading.max_axial_strain, check.steps_per_second);
     if (check.strength && check.strength->strain < loading.max_axial_strain)
         check.to_strength = expected_run(test, check.strength->strain, check.steps_per_second);
@@ -172,7 +172,7 @@ void warn_of_disc(TestCheck& check) {
 
 void warn(TestCheck& check) {
     const TestSetup& setup = check.test.setup;
-    const TestCase& test = check.test.description;
+    const ResolvedCase& test = check.test.description;
     check.warnings = setup.origin.notices;
     warn_of_disc(check);
     if (test.confined()) {
@@ -209,13 +209,13 @@ void warn(TestCheck& check) {
         check.warnings.push_back(fmt::format(
             "{}: polygons pulled by bonded platens separate at the platen, so the strength is not the rock's; "
             "use platens = \"glued\"",
-            test.at("loading.platens")));
+            test.at(CaseKey::loading_platens)));
     }
     if (check.to_end.steps < fewest_steps) {
         check.warnings.push_back(
             fmt::format("{} = {:g} is only {:.2g} steps away, so the test overshoots it; use a larger "
                         "strain or a lower rate",
-                        test.at("loading.max_axial_strain"), test.loading.max_axial_strain, check.to_end.steps));
+                        test.at(CaseKey::loading_max_axial_strain), test.loading.max_axial_strain, check.to_end.steps));
     }
     if (out_of_proportion) {
         check.warnings.push_back(fmt::format(
@@ -229,7 +229,7 @@ void warn(TestCheck& check) {
         check.warnings.push_back(fmt::format(
             "{} = {:.3g} is less than the strain of the estimated strength, {:.3g}: the test may end before "
             "the specimen fails",
-            test.at("loading.max_axial_strain"), test.loading.max_axial_strain, check.strength->strain));
+            test.at(CaseKey::loading_max_axial_strain), test.loading.max_axial_strain, check.strength->strain));
     }
 }
 
@@ -264,7 +264,7 @@ double strain_of_share(const std::vector<LinearBond>& bonds, double share) {
     return *nth;
 }
 
-TestCheck check_test(const TestCase& description, const TestHooks& hooks) {
+TestCheck check_test(const ResolvedCase& description, const TestHooks& hooks) {
     TestCheck check;
     check.youngs_modulus = check.poissons_ratio = check.gauge_modulus = std::numeric_limits<double>::quiet_NaN();
     const auto look = [&](const World& world, const TestSetup& own, const Moduli& moduli) {

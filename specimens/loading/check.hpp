@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "specimens/case/case_file.hpp"
 #include "specimens/elastic/analysis.hpp"
 #include "specimens/loading/expected_run.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/making/hooks.hpp"
+#include "specimens/parts/resolved_case.hpp"
 
 namespace crackle {
 
@@ -83,6 +83,6 @@ BreakShare bond_break_share(const TestSetup& setup);
 double strain_of_share(const std::vector<LinearBond>& bonds, double share);
 
 /// Checks a case. @throws the exceptions of prepare_test()
-TestCheck check_test(const TestCase& description, const TestHooks& hooks = {});
+TestCheck check_test(const ResolvedCase& description, const TestHooks& hooks = {});
 
 }  // namespace crackle

@@ -28,12 +28,12 @@ constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 struct CompanionPlan {
     std::string name;
-    TestCase description;
+    ResolvedCase description;
 };
 
-std::vector<CompanionPlan> plans_for(const TestCase& asked, int threads) {
+std::vector<CompanionPlan> plans_for(const ResolvedCase& asked, int threads) {
     std::vector<CompanionPlan> plans;
-    const auto plan = [&](const char* name) -> TestCase& {
+    const auto plan = [&](const char* name) -> ResolvedCase& {
         plans.push_back({name, asked});
         plans.back().description.numerics.threads = threads;
         plans.back().description.output.emission = false;  // acoustic events of companions are not used
@@ -42,7 +42,7 @@ std::vector<CompanionPlan> plans_for(const TestCase& asked, int threads) {
     plan("half_time_step").halve_step();
     plan("half_rate").loading.scale_rate(0.5);
     plan("half_damping").damping_scale = 0.5;
-    TestCase& doubled = plan("double_damping");
+    ResolvedCase& doubled = plan("double_damping");
     doubled.damping_scale = 2.0;
     doubled.numerics.time_step.reset();  // more damping requires a smaller time step
     return plans;

@@ -58,7 +58,7 @@ class Confinement {
           bonded_(bonded),
           own_(own),
           number_(numbers_in(bonded, test.world)),
-          pressure_(*test.description.confinement.pressure),
+          pressure_(test.description.pressure()),
           particle_(std::sqrt(test.setup.specimen.width * test.setup.specimen.height /
                               static_cast<double>(test.setup.specimen.particles))),
           held_(bonded.bodies.size(), true) {
@@ -283,7 +283,7 @@ class Confinement {
         const std::string text = fmt::format(
             "{}: found no equilibrium under {:g} {}: linear solutions left a force of {:.2g} of the pressure on a "
             "particle, expected at most {:g}, and {} bonds had broken{}",
-            test_.description.at("confinement.pressure"), pressure_, test_.description.stress_unit(), left.force,
+            test_.description.at(CaseKey::confinement_pressure), pressure_, test_.description.stress_unit(), left.force,
             most_unbalanced, world_.bonds.broken, cause);
         if (!(push > 0.0)) throw PressureRefused(text);
         throw InputError(
@@ -296,7 +296,7 @@ class Confinement {
         throw PressureRefused(fmt::format(
             "{}: found no position of the {} where the specimen carries {:.4g} N: {:.3g} m beyond first contact, "
             "expected less than a quarter of a particle, {:.3g} m",
-            test_.description.at("confinement.pressure"), wall ? "walls" : "platens", force, way,
+            test_.description.at(CaseKey::confinement_pressure), wall ? "walls" : "platens", force, way,
             farthest_way * particle_));
     }
 
@@ -315,7 +315,7 @@ class Confinement {
 void confine(VirtualTest& test, const World& bonded, const TestSetup& own) {
     if (!test.small_strain) {
         throw InputError(fmt::format("{}: expected an elastic solution, which is needed to apply the pressure: {}",
-                                     test.description.at("confinement.pressure"), test.no_small_strain));
+                                     test.description.at(CaseKey::confinement_pressure), test.no_small_strain));
     }
     if (test.setup.apparatus.has_walls())
         Confinement(test, test.world, test.setup).run();

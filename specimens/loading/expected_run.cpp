@@ -21,20 +21,21 @@ constexpr double small_step_share = 0.01, small_first_strain = 1e-6;
 
 /// The most likely cause of a long run: a key and its value.
 std::string likely_cause(const VirtualTest& test) {
-    const TestCase& asked = test.description;
+    const ResolvedCase& asked = test.description;
     if (asked.numerics.time_step && *asked.numerics.time_step < small_step_share * test.setup.stable_time_step) {
-        return fmt::format("{} = {:.3g} s, although {:.3g} s would be stable", asked.at("numerics.time_step"),
+        return fmt::format("{} = {:.3g} s, although {:.3g} s would be stable", asked.at(CaseKey::numerics_time_step),
                            *asked.numerics.time_step, test.setup.stable_time_step);
     }
-    if (asked.loading.axial_strain_rate)
-        return fmt::format("{} = {:.3g} 1/s", asked.at("loading.axial_strain_rate"), *asked.loading.axial_strain_rate);
+    if (const double* rate = asked.loading.axial_strain_rate())
+        return fmt::format("{} = {:.3g} 1/s", asked.at(CaseKey::loading_axial_strain_rate), *rate);
     if (test.setup.rate_rule.first_strain < small_first_strain) {
         return fmt::format(
             "{} = {:g}: the first bonds slide or break at a strain of {:.2g}, which requires very slow "
             "loading; check friction angles and strengths, or set axial_strain_rate",
-            asked.at("loading.rate_tolerance"), *asked.loading.rate_tolerance, test.setup.rate_rule.first_strain);
+            asked.at(CaseKey::loading_rate_tolerance), *asked.loading.rate_tolerance(),
+            test.setup.rate_rule.first_strain);
     }
-    return fmt::format("{} = {:g}", asked.at("loading.rate_tolerance"), *asked.loading.rate_tolerance);
+    return fmt::format("{} = {:g}", asked.at(CaseKey::loading_rate_tolerance), *asked.loading.rate_tolerance());
 }
 
 /// Describes a particle that is so small that it determines the time step and makes the run long; empty if there is
@@ -64,9 +65,9 @@ std::string small_particle(const VirtualTest& test) {
 }  // namespace
 
 RunEstimate expected_run(const VirtualTest& test, double strain, double steps_per_second) {
-    const TestCase::Loading& loading = test.description.loading;
-    const double rate = loading.axial_strain_rate ? *loading.axial_strain_rate : test.state.rate.rate;
-    const UnloadRule unloading = unload_rule_of(loading, test.setup.rate_rule, test.state.youngs_modulus);
+    const parts::Loading& loading = test.description.loading;
+    const double rate = loading.axial_strain_rate() != nullptr ? *loading.axial_strain_rate() : test.state.rate.rate;
+    const UnloadRule unloading = unload_rule_of(loading.unloading, test.setup.rate_rule, test.state.youngs_modulus);
     const double steps = (strain + unloading.added_travel(strain)) / rate / test.world.stepping.time_step;
     return {strain, steps, steps / steps_per_second};
 }
@@ -82,8 +83,8 @@ void refuse_endless(const VirtualTest& test, const RunEstimate& run) {
     throw InputError(
         fmt::format("{} = {:g} would take {:.2g} steps, about {:.2g} days, expected at most {:g} steps and a day "
                     "without --long. The cause is {}{}",
-                    test.description.at("loading.max_axial_strain"), run.strain, run.steps, run.seconds / seconds_a_day,
-                    most_steps, likely_cause(test), small_particle(test)));
+                    test.description.at(CaseKey::loading_max_axial_strain), run.strain, run.steps,
+                    run.seconds / seconds_a_day, most_steps, likely_cause(test), small_particle(test)));
 }
 
 void refuse_resting(const VirtualTest& test) {
@@ -92,11 +93,12 @@ void refuse_resting(const VirtualTest& test) {
     const double place = test.setup.apparatus.axis == 0 ? driver.x : driver.y, speed = platen_speed(test);
     const double way = speed * test.world.stepping.time_step;
     if (speed > 0.0 && place + way != place) return;
-    const TestCase& asked = test.description;
+    const ResolvedCase& asked = test.description;
     throw InputError(
         fmt::format("{}: found a displacement of {:.2g} m per step of the driving part, expected one that changes its "
                     "position of {:.3g} m despite round-off; the strain would stay 0. Use a higher rate",
-                    asked.at(asked.loading.axial_strain_rate ? "loading.axial_strain_rate" : "loading.rate_tolerance"),
+                    asked.at(asked.loading.axial_strain_rate() != nullptr ? CaseKey::loading_axial_strain_rate
+                                                                          : CaseKey::loading_rate_tolerance),
                     way, place));
 }
 

@@ -51,8 +51,10 @@ class LoadingLoop {
           max_strain_(test.description.loading.max_axial_strain),
           stress_unit_(test.description.stress_unit()),
           judged_per_written_(judged_per_written(test)),
-          unload_rule_(unload_rule_of(test.description.loading, test.setup.rate_rule, test.state.youngs_modulus)),
-          lateral_rule_(lateral_rule_of(test.description, test.setup.rate_rule, test.state.poissons_ratio)),
+          unload_rule_(
+              unload_rule_of(test.description.loading.unloading, test.setup.rate_rule, test.state.youngs_modulus)),
+          lateral_rule_(lateral_rule_of(test.description.loading, test.description.places, test.setup.rate_rule,
+                                        test.state.poissons_ratio)),
           whole_travel_(max_strain_ + unload_rule_.added_travel(max_strain_)),
           row_spacing_(max_strain_ / static_cast<double>(test.description.output.curve_rows * judged_per_written_)),
           frame_spacing_(max_strain_ / static_cast<double>(test.description.output.frames.value())),

@@ -25,7 +25,7 @@ double platen_speed(const VirtualTest& test) {
 }
 
 void set_platen_speed(VirtualTest& test, double speed) {
-    const TestCase::Loading& loading = test.description.loading;
+    const parts::Loading& loading = test.description.loading;
     if (!std::isfinite(speed)) throw InputError(fmt::format("platen speed: found {}, expected a number in m/s", speed));
     if (loading.unloads() || loading.by_lateral_strain()) {
         throw InputError(

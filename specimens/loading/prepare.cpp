@@ -25,7 +25,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// Reports the bonds and how the time step was determined.
-void report_bonded(const TestHooks& hooks, const World& world, const TestSetup& setup, const TestCase& test) {
+void report_bonded(const TestHooks& hooks, const World& world, const TestSetup& setup, const ResolvedCase& test) {
     if (!hooks.detail) return;
     hooks.detail(fmt::format("{} bodies, {} segments; {} contact points touch, {} of them bonded; {} threads",
                              world.bodies.size(), setup.origin.segments, setup.bonds.contacts_initial,
@@ -80,7 +80,7 @@ void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& 
 /// Sets up the detection of acoustic events, which needs the shear wave speed. If this speed is unknown, a notice
 /// states that there are no events.
 void listen_for_emission(VirtualTest& test) {
-    const TestCase::Output& output = test.description.output;
+    const parts::Output& output = test.description.output;
     if (!output.emission) return;
     try {
         test.state.emission.rule =
@@ -113,12 +113,12 @@ constexpr double noticed_tolerance = 0.01, noticed_rate = 3.0;
 void notice_fast_loading(VirtualTest& test) {
     if (!test.small_strain || !(test.small_strain->moduli.youngs_modulus > 0.0)) return;
     const double derived = largest_rate(rate_rule_of(test, noticed_tolerance));
-    const double given = *test.description.loading.axial_strain_rate;
+    const double given = *test.description.loading.axial_strain_rate();
     if (given <= noticed_rate * derived) return;
-    test.setup.origin.notices.push_back(
-        fmt::format("{} = {:.3g} 1/s is {:.2g} times the initial rate of rate_tolerance = {}, so that inertia and "
-                    "dashpots carry part of the stress; leave the rate out, or measure its effect with --verify",
-                    test.description.at("loading.axial_strain_rate"), given, given / derived, noticed_tolerance));
+    test.setup.origin.notices.push_back(fmt::format(
+        "{} = {:.3g} 1/s is {:.2g} times the initial rate of rate_tolerance = {}, so that inertia and "
+        "dashpots carry part of the stress; leave the rate out, or measure its effect with --verify",
+        test.description.at(CaseKey::loading_axial_strain_rate), given, given / derived, noticed_tolerance));
 }
 
 /// A copy of the specimen with bonded platens if those of the test are not bonded; otherwise `world` is nullptr.
@@ -129,15 +129,15 @@ struct SeparateBonding {
 };
 
 /// Whether the specimen carries the pressure of the case `lower`.
-bool bears(const VirtualTest& refused, const TestCase& lower, const Specimen& specimen, const SeparateBonding& twin) {
+bool bears(const VirtualTest& refused, const ResolvedCase& lower, const Specimen& specimen,
+           const SeparateBonding& twin) {
     VirtualTest attempt;
     attempt.description = lower;
     attempt.small_strain = refused.small_strain;
-    BondedSpecimen bonded = bond_specimen(specimen, lower, lower.loading, twin.while_solving);
+    BondedSpecimen bonded = bond_specimen(specimen, lower, twin.while_solving);
     attempt.world = std::move(bonded.world);
     compute_forces(attempt.world);
-    attempt.setup =
-        record_setup(attempt.world, specimen, bonded.platens, lower.loading.kind, lower.loading.grip.value_or(0.0));
+    attempt.setup = record_setup(attempt.world, specimen, bonded.platens, lower.loading.kind, lower.loading.grip);
     try {
         if (twin.world != nullptr)
             confine(attempt, *twin.world, *twin.setup);
@@ -158,11 +158,11 @@ void confine_or_advise(VirtualTest& test, const Specimen& specimen, const Separa
             confine(test, test.world, test.setup);
     } catch (const PressureRefused& error) {
         for (const double share : {0.5, 0.1, 0.01, 0.001}) {
-            TestCase lower = test.description;
-            *lower.confinement.pressure *= share;
+            ResolvedCase lower = test.description;
+            lower.confinement->pressure *= share;
             if (bears(test, lower, specimen, twin))
                 throw InputError(fmt::format("{}; lower the pressure; there is an equilibrium under {:.3g} {}",
-                                             error.what(), *lower.confinement.pressure, lower.stress_unit()));
+                                             error.what(), lower.confinement->pressure, lower.stress_unit()));
         }
         throw InputError(
             fmt::format("{}; lower pressures, down to a thousandth, do not help either; check the strength of the "
@@ -180,12 +180,11 @@ struct NewTest {
 };
 
 /// Makes the specimen, its platens, the world and the bonds.
-NewTest make_and_bond(const TestCase& description, const TestHooks& hooks) {
+NewTest make_and_bond(const ResolvedCase& description, const TestHooks& hooks) {
     NewTest made;
     VirtualTest& test = made.test;
     test.description = description;
-    const TestCase::MaterialKeys& material = description.material;
-    if (description.has_table("packing") && !material.damping_ratio && !material.normal_damping) {
+    if (description.material.damping_by_default) {
         hooks.report_stage(
             fmt::format("damping ratio {:.4g} by default: a particle ringing on its contacts loses 95 % of its "
                         "energy per period",
@@ -194,13 +193,14 @@ NewTest make_and_bond(const TestCase& description, const TestHooks& hooks) {
     const Clock::time_point begun = Clock::now();
     made.specimen = make_specimen(description, hooks);
     test.specimen_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-    if (made.specimen.mesh_thick > 0.0) test.description.mesh.thick = made.specimen.mesh_thick;
+    if (description.mesh && std::holds_alternative<parts::DerivedGap>(description.mesh->gap))
+        test.description.mesh->gap = parts::MeshGap{made.specimen.mesh_thick, {}};
     hooks.report_work("bonding");
     if (hooks.interrupted)
         made.while_solving = [asked = hooks.interrupted] {
             if (asked()) throw TestInterrupted();
         };
-    BondedSpecimen bonded = bond_specimen(made.specimen, description, description.loading, made.while_solving);
+    BondedSpecimen bonded = bond_specimen(made.specimen, description, made.while_solving);
     test.world = std::move(bonded.world);
     test.world.bonds.watch_slips = description.output.slips;
     made.platens = std::move(bonded.platens);
@@ -208,12 +208,12 @@ NewTest make_and_bond(const TestCase& description, const TestHooks& hooks) {
 }
 
 /// Measures a test with bonds and forces at rest, and confines it.
-VirtualTest measure_at_rest(NewTest made, const TestCase& description, const TestHooks& hooks,
+VirtualTest measure_at_rest(NewTest made, const ResolvedCase& description, const TestHooks& hooks,
                             const SolutionVisitor& visit) {
     VirtualTest test = std::move(made.test);
     const Specimen& specimen = made.specimen;
     const std::function<void()>& while_solving = made.while_solving;
-    const double grip = description.loading.grip.value_or(0.0);
+    const double grip = description.loading.grip;
     const LoadingKind kind = description.loading.kind;
     test.setup = record_setup(test.world, specimen, made.platens, kind, grip);
     if (!description.output.frames)
@@ -228,18 +228,18 @@ VirtualTest measure_at_rest(NewTest made, const TestCase& description, const Tes
         test.setup.origin.notices.push_back(std::move(notice));
     notice_deep_bonds(test);
     if (made.platens.bonded) {
-        check_platen_hold(test.world, test.setup, made.platens, description);
+        check_platen_hold(test.world, test.setup, made.platens, description.places);
         solve_small_strain(test, test.world, test.setup, visit);
         if (description.confined()) confine_or_advise(test, specimen, {nullptr, nullptr, while_solving});
         if (test.setup.apparatus.normal_force > 0.0 || test.setup.apparatus.normal_spring > 0.0) press(test);
     } else {
-        TestCase::Loading held = description.loading;
-        held.platens = PlatenKind::bonded;
-        BondedSpecimen twin = bond_specimen(specimen, description, held, while_solving);
+        ResolvedCase held = description;
+        held.loading.platens = PlatenKind::bonded;
+        BondedSpecimen twin = bond_specimen(specimen, held, while_solving);
         compute_forces(twin.world);
         const TestSetup own = record_setup(twin.world, specimen, twin.platens, kind, grip);
         try {
-            check_platen_hold(twin.world, own, twin.platens, description);
+            check_platen_hold(twin.world, own, twin.platens, description.places);
             solve_small_strain(test, twin.world, own, visit);
         } catch (const InputError& error) {
             note_no_small_strain(test, error.what());
@@ -263,23 +263,23 @@ VirtualTest measure_at_rest(NewTest made, const TestCase& description, const Tes
 
 }  // namespace
 
-VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const SolutionVisitor& visit) {
+VirtualTest bond_test(const ResolvedCase& description, const TestHooks& hooks, const SolutionVisitor& visit) {
     NewTest made = make_and_bond(description, hooks);
     compute_forces(made.test.world);
     return measure_at_rest(std::move(made), description, hooks, visit);
 }
 
-VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks, const SolutionVisitor& visit) {
+VirtualTest prepare_test(const ResolvedCase& description, const TestHooks& hooks, const SolutionVisitor& visit) {
     NewTest made = make_and_bond(description, hooks);
     compute_forces(made.test.world);
     VirtualTest test = measure_at_rest(std::move(made), description, hooks, visit);
-    if (description.loading.rate_tolerance) {
+    if (const double* tolerance = description.loading.rate_tolerance()) {
         start_by_tolerance(test);
         hooks.report_stage(
             fmt::format("loading with rate_tolerance = {}: initial rate {:.3g} 1/s, wave transit time {:.3g} s",
-                        *description.loading.rate_tolerance, test.state.rate.rate, test.setup.rate_rule.transit_time));
+                        *tolerance, test.state.rate.rate, test.setup.rate_rule.transit_time));
         // lateral_rule_of() throws if the case makes loading impossible.
-        lateral_rule_of(description, test.setup.rate_rule, test.state.poissons_ratio);
+        lateral_rule_of(description.loading, description.places, test.setup.rate_rule, test.state.poissons_ratio);
     } else {
         if (!test.setup.apparatus.uniaxial) start_by_rate(test);
         notice_fast_loading(test);

@@ -8,9 +8,9 @@
 
 #include <functional>
 
-#include "specimens/case/case_file.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/making/hooks.hpp"
+#include "specimens/parts/resolved_case.hpp"
 
 namespace crackle {
 
@@ -19,10 +19,11 @@ namespace crackle {
 using SolutionVisitor = std::function<void(const World&, const TestSetup&, const Moduli&)>;
 
 /// Prepares a test at rest. @throws InputError if the case cannot be tested for any reason; TestInterrupted
-VirtualTest bond_test(const TestCase& description, const TestHooks& hooks = {}, const SolutionVisitor& visit = {});
+VirtualTest bond_test(const ResolvedCase& description, const TestHooks& hooks = {}, const SolutionVisitor& visit = {});
 
 /// Prepares a test and starts the loading motion. @throws the exceptions of bond_test()
-VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks = {}, const SolutionVisitor& visit = {});
+VirtualTest prepare_test(const ResolvedCase& description, const TestHooks& hooks = {},
+                         const SolutionVisitor& visit = {});
 
 /// The linear solution of a test, computed now if it was skipped because the test is large.
 /// @throws InputError if there is no solution

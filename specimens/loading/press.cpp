@@ -39,7 +39,7 @@ void check_spring(const VirtualTest& test) {
     if (test.setup.apparatus.normal_spring <= holding) return;
     throw InputError(fmt::format(
         "{}: found {:g} {}/m, expected at most {:.3g}, the stiffness of the bonds of the upper box; lower this value",
-        test.description.at("loading.normal_stiffness"), *test.description.loading.normal_stiffness,
+        test.description.at(CaseKey::loading_normal_stiffness), test.description.loading.normal_stiffness,
         test.description.stress_unit(), holding / test.setup.specimen.width));
 }
 
@@ -49,7 +49,7 @@ void find_equilibrium(VirtualTest& test) {
     const TestSetup& setup = test.setup;
     if (!test.small_strain) {
         throw InputError(fmt::format("{}: expected an elastic solution, which is needed to apply the normal stress: {}",
-                                     test.description.at("loading.normal_stress"), test.no_small_strain));
+                                     test.description.at(CaseKey::loading_normal_stress), test.no_small_strain));
     }
     std::vector<bool> held(world.bodies.size(), true);
     for (const BodyIndex b : find_free_motions(world, bodies_of_parts(setup.apparatus)).bodies) held[b] = false;
@@ -72,7 +72,7 @@ void find_equilibrium(VirtualTest& test) {
             throw InputError(
                 fmt::format("{}: found no equilibrium under {:g} {}: a force of {:.2g} of that stress on a particle "
                             "was left, expected at most {:g}, and {} bonds had broken; lower the normal stress",
-                            test.description.at("loading.normal_stress"), *test.description.loading.normal_stress,
+                            test.description.at(CaseKey::loading_normal_stress), test.description.loading.normal_stress,
                             test.description.stress_unit(), largest, most_unbalanced_pressed, world.bonds.broken));
         }
         if (largest > most_left_by_bonds * before) test.closed = ClosedPoints::touching;

@@ -91,7 +91,7 @@ RateRule rate_rule_of(const VirtualTest& test, double tolerance) {
     if (!test.small_strain || !(test.small_strain->moduli.youngs_modulus > 0.0)) {
         throw InputError(fmt::format(
             "{}: expected an elastic solution from which to derive the rate; set axial_strain_rate instead: {}",
-            test.description.at("loading.rate_tolerance"),
+            test.description.at(CaseKey::loading_rate_tolerance),
             test.small_strain ? "the specimen has no stiffness" : test.no_small_strain));
     }
     const TestSetup& setup = test.setup;
@@ -160,16 +160,16 @@ std::vector<BodyMotion> start_moving(VirtualTest& test, double rate) {
 
 }  // namespace
 
-void start_by_rate(VirtualTest& test) { start_moving(test, *test.description.loading.axial_strain_rate); }
+void start_by_rate(VirtualTest& test) { start_moving(test, *test.description.loading.axial_strain_rate()); }
 
 void start_by_tolerance(VirtualTest& test) {
     World& world = test.world;
     TestSetup& setup = test.setup;
-    setup.rate_rule = rate_rule_of(test, *test.description.loading.rate_tolerance);
+    setup.rate_rule = rate_rule_of(test, *test.description.loading.rate_tolerance());
     RateRule& rule = setup.rate_rule;
     RateState& rate = test.state.rate;
     rate.rate = rate.slowest = rate.fastest = largest_rate(rule);
-    const UnloadRule unloading = unload_rule_of(test.description.loading, rule, test.state.youngs_modulus);
+    const UnloadRule unloading = unload_rule_of(test.description.loading.unloading, rule, test.state.youngs_modulus);
     test.state.path.speed = unloading.on() ? first_speed(unloading, rate.rate) : rate.rate;
     rule.kinetic_per_rate = kinetic_of(world, start_moving(test, test.state.path.speed));
 }

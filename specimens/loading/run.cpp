@@ -17,6 +17,7 @@
 #include "solver/base/version.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "solver/files/read_file.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/companions.hpp"
 #include "specimens/loading/expected_run.hpp"
 #include "specimens/loading/load_specimen.hpp"
@@ -86,13 +87,16 @@ class SpecimenFiles {
     std::vector<std::pair<std::string, std::string>> files_;
 };
 
-std::string resolved_case(const TestCase& test, const fs::path& folder) {
+/// @param made  the same test after its specimen was made
+std::string case_text(const ResolvedCase& test, const ResolvedCase& made, const fs::path& folder) {
     std::ostringstream text;
     text << resolved_case_mark << project_version << ": every value in the open. Its inputs, with their SHA-256:\n";
-    for (const fs::path& input : test.inputs) {
+    for (const fs::path& input : files_read(test)) {
         text << "#   " << sha256(read_file(input)) << "  " << input.filename().string() << '\n';
     }
-    write_resolved_case(text, test, folder);
+    MadeValues values{.mesh_thick = {}, .frames = made.output.frames};
+    if (made.mesh) values.mesh_thick = std::get<parts::MeshGap>(made.mesh->gap).thick;
+    write_resolved_case(text, test, folder, values);
     return text.str();
 }
 
@@ -208,17 +212,15 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
 
 }  // namespace
 
-TestOutcome run_test(const TestCase& description, const TestOptions& options, const TestHooks& hooks) {
-    TestCase recorded = description;
-    recorded.inputs = files_read(description);
+TestOutcome run_test(const ResolvedCase& description, const TestOptions& options, const TestHooks& hooks) {
     OutputFolder folder = OutputFolder::create(options.folder,
                                                !options.force         ? Earlier::refused
                                                : options.begins_again ? Earlier::begun_again
                                                                       : Earlier::replaced,
-                                               recorded.inputs);
+                                               files_read(description));
     std::optional<SpecimenFiles> specimen(std::in_place);
-    const int threads = options.threads > 0 ? options.threads : static_cast<int>(description.numerics.threads);
-    TestCase made = description;
+    const int threads = options.threads > 0 ? options.threads : description.numerics.threads;
+    ResolvedCase made = description;
     made.numerics.threads = std::min(threads, options.most_threads);
     VirtualTest test = prepare_test(made, specimen->collecting(hooks));
     choose_threads(test.world, options, threads, hooks);
@@ -231,9 +233,7 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     if (options.profile) test.world.workers.profile = &profile;
     test.state.command = options.command;
     // Derived values are recorded for keys that the case does not set.
-    recorded.output.frames = test.description.output.frames;
-    recorded.mesh.thick = test.description.mesh.thick;
-    const std::string text = resolved_case(recorded, folder.target());
+    const std::string text = case_text(description, test.description, folder.target());
     if (options.loading_begins) options.loading_begins();
     return naming_the_fate(folder, [&] {
         // Written first, because it marks the folder as the output of a test.
@@ -271,8 +271,8 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     test.setup = std::move(checkpoint.setup);
     test.state = std::move(checkpoint.state);
     test.world = std::move(checkpoint.world);
-    choose_threads(test.world, options,
-                   options.threads > 0 ? options.threads : static_cast<int>(test.description.numerics.threads), hooks);
+    choose_threads(test.world, options, options.threads > 0 ? options.threads : test.description.numerics.threads,
+                   hooks);
     if (!test.state.ended_by.empty()) {
         return naming_the_fate(folder, [&] {
             TestOutcome outcome = finished_test(test, options, hooks, folder);

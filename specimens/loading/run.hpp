@@ -9,8 +9,8 @@
 #include <functional>
 #include <string>
 
-#include "specimens/case/case_file.hpp"
 #include "specimens/making/hooks.hpp"
+#include "specimens/parts/resolved_case.hpp"
 #include "specimens/summary/summary.hpp"
 
 namespace crackle {
@@ -45,7 +45,7 @@ struct TestOutcome {
 };
 
 /// Runs a test. @throws InputError; UnstableRun, with results up to then kept; TestInterrupted
-TestOutcome run_test(const TestCase& description, const TestOptions& options, const TestHooks& hooks = {});
+TestOutcome run_test(const ResolvedCase& description, const TestOptions& options, const TestHooks& hooks = {});
 
 /// Resumes a test from its last checkpoint.
 /// @throws InputError if the folder, its case or its checkpoint are inconsistent

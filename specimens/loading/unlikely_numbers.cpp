@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
-
-#include "specimens/case/parameters.hpp"
 
 namespace crackle {
 namespace {
@@ -23,22 +22,22 @@ constexpr double degrees_a_radian = 180.0 / std::numbers::pi;
 
 class Look {
   public:
-    Look(const TestCase& test, std::vector<std::string>& notices) : test_(test), notices_(notices) {}
+    Look(const ResolvedCase& test, std::vector<std::string>& notices) : test_(test), notices_(notices) {}
 
-    void at(const std::string& table, const TestCase::MaterialKeys& m) const {
+    void at(const std::string& name, const parts::MaterialValues& m) const {
         const auto notice = [&](const char* key, double value, const char* unit, const std::string& why) {
+            const std::string found = fmt::format(".{} = {:g}{} {}", key, value, unit, why);
             // A value that a mineral does not set itself comes from [material] and is reported there.
-            if (table != "material" && !test_.position.contains(fmt::format("{}.{}", table, key))) return;
-            notices_.push_back(fmt::format("{}.{} = {:g}{} {}", table, key, value, unit, why));
+            if (std::ranges::find(notices_, "material" + found) == notices_.end()) notices_.push_back(name + found);
         };
-        if (test_.area_units() && m.contact_modulus) {
-            if (*m.contact_modulus < least_modulus)
-                notice("contact_modulus", *m.contact_modulus, " Pa",
+        if (const std::optional<double> modulus = m.normal_stiffness; modulus && test_.area_units()) {
+            if (*modulus < least_modulus)
+                notice("contact_modulus", *modulus, " Pa",
                        "is softer than any rock or soil: is it meant in GPa? Numbers are in Pa");
-            else if (m.tensile_strength && *m.tensile_strength < least_strength_over_modulus * *m.contact_modulus)
+            else if (m.tensile_strength && *m.tensile_strength < least_strength_over_modulus * *modulus)
                 notice("tensile_strength", *m.tensile_strength, " Pa",
                        fmt::format("is {:.1g} of the contact modulus: is it meant in MPa? Numbers are in Pa",
-                                   *m.tensile_strength / *m.contact_modulus));
+                                   *m.tensile_strength / *modulus));
         }
         if (m.friction_angle && *m.friction_angle == 0.0)
             notice("friction_angle", 0.0, " degrees",
@@ -61,8 +60,8 @@ class Look {
 
     void at_size(const TestedSpecimen& specimen) const {
         const double grain = std::sqrt(specimen.area / static_cast<double>(specimen.particles));
-        const double stiffness = test_.material.contact_modulus.value_or(0.0);
-        if (!test_.area_units() || test_.jointed() || stiffness < stiff_as_rock || grain < largest_grain) return;
+        const double stiffness = test_.material.normal_stiffness.value_or(0.0);
+        if (!test_.area_units() || !test_.joints.empty() || stiffness < stiff_as_rock || grain < largest_grain) return;
         notices_.push_back(
             fmt::format("the specimen is {:.3g} m by {:.3g} m, with grains of {:.2g} m that are as stiff as rock: are "
                         "its lengths meant in mm? Numbers are in m",
@@ -70,18 +69,18 @@ class Look {
     }
 
   private:
-    const TestCase& test_;
+    const ResolvedCase& test_;
     std::vector<std::string>& notices_;
 };
 
 }  // namespace
 
-std::vector<std::string> unlikely_numbers(const TestCase& test, const TestedSpecimen& specimen) {
+std::vector<std::string> unlikely_numbers(const ResolvedCase& test, const TestedSpecimen& specimen) {
     std::vector<std::string> notices;
     const Look look(test, notices);
     look.at("material", test.material);
-    for (std::size_t k = 0; k < test.mineral.size(); ++k)
-        look.at(fmt::format("mineral[{}]", k + 1), mineral_material(test, k));
+    for (std::size_t k = 0; k < test.minerals.list.size(); ++k)
+        look.at(fmt::format("mineral[{}]", k + 1), test.minerals.list[k].material);
     look.at_size(specimen);
     return notices;
 }

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "specimens/case/test_case.hpp"
+#include "specimens/parts/resolved_case.hpp"
 #include "specimens/setup/setup.hpp"
 
 namespace crackle {
 
 /// A sentence for each unlikely value, naming its key.
-std::vector<std::string> unlikely_numbers(const TestCase& test, const TestedSpecimen& specimen);
+std::vector<std::string> unlikely_numbers(const ResolvedCase& test, const TestedSpecimen& specimen);
 
 }  // namespace crackle

@@ -8,8 +8,8 @@
 
 #include "solver/linear/springs.hpp"
 #include "solver/world/world.hpp"
-#include "specimens/case/case_file.hpp"
 #include "specimens/elastic/moduli.hpp"
+#include "specimens/parts/resolved_case.hpp"
 #include "specimens/results/state.hpp"
 #include "specimens/setup/setup.hpp"
 
@@ -17,7 +17,7 @@ namespace crackle {
 
 /// The complete state of a test between two steps.
 struct VirtualTest {
-    TestCase description;
+    ResolvedCase description;
     TestSetup setup;
     TestState state;
     World world;

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "mesher/mesher.hpp"
-#include "specimens/case/test_case.hpp"
 #include "specimens/packing/size_distribution.hpp"
+#include "specimens/parts/resolved_case.hpp"
 
 namespace crackle {
 

@@ -32,15 +32,15 @@ Scene part_of(const Scene& scene, const Keep& keep) {
 
 }  // namespace
 
-void cut_shape(Scene& scene, const Shape& shape, bool polygons, const TestCase& test) {
+void cut_shape(Scene& scene, const Shape& shape, bool polygons, const ResolvedCase& test) {
     if (shape.whole()) return;
     if (polygons && !shape.outline.empty()) {
         throw InputError(
             fmt::format("{}: found a particle file of polygons, expected circles or a [packing] with kind = "
                         "\"{}\", since polygons cannot be cut",
-                        test.at("particles.file"), name_of(test.loading.kind)));
+                        test.at(CaseKey::particles_file), name_of(test.loading.kind)));
     }
-    const bool slot = shape.notch && !test.has_table("mesh") && !polygons;
+    const bool slot = shape.notch && !test.mesh && !polygons;
     scene = polygons ? scene : part_of(scene, [&](const Body& body) {
         const Vec2 centre = mass_properties(scene, body).centroid;
         if (!shape.holds(centre)) return false;
@@ -50,7 +50,7 @@ void cut_shape(Scene& scene, const Shape& shape, bool polygons, const TestCase& 
         throw InputError(
             fmt::format("{}: found {} particles in the shape cut from the packing, expected at least {}; make the "
                         "particles smaller, or the specimen larger",
-                        test.at("loading.kind"), scene.bodies.size(), fewest_bodies));
+                        test.at(CaseKey::loading_kind), scene.bodies.size(), fewest_bodies));
     }
 }
 

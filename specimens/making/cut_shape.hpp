@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "solver/scene/scene.hpp"
-#include "specimens/case/case_file.hpp"
 #include "specimens/kinds/test_kind.hpp"
+#include "specimens/parts/resolved_case.hpp"
 
 namespace crackle {
 
 /// Keeps the bodies inside the shape; circles that the notch crosses are removed.
 /// @throws InputError if too few bodies remain, or if polygons would have to be cut
-void cut_shape(Scene& scene, const Shape& shape, bool polygons, const TestCase& test);
+void cut_shape(Scene& scene, const Shape& shape, bool polygons, const ResolvedCase& test);
 
 /// Ids of the bodies that lie within a region.
 std::vector<int> bodies_within(const Scene& scene, const Region& region);

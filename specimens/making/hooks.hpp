@@ -14,7 +14,7 @@ namespace crackle {
 
 struct Packing;
 struct PackingRequest;
-struct TestCase;
+struct ResolvedCase;
 struct VirtualTest;
 
 /// Progress of a test; stresses in stress_unit.
@@ -55,7 +55,8 @@ struct TestHooks {
 
     /// Returns the packing for a case, either from a store or made by calling `make`. If the callback is empty, every
     /// packing is made.
-    std::function<Packing(const TestCase&, const PackingRequest&, const std::function<Packing()>& make)> keep_packing;
+    std::function<Packing(const ResolvedCase&, const PackingRequest&, const std::function<Packing()>& make)>
+        keep_packing;
 
     /// Calls `stage`, if there is one.
     void report_stage(const std::string& line) const {

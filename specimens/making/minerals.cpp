@@ -13,7 +13,6 @@
 #include "solver/files/file_kind.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/table_reader.hpp"
-#include "specimens/case/colour.hpp"
 #include "specimens/making/label_image.hpp"
 
 namespace crackle {
@@ -29,28 +28,12 @@ std::uint64_t scattered(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-/// Requested areas in m2: those of the given fractions, and the remainder for the mineral without a fraction.
-/// @param all  total area of the grains
-std::vector<double> asked_areas(const TestCase& test, double all) {
-    double sum = 0.0;
-    bool open = false;
-    for (const TestCase::Mineral& m : test.mineral) {
-        sum += m.area_share.value_or(0.0);
-        open = open || !m.area_share;
-    }
-    std::vector<double> asked;
-    asked.reserve(test.mineral.size());
-    for (const TestCase::Mineral& m : test.mineral)
-        asked.push_back(all * (!m.area_share ? 1.0 - sum : open ? *m.area_share : *m.area_share / sum));
-    return asked;
-}
-
 /// Visits the grains in a pseudo-random order that depends only on seed and ids. Each grain gets the mineral with the
 /// largest missing area. No fraction then deviates by more than one grain, because a mineral gets a grain only while
 /// area is missing.
-Minerals drawn(const Scene& scene, const TestCase& test, const std::vector<double>& areas,
+Minerals drawn(const Scene& scene, std::int64_t case_seed, const std::vector<double>& areas,
                std::vector<double> lacking) {
-    const std::uint64_t seed = scattered(static_cast<std::uint64_t>(test.minerals.seed));
+    const std::uint64_t seed = scattered(static_cast<std::uint64_t>(case_seed));
     std::vector<std::pair<std::uint64_t, std::size_t>> order;
     for (std::size_t b = 0; b < areas.size(); ++b)
         order.emplace_back(scattered(seed ^ static_cast<std::uint64_t>(scene.bodies[b].id)), b);
@@ -83,10 +66,10 @@ Minerals by_size(const Scene& scene, const std::vector<double>& areas, const std
     return minerals;
 }
 
-std::vector<std::string> names_of(const TestCase& test) {
+std::vector<std::string> names_of(const parts::Minerals& asked) {
     std::vector<std::string> names;
-    names.reserve(test.mineral.size());
-    for (const TestCase::Mineral& m : test.mineral) names.push_back(m.name);
+    names.reserve(asked.list.size());
+    for (const parts::Mineral& m : asked.list) names.push_back(m.name);
     return names;
 }
 
@@ -99,12 +82,11 @@ std::size_t mineral_called(const std::vector<std::string>& names, const std::str
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), label) - names.begin());
 }
 
-Minerals read_labels(const TestCase& test, std::size_t grains) {
-    const auto file = test.resolve_path("minerals.labels", *test.minerals.labels);
-    const std::vector<std::string> names = names_of(test);
+Minerals read_labels(const std::filesystem::path& file, const std::vector<std::string>& names, const Places& places,
+                     std::size_t grains) {
     if (!is_there(file)) {
         throw InputError(fmt::format("{}: found no file {}, expected labels; check the path",
-                                     test.at("minerals.labels"), file.string()));
+                                     places.at(CaseKey::minerals_labels), file.string()));
     }
     const std::string text = read_text(file, most_bytes_of_table);
     refuse_foreign(file.string(), text, "a list of labels: one line per grain with the name or number of a mineral");
@@ -121,7 +103,7 @@ Minerals read_labels(const TestCase& test, std::size_t grains) {
         throw InputError(
             fmt::format("{}: found {} labels in {}, expected {}, one per grain in the order of the "
                         "grains in the specimen file; correct the file",
-                        test.at("minerals.labels"), minerals.size(), file.string(), grains));
+                        places.at(CaseKey::minerals_labels), minerals.size(), file.string(), grains));
     }
     return minerals;
 }
@@ -129,52 +111,53 @@ Minerals read_labels(const TestCase& test, std::size_t grains) {
 // Relative difference between pixel width and height above which the image is probably distorted by mistake.
 constexpr double stretch_to_mention = 0.02;
 
-Minerals read_image(const Scene& scene, const TestCase& test, std::vector<std::string>& notices) {
-    std::vector<std::uint32_t> colours;
-    colours.reserve(test.mineral.size());
-    for (const TestCase::Mineral& m : test.mineral) colours.push_back(*colour_of(*m.colour));
-    const LabelImage image(test.resolve_path("minerals.image", *test.minerals.image), colours, names_of(test),
-                           test.at("minerals.image"));
+Minerals read_image(const Scene& scene, const parts::GrainImage& asked, const std::vector<std::string>& names,
+                    const Places& places, std::vector<std::string>& notices) {
+    const LabelImage image(asked.path, asked.colours, names, places.at(CaseKey::minerals_image));
     const Domain& domain = scene.domain;
     const double stretch = (domain.y2 - domain.y1) / image.height() / ((domain.x2 - domain.x1) / image.width()) - 1.0;
     if (std::abs(stretch) > stretch_to_mention) {
         notices.push_back(fmt::format(
             "{} of {} x {} pixels is stretched over the box of {:.4g} m x {:.4g} m: a pixel is {:.3g} times as high "
             "as wide",
-            *test.minerals.image, image.width(), image.height(), domain.x2 - domain.x1, domain.y2 - domain.y1,
-            1.0 + stretch));
+            asked.name, image.width(), image.height(), domain.x2 - domain.x1, domain.y2 - domain.y1, 1.0 + stretch));
     }
     Minerals minerals;
     for (const Body& body : scene.bodies) minerals.push_back(image.label_of(scene, body));
     return minerals;
 }
 
-Minerals minerals_of(const Scene& scene, const TestCase& test, const std::vector<double>& areas,
-                     const std::vector<double>& asked, std::vector<std::string>& notices) {
-    const MineralAssignment assign = test.minerals.assign;
-    if (assign == MineralAssignment::labels) return read_labels(test, areas.size());
-    if (assign == MineralAssignment::image) return read_image(scene, test, notices);
-    if (assign == MineralAssignment::size) return by_size(scene, areas, asked);
-    return drawn(scene, test, areas, asked);
+Minerals minerals_of(const Scene& scene, const parts::Minerals& asked, const Places& places,
+                     const std::vector<double>& areas, const std::vector<double>& asked_areas,
+                     std::vector<std::string>& notices) {
+    if (const auto* labels = std::get_if<parts::GrainLabels>(&asked.assign))
+        return read_labels(labels->path, names_of(asked), places, areas.size());
+    if (const auto* image = std::get_if<parts::GrainImage>(&asked.assign))
+        return read_image(scene, *image, names_of(asked), places, notices);
+    if (const auto* random = std::get_if<parts::RandomGrains>(&asked.assign))
+        return drawn(scene, random->seed, areas, asked_areas);
+    return by_size(scene, areas, asked_areas);
 }
 
 }  // namespace
 
-std::vector<MineralShare> assign_minerals(Scene& scene, const TestCase& test, std::vector<std::string>& notices) {
+std::vector<MineralShare> assign_minerals(Scene& scene, const parts::Minerals& asked, const Places& places,
+                                          std::vector<std::string>& notices) {
     std::vector<double> areas;
     for (const Body& body : scene.bodies) {
         const double density = scene.materials[static_cast<std::size_t>(body.material)].density;
         areas.push_back(mass_properties(scene, body).mass / density);
     }
     const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
-    const std::vector<double> asked = asked_areas(test, all);
-    const Minerals minerals = minerals_of(scene, test, areas, asked, notices);
+    std::vector<double> asked_areas;
+    for (const parts::Mineral& m : asked.list) asked_areas.push_back(all * m.share);
+    const Minerals minerals = minerals_of(scene, asked, places, areas, asked_areas, notices);
 
     std::vector<MineralShare> shares;
-    for (std::size_t k = 0; k < asked.size(); ++k) {
-        std::optional<double> share = test.mineral[k].area_share;
-        if (!share && test.minerals.by_share()) share = asked[k] / all;
-        shares.push_back({test.mineral[k].name, share, 0.0, 0});
+    for (const parts::Mineral& m : asked.list) {
+        std::optional<double> share = m.asked;
+        if (!share && asked.by_share()) share = all * m.share / all;
+        shares.push_back({m.name, share, 0.0, 0});
     }
     for (std::size_t b = 0; b < minerals.size(); ++b) {
         scene.bodies[b].material = static_cast<int>(minerals[b]);

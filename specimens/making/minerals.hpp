@@ -10,7 +10,8 @@
 
 #include "solver/base/fields.hpp"
 #include "solver/scene/scene.hpp"
-#include "specimens/case/test_case.hpp"
+#include "specimens/parts/rock.hpp"
+#include "specimens/places/places.hpp"
 
 namespace crackle {
 
@@ -25,11 +26,12 @@ struct MineralShare {
     CRACKLE_FIELDS(name, asked, reached, grains);
 };
 
-/// Assigns a mineral to each body: the body's material becomes the mineral's index in the case. All bodies are grains.
+/// Assigns a mineral to each body: the body's material becomes the mineral's index. All bodies are grains.
 /// @param notices  list to which remarks on unexpected results are appended
-/// @return area fractions of the minerals, in the order in which the case lists them
+/// @return area fractions of the minerals, in the order of the list
 /// @throws InputError if labels or an image do not fit; the message names file and line or pixel
-std::vector<MineralShare> assign_minerals(Scene& scene, const TestCase& test, std::vector<std::string>& notices);
+std::vector<MineralShare> assign_minerals(Scene& scene, const parts::Minerals& asked, const Places& places,
+                                          std::vector<std::string>& notices);
 
 /// One-line summary: name, actual and requested area fraction, number of grains.
 std::string mineral_shares_text(const std::vector<MineralShare>& shares);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -16,8 +17,6 @@
 #include "solver/base/errors.hpp"
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/geometry.hpp"
-#include "specimens/case/joint_checks.hpp"
-#include "specimens/case/parameters.hpp"
 #include "specimens/joints/joint_faces.hpp"
 #include "specimens/joints/joint_network.hpp"
 #include "specimens/joints/mesh_traces.hpp"
@@ -30,45 +29,21 @@
 namespace crackle {
 namespace {
 
-void apply_material(const TestCase::MaterialKeys& keys, Material& material) {
-    if (keys.density) material.density = *keys.density;
-    if (keys.normal_stiffness) material.normal_stiffness = *keys.normal_stiffness;
-    if (keys.shear_stiffness) material.shear_stiffness = *keys.shear_stiffness;
-    if (keys.contact_modulus) {
-        material.normal_stiffness = *keys.contact_modulus;
-        material.shear_stiffness = *keys.contact_modulus / *keys.stiffness_ratio;
-    }
-    if (keys.friction_angle) material.friction_angle = *keys.friction_angle;
-    material.tensile_strength = keys.tensile_strength.value_or(0.0);
-    material.cohesion = keys.cohesion.value_or(0.0);
-    material.residual_friction_angle = keys.residual_friction_angle.value_or(material.friction_angle);
-    if (keys.damping_ratio) material.damping_ratio = *keys.damping_ratio;
-    if (keys.normal_damping || keys.shear_damping) material.damping_ratio.reset();
-    if (keys.normal_damping) material.normal_damping = *keys.normal_damping;
-    if (keys.shear_damping) material.shear_damping = *keys.shear_damping;
-}
-
 void scale_damping(Material& material, double by) {
     if (material.damping_ratio) *material.damping_ratio *= by;
     material.normal_damping *= by;
     material.shear_damping *= by;
 }
 
-SizeDistribution sizes_of(const TestCase& test) {
-    const auto& keys = test.packing;
-    if (keys.sizes == RadiusLaw::sieve) return read_sieve_curve(test.resolve_path("packing.sieve", *keys.sieve));
-    if (keys.sizes == RadiusLaw::lognormal) {
-        return LognormalRadii{*keys.radius_median, *keys.radius_log_deviation, keys.radius_min.value_or(0.0),
-                              keys.radius_max.value_or(0.0)};
-    }
-    return UniformRadii{*keys.radius_min, *keys.radius_max};
-}
-
-/// Adds file and line to a packing error, which begins with a key of the case.
-InputError located(const TestCase& test, const std::string& text) {
-    const std::string key = text.substr(0, text.find_first_of(": ,"));
-    const bool known = test.position.contains("packing." + key);
-    return InputError(known ? test.at("packing." + key) + text.substr(key.size()) : test.at("packing") + ": " + text);
+/// Adds file and line to an error of a packing.
+InputError located(const ResolvedCase& test, const PackingError& error) {
+    using enum CaseKey;
+    constexpr std::array keys{packing_width,        packing_count,         packing_radius_min,
+                              packing_radius_max,   packing_radius_median, packing_radius_log_deviation,
+                              packing_mean_overlap, packing_void_ratio};
+    const auto input = static_cast<std::size_t>(error.input);
+    if (input < keys.size() && test.places.gives(keys[input])) return InputError(test.at(keys[input]) + error.text);
+    return InputError(fmt::format("{}: {}", test.at(CaseKey::packing), error.what()));
 }
 
 Rectangle rectangle(const Domain& domain) { return {domain.x1, domain.x2, domain.y1, domain.y2}; }
@@ -90,18 +65,18 @@ std::vector<Point> outline_of(const Shape& shape) {
 }
 
 /// Cells meshed from circles, without gaps between the cells.
-Mesh bare_cells(const TestCase& test, const Scene& circles, const Shape& shape = {}, const TestHooks& hooks = {}) {
+Mesh bare_cells(const ResolvedCase& test, const Scene& circles, const Shape& shape = {}, const TestHooks& hooks = {}) {
     MeshRequest request;
     request.interrupted = hooks.interrupted;
     request.outline = outline_of(shape);
-    request.kind = *test.mesh.kind;
-    request.boundary = test.mesh.boundary;
+    request.kind = test.mesh->kind;
+    request.boundary = test.mesh->boundary;
     try {
         return make_mesh(centres_of(circles), rectangle(circles.domain), request);
     } catch (const MeshInterrupted&) {
         throw TestInterrupted();
     } catch (const MeshError& error) {
-        throw InputError(fmt::format("{}: {}", test.at("mesh.kind"), error.what()));
+        throw InputError(fmt::format("{}: {}", test.at(CaseKey::mesh_kind), error.what()));
     }
 }
 
@@ -111,23 +86,27 @@ Mesh bare_cells(const TestCase& test, const Scene& circles, const Shape& shape =
 constexpr int cell_packings = 4;
 constexpr double met_diameter_share = 0.002, met_spread = 0.02;
 
+Packing packed(const ResolvedCase& test, const PackingRequest& request, const PackingCallback& progress) {
+    try {
+        return make_packing(request, progress);
+    } catch (const PackingError& error) {
+        throw located(test, error);
+    }
+}
+
 /// Packs circles whose cells have the requested diameters, or come as close as possible.
-Packing pack_for_cells(const TestCase& test, PackingRequest request, const PackingCallback& progress) {
-    const CellSizes asked{*test.packing.cell_diameter, *test.packing.cell_spread};
+Packing pack_for_cells(const ResolvedCase& test, const parts::CellDiameters& cells, PackingRequest request,
+                       const PackingCallback& progress) {
+    const CellSizes asked{cells.mean, cells.spread};
     std::optional<Packing> best;
     double best_miss = 0.0, scale = 1.0, correction = 0.0;
     for (int k = 0; k < cell_packings && !(best && best_miss <= 1.0); ++k) {
         try {
-            request.sizes = scaled(radii_for_cells(*test.mesh.kind, test.packing.sizes, asked, correction), scale);
+            request.sizes = scaled(radii_for_cells(test.mesh->kind, cells.radii, asked, correction), scale);
         } catch (const InputError& error) {
-            throw InputError(fmt::format("{}: {}", test.at("packing.cell_spread"), error.what()));
+            throw InputError(fmt::format("{}: {}", test.at(CaseKey::packing_cell_spread), error.what()));
         }
-        Packing packing;
-        try {
-            packing = make_packing(request, progress);
-        } catch (const InputError& error) {
-            throw located(test, error.what());
-        }
+        Packing packing = packed(test, request, progress);
         const CellSizes reached = measure_cells(bare_cells(test, packing.scene));
         const double miss = std::max(std::abs(reached.mean / asked.mean - 1.0) / met_diameter_share,
                                      std::abs(reached.spread - asked.spread) / met_spread);
@@ -143,31 +122,35 @@ Packing pack_for_cells(const TestCase& test, PackingRequest request, const Packi
     return std::move(*best);
 }
 
-Packing pack(const TestCase& test, PackingRequest request, const PackingCallback& progress) {
-    if (test.packing.cell_diameter) return pack_for_cells(test, std::move(request), progress);
-    request.sizes = sizes_of(test);
-    try {
-        return make_packing(request, progress);
-    } catch (const InputError& error) {
-        throw located(test, error.what());
-    }
+Packing pack(const ResolvedCase& test, PackingRequest request, const PackingCallback& progress) {
+    const auto& sizes = test.packing()->sizes;
+    if (const auto* cells = std::get_if<parts::CellDiameters>(&sizes))
+        return pack_for_cells(test, *cells, std::move(request), progress);
+    if (const auto* radii = std::get_if<UniformRadii>(&sizes)) request.sizes = *radii;
+    if (const auto* radii = std::get_if<LognormalRadii>(&sizes)) request.sizes = *radii;
+    if (const auto* file = std::get_if<parts::SieveFile>(&sizes)) request.sizes = read_sieve_curve(file->path);
+    return packed(test, request, progress);
 }
 
 }  // namespace
 
-Packing packing_of(const TestCase& test, const TestHooks& hooks) {
-    const auto& keys = test.packing;
+Packing packing_of(const ResolvedCase& test, const TestHooks& hooks) {
+    const parts::Packing& asked = *test.packing();
     PackingRequest request;
-    request.width = keys.width;
-    request.height = keys.height;
-    request.count = keys.count;
-    request.height_to_width = keys.height_to_width;
-    request.mean_overlap = keys.mean_overlap;
-    request.void_ratio = keys.void_ratio;
-    request.seed = static_cast<std::uint64_t>(keys.seed);
-    request.threads = static_cast<int>(test.numerics.threads);
-    request.material.damping_ratio = default_damping_ratio;
-    apply_material(test.material, request.material);
+    if (const auto* box = std::get_if<parts::Box>(&asked.box)) {
+        request.width = box->width;
+        request.height = box->height;
+    } else {
+        request.count = std::get<parts::CircleCount>(asked.box).count;
+        request.height_to_width = std::get<parts::CircleCount>(asked.box).height_to_width;
+    }
+    if (const auto* target = std::get_if<parts::MeanOverlap>(&asked.target))
+        request.mean_overlap = target->value;
+    else
+        request.void_ratio = std::get<parts::VoidRatio>(asked.target).value;
+    request.seed = static_cast<std::uint64_t>(asked.seed);
+    request.threads = test.numerics.threads;
+    test.material.apply_to(request.material);
     request.material.tensile_strength = request.material.cohesion = 0.0;  // nothing is bonded yet
     const auto make = [&] {
         return pack(test, request, [&](const PackingProgress& p) {
@@ -180,7 +163,7 @@ Packing packing_of(const TestCase& test, const TestHooks& hooks) {
 
 namespace {
 
-Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& specimen) {
+Scene packed_scene(const ResolvedCase& test, const TestHooks& hooks, Specimen& specimen) {
     Packing packing = packing_of(test, hooks);
     const PackingReport& report = packing.report;
     specimen.notices = packing_notices(report);
@@ -197,18 +180,18 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
     hooks.report_stage(
         fmt::format("packed {} circles into {:.4g} m x {:.4g} m: void ratio {:.4g}, mean overlap {:.4g} m, seed {}",
                     packing.report.circles, packing.report.width, packing.report.height, packing.report.void_ratio,
-                    packing.report.mean_overlap, test.packing.seed));
-    for (Material& material : packing.scene.materials) apply_material(test.material, material);
+                    packing.report.mean_overlap, test.packing()->seed));
+    for (Material& material : packing.scene.materials) test.material.apply_to(material);
     return std::move(packing.scene);
 }
 
-Scene read_particles(const TestCase& test, const TestHooks& hooks, std::vector<std::string>& notices) {
-    const auto path = test.resolve_path("particles.file", *test.particles.file);
+Scene read_particles(const ResolvedCase& test, const TestHooks& hooks, std::vector<std::string>& notices) {
+    const std::filesystem::path& path = std::get<parts::ParticleFile>(test.source).path;
     DeckReader reader = DeckReader::open(path);
     Scene scene = read_deck_geometry(reader).scene;
-    refuse_misplaced_bodies(scene, test.at("particles.file"));
+    refuse_misplaced_bodies(scene, test.at(CaseKey::particles_file));
     if (const auto ignored = reader.ignored_numbers()) notices.push_back(*ignored);
-    for (Material& material : scene.materials) apply_material(test.material, material);
+    for (Material& material : scene.materials) test.material.apply_to(material);
     hooks.report_stage(fmt::format("read {} bodies from {}", scene.bodies.size(), path.string()));
     return scene;
 }
@@ -255,25 +238,25 @@ std::vector<int> polygons_on_side(const Scene& scene, Wall side) {
 
 /// Checks that the bodies are all circles (or clumps) or all polygons, because the two kinds are bonded to platens
 /// differently.
-void classify(Specimen& specimen, const TestCase& test) {
+void classify(Specimen& specimen, const ResolvedCase& test) {
     std::size_t circles = 0, polygons = 0, triangles = 0;
     for (const Body& body : specimen.scene.bodies) {
         if (body.circle_count > 0) ++circles;
         if (body.vertex_count > 0 && !body.closed) {
             throw InputError(
                 fmt::format("{}: found body {}, an open chain, expected circles, clumps or polygons; remove it",
-                            test.at("particles.file"), body.id));
+                            test.at(CaseKey::particles_file), body.id));
         }
         if (body.closed) ++polygons;
         if (body.closed && body.vertex_count == 3) ++triangles;
     }
     if (circles + polygons == 0) {
-        throw InputError(
-            fmt::format("{}: found no particles, expected at least one; check the file", test.at("particles.file")));
+        throw InputError(fmt::format("{}: found no particles, expected at least one; check the file",
+                                     test.at(CaseKey::particles_file)));
     }
     if (circles > 0 && polygons > 0) {
         throw InputError(fmt::format("{}: found {} circle bodies and {} polygons, expected one kind",
-                                     test.at("particles.file"), circles, polygons));
+                                     test.at(CaseKey::particles_file), circles, polygons));
     }
     specimen.polygons = polygons > 0;
     specimen.kind = circles > 0             ? SpecimenKind::circles
@@ -311,10 +294,9 @@ double area_of(const Shape& shape, const Domain& box) {
     return 0.5 * twice;
 }
 
-/// Gap between the cells of a case without mesh.thick: twice mesh.inset if given, otherwise the default.
-double derived_mesh_thick(const TestCase& test, const Scene& circles, const Shape& shape, const TestHooks& hooks) {
-    if (test.mesh.inset) return 2.0 * *test.mesh.inset;
-    const std::size_t cells = *test.mesh.kind == MeshKind::voronoi
+/// Gap between the cells of a case that gives none.
+double derived_mesh_thick(const ResolvedCase& test, const Scene& circles, const Shape& shape, const TestHooks& hooks) {
+    const std::size_t cells = test.mesh->kind == MeshKind::voronoi
                                   ? circles.bodies.size()
                                   : bare_cells(test, circles, shape, hooks).cells.size();
     const double thick = derived_gap(area_of(shape, circles.domain), static_cast<double>(cells));
@@ -328,17 +310,17 @@ double derived_mesh_thick(const TestCase& test, const Scene& circles, const Shap
 constexpr double noticed_diameter_share = 0.01, noticed_spread = 0.02;
 
 /// Adds the sizes of the cells to the description of the packing.
-void record_cells(Specimen& specimen, const TestCase& test, const CellSizes& cells, const TestHooks& hooks) {
-    if (!test.has_table("packing")) return;
+void record_cells(Specimen& specimen, const ResolvedCase& test, const CellSizes& cells, const TestHooks& hooks) {
+    if (test.packing() == nullptr) return;
     specimen.packing.emplace_back("cell_diameter", cells.mean);
     specimen.packing.emplace_back("cell_spread", cells.spread);
-    const auto& asked = test.packing;
+    const auto* asked = std::get_if<parts::CellDiameters>(&test.packing()->sizes);
     std::string text = fmt::format("cells: mean diameter {:.4g} m, spread {:.3g}", cells.mean, cells.spread);
-    if (asked.cell_diameter) text += fmt::format("; asked {:.4g} m, {:.3g}", *asked.cell_diameter, *asked.cell_spread);
+    if (asked != nullptr) text += fmt::format("; asked {:.4g} m, {:.3g}", asked->mean, asked->spread);
     hooks.report_stage(text);
-    if (!asked.cell_diameter) return;
-    if (std::abs(cells.mean / *asked.cell_diameter - 1.0) <= noticed_diameter_share &&
-        std::abs(cells.spread - *asked.cell_spread) <= noticed_spread)
+    if (asked == nullptr) return;
+    if (std::abs(cells.mean / asked->mean - 1.0) <= noticed_diameter_share &&
+        std::abs(cells.spread - asked->spread) <= noticed_spread)
         return;
     specimen.notices.push_back(text + "; more circles would meet them better");
 }
@@ -353,7 +335,7 @@ void report_cleaning(const Cleaning& cleaning, Specimen& specimen, const TestHoo
 }
 
 /// Replaces the circles with polygons around their centres; ids count from 1 in mesh order.
-void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
+void mesh_specimen(Specimen& specimen, const ResolvedCase& test, const TestHooks& hooks) {
     const Scene circles = specimen.scene;
     const std::vector<CellCentre> centres = centres_of(circles);
     std::vector<int> materials;
@@ -364,17 +346,18 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
         touches_right.push_back(circle_overlaps_side(circles, body, Wall::right) ? 1 : 0);
     }
     MeshRequest request;
-    request.kind = *test.mesh.kind;
-    request.boundary = test.mesh.boundary;
+    request.kind = test.mesh->kind;
+    request.boundary = test.mesh->boundary;
     request.interrupted = hooks.interrupted;
-    specimen.mesh_thick = test.mesh.thick ? *test.mesh.thick : derived_mesh_thick(test, circles, specimen.shape, hooks);
+    const auto* gap = std::get_if<parts::MeshGap>(&test.mesh->gap);
+    specimen.mesh_thick = gap != nullptr ? gap->thick : derived_mesh_thick(test, circles, specimen.shape, hooks);
     request.mesh_gap = specimen.mesh_thick;
     request.outline = outline_of(specimen.shape);
-    request.inset = test.mesh.inset;
-    request.merge_destroyed = test.mesh.merge_destroyed;
+    if (gap != nullptr) request.inset = gap->inset;
+    request.merge_destroyed = test.mesh->merge_destroyed;
     JointNetwork joints;
-    if (test.jointed()) {
-        joints = make_joints(test, circles.domain, centres.size());
+    if (!test.joints.empty()) {
+        joints = make_joints(test.joints, circles.domain, centres.size());
         request.traces = mesh_traces(joints);
         report_cleaning(joints.cleaning, specimen, hooks);
         specimen.notices.insert(specimen.notices.end(), joints.notices.begin(), joints.notices.end());
@@ -386,7 +369,7 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
         if (!request.traces.empty()) {
             for (const std::string& line : jointed_mesh_text(mesh, centres, circles.domain, request))
                 hooks.report_stage(line);
-            if (const std::string as_rock = sources_as_rock(joints, test); !as_rock.empty())
+            if (const std::string as_rock = sources_as_rock(joints); !as_rock.empty())
                 specimen.notices.push_back(
                     "joints without mechanics (" + as_rock +
                     ") are faces of the mesh with the rock's own properties: they change it by being straight, Voronoi "
@@ -396,7 +379,7 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
         throw TestInterrupted();
     } catch (const MeshError& error) {
         throw InputError(
-            fmt::format("{}: {}{}", test.at("mesh.thick"), error.what(), traces_named(joints, error.traces)));
+            fmt::format("{}: {}{}", test.at(CaseKey::mesh_thick), error.what(), traces_named(joints, error.traces)));
     }
 
     Scene scene = circles;
@@ -408,8 +391,8 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     const bool domain_boundary = request.kind == MeshKind::voronoi || request.boundary == Boundary::domain;
     add_cell_bodies(scene, mesh, materials);
     if (!request.traces.empty()) {
-        check_apertures(test, specimen.mesh_thick);
-        set_joints(scene, mesh, joints, test);
+        check_apertures(test.joints, specimen.mesh_thick, true);
+        set_joints(scene, mesh, joints);
         for (const JointTrace& trace : joints.traces)
             specimen.traces.push_back({joints.sources[trace.source].name, trace.length()});
     }
@@ -432,19 +415,19 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
 }
 
 /// Adds traces to a specimen of circles; circles on a trace get flat faces along it.
-void joint_circles(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
+void joint_circles(Specimen& specimen, const ResolvedCase& test, const TestHooks& hooks) {
     Scene& scene = specimen.scene;
     const auto refuse = [&](const char* found) {
         throw InputError(
             fmt::format("{}: found {} with joints, expected circles, or a [packing] with [mesh]; remove "
                         "[[joint_set]] and [[trace]]",
-                        test.at("particles.file"), found));
+                        test.at(CaseKey::particles_file), found));
     };
     if (specimen.polygons) refuse("polygons");
     if (std::ranges::any_of(scene.bodies, [](const Body& body) { return body.circle_count != 1; })) refuse("clumps");
-    const JointNetwork joints = make_joints(test, scene.domain, scene.bodies.size());
-    check_apertures(test, std::ranges::min(scene.circles, {}, &CircleElement::radius).radius);
-    set_joints_of_circles(scene, joints, test);
+    const JointNetwork joints = make_joints(test.joints, scene.domain, scene.bodies.size());
+    check_apertures(test.joints, std::ranges::min(scene.circles, {}, &CircleElement::radius).radius, false);
+    set_joints_of_circles(scene, joints);
     report_cleaning(joints.cleaning, specimen, hooks);
     specimen.notices.insert(specimen.notices.end(), joints.notices.begin(), joints.notices.end());
     double length = 0.0;
@@ -453,77 +436,57 @@ void joint_circles(Specimen& specimen, const TestCase& test, const TestHooks& ho
         length += trace.length();
     }
     hooks.report_stage(fmt::format("joints: {} traces of {:.6g} m among the circles", joints.traces.size(), length));
-    if (const std::string as_rock = sources_as_rock(joints, test); !as_rock.empty())
+    if (const std::string as_rock = sources_as_rock(joints); !as_rock.empty())
         specimen.notices.push_back("joints without mechanics (" + as_rock + ") change nothing among circles");
 }
 
-void measure_polygons(Specimen& specimen, const TestCase& test) {
+void measure_polygons(Specimen& specimen, const ResolvedCase& test) {
     specimen.mesh_gap = specimen.scene.thick;
     const bool across_gaps = test.bond_facts().bonds_across_gaps;
     if (across_gaps ? test.bond.thick && *test.bond.thick < specimen.mesh_gap
                     : !test.bond.thick || *test.bond.thick <= specimen.mesh_gap) {
-        throw InputError(
-            fmt::format("{}: found {}, expected {} the particle file's thick = {} m; the excess is the "
-                        "overlap that bonds the polygons",
-                        test.at("bond.thick"), test.bond.thick ? fmt::format("{} m", *test.bond.thick) : "nothing",
-                        across_gaps ? "at least" : "more than", specimen.mesh_gap));
+        throw InputError(fmt::format(
+            "{}: found {}, expected {} the particle file's thick = {} m; the excess is the "
+            "overlap that bonds the polygons",
+            test.at(CaseKey::bond_thick), test.bond.thick ? fmt::format("{} m", *test.bond.thick) : "nothing",
+            across_gaps ? "at least" : "more than", specimen.mesh_gap));
     }
     for (const Body& body : specimen.scene.bodies) specimen.segments += body.vertex_count;
     specimen.left_ids = polygons_on_side(specimen.scene, Wall::left);
     specimen.right_ids = polygons_on_side(specimen.scene, Wall::right);
 }
 
-/// Contact properties of the pairs of minerals that the case lists.
-std::vector<MaterialPair> pairs_of(const TestCase& test) {
-    const auto index = [&](const std::string& name) {
-        const auto found = std::find_if(test.mineral.begin(), test.mineral.end(),
-                                        [&](const TestCase::Mineral& m) { return m.name == name; });
-        return static_cast<int>(found - test.mineral.begin());
-    };
-    std::vector<MaterialPair> pairs;
-    pairs.reserve(test.mineral_pair.size());
-    for (const auto& [between, own] : test.mineral_pair) {
-        MaterialPair pair{index(between[0]),   index(between[1]),  own.normal_stiffness,
-                          own.shear_stiffness, own.friction_angle, own};
-        if (own.contact_modulus) {
-            pair.normal_stiffness = own.contact_modulus;
-            pair.shear_stiffness = *own.contact_modulus / *own.stiffness_ratio;
-        }
-        pairs.push_back(pair);
-    }
-    return pairs;
-}
-
 /// Replaces the materials with those of the minerals, followed by [material], which the platens keep. Each grain gets
 /// its mineral's material.
-void take_minerals(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
+void take_minerals(Specimen& specimen, const ResolvedCase& test, const TestHooks& hooks) {
     Scene& scene = specimen.scene;
     specimen.platen_material = scene.bodies.front().material;
-    if (test.mineral.empty()) return;
+    const std::vector<parts::Mineral>& minerals = test.minerals.list;
+    if (minerals.empty()) return;
     if (scene.materials.size() > 1) {
         throw InputError(
             fmt::format("{}: found a particle file with {} materials, expected one; remove [[mineral]] to use the "
                         "file's materials, or keep only one material in the file",
-                        test.at("mineral[1]"), scene.materials.size()));
+                        test.places.at(CaseKey::mineral, 0), scene.materials.size()));
     }
     const Material rock = scene.materials.front();
-    for (std::size_t k = 0; k < test.mineral.size(); ++k) {
+    for (std::size_t k = 0; k < minerals.size(); ++k) {
         scene.materials.insert(scene.materials.end() - 1, rock);
-        apply_material(mineral_material(test, k), scene.materials[k]);
+        minerals[k].material.apply_to(scene.materials[k]);
     }
-    specimen.platen_material = static_cast<int>(test.mineral.size());
-    scene.material_pairs = pairs_of(test);
-    specimen.minerals = assign_minerals(scene, test, specimen.notices);
+    specimen.platen_material = static_cast<int>(minerals.size());
+    scene.material_pairs = test.minerals.pairs;
+    specimen.minerals = assign_minerals(scene, test.minerals, test.places, specimen.notices);
     hooks.report_stage(mineral_shares_text(specimen.minerals));
 }
 
 /// Mean size of the bodies to be made, m.
-double particle_size(const Specimen& specimen, const TestCase& test) {
+double particle_size(const Specimen& specimen, const ResolvedCase& test) {
     const Domain& box = specimen.scene.domain;
-    const bool meshed = test.has_table("mesh");
+    const bool meshed = test.mesh.has_value();
     if (!meshed && !specimen.polygons) return 2.0 * specimen.mean_radius;
     const double cells = static_cast<double>(specimen.scene.bodies.size()) *
-                         (meshed && *test.mesh.kind == MeshKind::delaunay ? 2.0 : 1.0);
+                         (meshed && test.mesh->kind == MeshKind::delaunay ? 2.0 : 1.0);
     return std::sqrt((box.x2 - box.x1) * (box.y2 - box.y1) / cells);
 }
 
@@ -537,30 +500,31 @@ void find_sides(Specimen& specimen) {
 
 }  // namespace
 
-Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
+Specimen make_specimen(const ResolvedCase& test, const TestHooks& hooks) {
     Specimen specimen;
     specimen.scene =
-        test.has_table("packing") ? packed_scene(test, hooks, specimen) : read_particles(test, hooks, specimen.notices);
+        test.packing() != nullptr ? packed_scene(test, hooks, specimen) : read_particles(test, hooks, specimen.notices);
     classify(specimen, test);
     bring_to_rest(specimen.scene, specimen.notices);
     measure_circles(specimen);
     specimen.particle = particle_size(specimen, test);
     specimen.shape = test_kind(test.loading.kind).shape({test, specimen.scene.domain, specimen.particle});
     cut_shape(specimen.scene, specimen.shape, specimen.polygons, test);
-    const bool meshed = test.has_table("mesh");
+    const bool meshed = test.mesh.has_value();
     if (!meshed) take_minerals(specimen, test, hooks);
     if (!specimen.polygons) hooks.report_made(circles_file, specimen.scene);
     if (meshed) {
         if (specimen.polygons) {
-            throw InputError(fmt::format(
-                "{}: found a particle file of polygons, expected circles to mesh; remove [mesh]", test.at("mesh")));
+            throw InputError(
+                fmt::format("{}: found a particle file of polygons, expected circles to mesh; remove [mesh]",
+                            test.at(CaseKey::mesh)));
         }
         mesh_specimen(specimen, test, hooks);
         take_minerals(specimen, test, hooks);
     } else if (specimen.polygons) {
         measure_polygons(specimen, test);
     }
-    if (!meshed && test.jointed()) joint_circles(specimen, test, hooks);
+    if (!meshed && !test.joints.empty()) joint_circles(specimen, test, hooks);
     if (specimen.polygons) hooks.report_made(polygons_file, specimen.scene);
     for (Material& material : specimen.scene.materials) scale_damping(material, test.damping_scale);
     if (!test.uniaxial()) find_sides(specimen);

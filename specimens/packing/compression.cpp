@@ -13,6 +13,7 @@
 #include "solver/base/errors.hpp"
 #include "specimens/packing/isotropy.hpp"
 #include "specimens/packing/relaxation.hpp"
+#include "specimens/packing/size_distribution.hpp"
 #include "specimens/statistics/random_numbers.hpp"
 
 namespace crackle {
@@ -166,10 +167,11 @@ class Compressor {
             return void_ratio();
         };
         const double loosest = reached(lowest), densest = reached(highest);
-        throw InputError(
-            fmt::format("void_ratio: found {}, expected {:.4f} to {:.4f}, the range of these sizes with this seed. "
-                        "Looser packings carry no load without friction; denser ones overlap by more than a tenth of "
-                        "the mean radius",
+        throw PackingError(
+            PackingInput::void_ratio, "void_ratio",
+            fmt::format(": found {}, expected {:.4f} to {:.4f}, the range of these sizes with this seed. Looser "
+                        "packings carry no load without friction; denser ones overlap by more than a tenth of the mean "
+                        "radius",
                         *target_.void_ratio, densest, loosest));
     }
 

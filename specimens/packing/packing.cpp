@@ -67,26 +67,28 @@ void check(const PackingRequest& request) {
                                      request.mean_overlap ? "both" : "none"));
     }
     if (request.count && (*request.count < min_packing_circles || *request.count > max_packing_circles)) {
-        throw InputError(fmt::format("count: found {}, expected {} to {} circles", *request.count, min_packing_circles,
-                                     max_packing_circles));
+        throw PackingError(PackingInput::count, "count",
+                           fmt::format(": found {}, expected {} to {} circles", *request.count, min_packing_circles,
+                                       max_packing_circles));
     }
     if (request.threads < 1) throw InputError(fmt::format("threads: found {}, expected at least 1", request.threads));
     const SizeMoments size = moments(request.sizes);
     if (request.mean_overlap) {
         const double smallest = smallest_overlap_share * size.mean, largest = largest_overlap_share * size.mean;
         if (*request.mean_overlap < smallest || *request.mean_overlap > largest) {
-            throw InputError(
-                fmt::format("mean_overlap: found {} m, expected {:.3g} to {:.3g} m (the mean radius is {:.3g} m)",
-                            *request.mean_overlap, smallest, largest, size.mean));
+            throw PackingError(PackingInput::mean_overlap, "mean_overlap",
+                               fmt::format(": found {} m, expected {:.3g} to {:.3g} m (the mean radius is {:.3g} m)",
+                                           *request.mean_overlap, smallest, largest, size.mean));
         }
     }
     if (!request.count) {
         const double shorter = std::min(*request.width, *request.height);
         if (shorter < 4.0 * size.largest) {
-            throw InputError(fmt::format(
-                "width, height: found {} x {} m, expected at least two of the largest circles (radius {:.3g} m) "
-                "in each direction; make the box larger or the circles smaller",
-                *request.width, *request.height, size.largest));
+            throw PackingError(PackingInput::box, "width",
+                               fmt::format(", height: found {} x {} m, expected at least two of the largest circles "
+                                           "(radius {:.3g} m) in each direction; make the box larger or the circles "
+                                           "smaller",
+                                           *request.width, *request.height, size.largest));
         }
     }
 }
@@ -102,9 +104,11 @@ std::mt19937_64 stream(std::uint64_t seed, int attempt) {
 std::size_t count_for_box(const PackingRequest& request, double mean_square, double fill) {
     const double count = std::round(fill * *request.width * *request.height / (std::numbers::pi * mean_square));
     if (count < static_cast<double>(min_packing_circles) || count > static_cast<double>(max_packing_circles)) {
-        throw InputError(fmt::format(
-            "width, height: found {} x {} m, which needs about {:.0f} circles of these sizes, expected {} to {}",
-            *request.width, *request.height, count, min_packing_circles, max_packing_circles));
+        throw PackingError(
+            PackingInput::box, "width",
+            fmt::format(", height: found {} x {} m, which needs about {:.0f} circles of these sizes, "
+                        "expected {} to {}",
+                        *request.width, *request.height, count, min_packing_circles, max_packing_circles));
     }
     return static_cast<std::size_t>(count);
 }
@@ -176,9 +180,10 @@ Packing make_packing(const PackingRequest& request, const PackingCallback& progr
         }
     }
     if (!best) {
-        throw InputError(fmt::format(
-            "packing: found no equilibrium in {} attempts; try more circles, another seed, or a larger mean overlap",
-            attempts));
+        throw PackingError(PackingInput::whole, "packing",
+                           fmt::format(": found no equilibrium in {} attempts; try more circles, another seed, or a "
+                                       "larger mean overlap",
+                                       attempts));
     }
 
     const double width = box_asked ? *request.width : best->assembly.width;

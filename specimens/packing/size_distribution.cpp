@@ -30,8 +30,11 @@ overloaded(T...) -> overloaded<T...>;
 
 bool positive(double value) { return value > 0.0 && std::isfinite(value); }
 
-[[noreturn]] void refuse(const std::string& key, double found, const std::string& expected) {
-    throw InputError(fmt::format("{}: found {}, expected {}", key, found, expected));
+[[noreturn]] void refuse(const std::string& name, double found, const std::string& expected) {
+    throw InputError(fmt::format("{}: found {}, expected {}", name, found, expected));
+}
+[[noreturn]] void refuse(PackingInput input, const char* name, double found, const std::string& expected) {
+    throw PackingError(input, name, fmt::format(": found {}, expected {}", found, expected));
 }
 
 /// Inverse of the standard normal distribution Φ. Probabilities are limited to values that doubles distinguish from 0
@@ -130,36 +133,41 @@ void validate_sieve(const SieveCurve& curve) {
 }  // namespace
 
 void validate(const SizeDistribution& sizes) {
-    std::visit(overloaded{[](const UniformRadii& uniform) {
-                              if (!positive(uniform.radius_min))
-                                  refuse("radius_min", uniform.radius_min, "a length > 0 in m");
-                              if (!positive(uniform.radius_max) || uniform.radius_max < uniform.radius_min) {
-                                  refuse("radius_max", uniform.radius_max,
-                                         fmt::format("a length of at least radius_min = {} m", uniform.radius_min));
-                              }
-                          },
-                          [](const LognormalRadii& lognormal) {
-                              if (!positive(lognormal.median))
-                                  refuse("lognormal median radius", lognormal.median, "a length > 0 in m");
-                              if (!positive(lognormal.log_deviation) || lognormal.log_deviation > 2.0) {
-                                  refuse("lognormal deviation of ln(radius)", lognormal.log_deviation,
-                                         "a number > 0 and at most 2 (radii from a 2000th to 2000 times the median)");
-                              }
-                              if (!(lognormal.radius_min >= 0.0))
-                                  refuse("radius_min", lognormal.radius_min, "a length >= 0 in m");
-                              if (lognormal.radius_max != 0.0 && !(lognormal.radius_max > lognormal.radius_min)) {
-                                  refuse("radius_max", lognormal.radius_max,
-                                         fmt::format("a length above radius_min = {} m", lognormal.radius_min));
-                              }
-                              const CutOff cut = cut_off(lognormal);
-                              if (cut.below_max - cut.below_min < 1e-3) {
-                                  refuse("radius_min to radius_max: fraction of the lognormal distribution",
-                                         cut.below_max - cut.below_min,
-                                         "at least 0.001; choose cut-offs that contain more of the distribution");
-                              }
-                          },
-                          [](const SieveCurve& curve) { validate_sieve(curve); }},
-               sizes);
+    std::visit(
+        overloaded{[](const UniformRadii& uniform) {
+                       if (!positive(uniform.radius_min))
+                           refuse(PackingInput::radius_min, "radius_min", uniform.radius_min, "a length > 0 in m");
+                       if (!positive(uniform.radius_max) || uniform.radius_max < uniform.radius_min) {
+                           refuse(PackingInput::radius_max, "radius_max", uniform.radius_max,
+                                  fmt::format("a length of at least radius_min = {} m", uniform.radius_min));
+                       }
+                   },
+                   [](const LognormalRadii& lognormal) {
+                       if (!positive(lognormal.median))
+                           refuse(PackingInput::radius_median, "lognormal median radius", lognormal.median,
+                                  "a length > 0 in m");
+                       if (!positive(lognormal.log_deviation) || lognormal.log_deviation > 2.0) {
+                           refuse(PackingInput::radius_log_deviation, "lognormal deviation of ln(radius)",
+                                  lognormal.log_deviation,
+                                  "a number > 0 and at most 2 (radii from a 2000th to 2000 times the median)");
+                       }
+                       if (!(lognormal.radius_min >= 0.0))
+                           refuse(PackingInput::radius_min, "radius_min", lognormal.radius_min, "a length >= 0 in m");
+                       if (lognormal.radius_max != 0.0 && !(lognormal.radius_max > lognormal.radius_min)) {
+                           refuse(PackingInput::radius_max, "radius_max", lognormal.radius_max,
+                                  fmt::format("a length above radius_min = {} m", lognormal.radius_min));
+                       }
+                       const CutOff cut = cut_off(lognormal);
+                       if (cut.below_max - cut.below_min < 1e-3) {
+                           throw PackingError(
+                               PackingInput::radius_min, "radius_min",
+                               fmt::format(" to radius_max: fraction of the lognormal distribution: found {}, expected "
+                                           "at least 0.001; choose cut-offs that contain more of the distribution",
+                                           cut.below_max - cut.below_min));
+                       }
+                   },
+                   [](const SieveCurve& curve) { validate_sieve(curve); }},
+        sizes);
 }
 
 double radius_at(const SizeDistribution& sizes, double probability) {

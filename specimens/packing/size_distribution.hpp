@@ -14,10 +14,15 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <random>
+#include <string>
+#include <utility>
 #include <variant>
 #include <vector>
+
+#include "solver/base/errors.hpp"
 
 namespace crackle {
 
@@ -25,6 +30,8 @@ namespace crackle {
 struct UniformRadii {
     double radius_min = 0.0;  ///< m, > 0
     double radius_max = 0.0;  ///< m, >= radius_min; if equal, all circles are equal
+
+    bool operator==(const UniformRadii&) const = default;
 };
 
 /// Lognormal radii, truncated at both ends and renormalised.
@@ -33,6 +40,8 @@ struct LognormalRadii {
     double log_deviation = 0.0;  ///< standard deviation of ln(radius), > 0
     double radius_min = 0.0;     ///< m, >= 0; 0: not truncated
     double radius_max = 0.0;     ///< m; 0: not truncated
+
+    bool operator==(const LognormalRadii&) const = default;
 };
 
 /// A point of a sieve curve.
@@ -48,7 +57,30 @@ struct SieveCurve {
 
 using SizeDistribution = std::variant<UniformRadii, LognormalRadii, SieveCurve>;
 
-/// @throws InputError if a value is out of range
+/// The value of a request for a packing that an error is about.
+enum class PackingInput : std::uint8_t {
+    box,
+    count,
+    radius_min,
+    radius_max,
+    radius_median,
+    radius_log_deviation,
+    mean_overlap,
+    void_ratio,
+    whole,  ///< the request as a whole
+};
+
+/// A request for a packing that cannot be met. Its message is name and text.
+class PackingError : public InputError {
+  public:
+    PackingError(PackingInput wrong, const std::string& name, std::string found_and_expected)
+        : InputError(name + found_and_expected), input(wrong), text(std::move(found_and_expected)) {}
+
+    PackingInput input;
+    std::string text;  ///< what was found and expected
+};
+
+/// @throws PackingError if a value is out of range
 void validate(const SizeDistribution& sizes);
 
 /// Radius [m] such that a fraction `probability` (0 to 1, by number) of the circles is smaller.

@@ -8,7 +8,7 @@
 #include <ostream>
 #include <string>
 
-#include "specimens/frames/frame_painter.hpp"
+#include "specimens/frames/frame_arrays.hpp"
 #include "specimens/results/output_folder.hpp"
 #include "specimens/results/result_tables.hpp"
 #include "specimens/summary/summary_keys.hpp"

@@ -27,7 +27,7 @@
 namespace crackle {
 namespace {
 
-Description describe(const TestCase& test, const TestedSpecimen& specimen, const TestState& state) {
+Description describe(const ResolvedCase& test, const TestedSpecimen& specimen, const TestState& state) {
     const bool failed = state.failure.failed, running = state.ended_by.empty();
     Description d{test.title,
                   test.loading.kind,
@@ -137,7 +137,7 @@ void confinement(ConfinementFigures& c, const PlacedApparatus& apparatus, const 
 }
 
 /// Adds the stresses at which cracks start to form and to coalesce, for a compression test.
-void cracking(CrackingFigures& c, const TestCase& test, const TestSetup& setup, const TestState& state) {
+void cracking(CrackingFigures& c, const ResolvedCase& test, const TestSetup& setup, const TestState& state) {
     const std::optional<CrackThresholds> t = crack_thresholds_of(test, setup.apparatus, state);
     if (!t) return;
     const double peak = state.failure.peak_stress;
@@ -293,24 +293,24 @@ void counts(SpecimenFigures& s, const TestSetup& setup, const World& world) {
 
 /// Stress carried by the dashpots at the start of loading, divided by the largest stress; NaN unless the case gives
 /// rate_tolerance.
-double viscous_share(const TestCase& test, const TestState& state) {
-    if (!test.loading.rate_tolerance || state.rows.empty()) return NAN;
-    const double confined = test.confinement.pressure.value_or(0.0);
+double viscous_share(const ResolvedCase& test, const TestState& state) {
+    if (test.loading.rate_tolerance() == nullptr || state.rows.empty()) return NAN;
+    const double confined = test.pressure();
     return (state.rows.front().axial_stress - confined) / (state.failure.largest_stress - confined);
 }
 
-void numerics(NumericsFigures& n, const TestCase& test, const TestSetup& setup, const TestState& state,
+void numerics(NumericsFigures& n, const ResolvedCase& test, const TestSetup& setup, const TestState& state,
               const World& world) {
     const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
     const bool rounded = world.settings.segment_law == SegmentLaw::rounded;
-    if (test.loading.rate_tolerance) {
-        n.rate_tolerance = *test.loading.rate_tolerance;
+    if (const double* tolerance = test.loading.rate_tolerance()) {
+        n.rate_tolerance = *tolerance;
         n.axial_strain_rate = state.mean_rate();
         n.axial_strain_rate_range = std::vector<double>{state.rate.slowest, state.rate.fastest};
         n.strain_share_above_tolerance = state.share_above_tolerance();
         n.wave_transit_time = setup.rate_rule.transit_time;
     } else {
-        n.axial_strain_rate = state.path.by_caller() ? state.mean_rate() : *test.loading.axial_strain_rate;
+        n.axial_strain_rate = state.path.by_caller() ? state.mean_rate() : *test.loading.axial_strain_rate();
         n.axial_strain_rate.sense = 1;
     }
     n.viscous_stress_share = viscous_share(test, state);
@@ -327,7 +327,7 @@ void numerics(NumericsFigures& n, const TestCase& test, const TestSetup& setup, 
     n.steps = world.stepping.steps;
     n.simulated_time = world.stepping.time;
     n.list_builds = world.list.builds;
-    n.seed = test.has_table("packing") ? std::optional(test.packing.seed) : std::nullopt;
+    n.seed = test.packing() != nullptr ? std::optional(test.packing()->seed) : std::nullopt;
 }
 
 PackingFigures packing(const Provenance& origin) {
@@ -388,12 +388,12 @@ void run(RunFigures& r, const TestSetup& setup, const TestState& state, const Wo
 
 }  // namespace
 
-FirstLoading judged_rows(const TestCase& test, const TestState& state) {
+FirstLoading judged_rows(const ResolvedCase& test, const TestState& state) {
     return test.loading.unloads() ? first_loading(state.rows, state.failure.peak_row)
                                   : FirstLoading{state.rows, state.failure.peak_row};
 }
 
-std::optional<CrackThresholds> crack_thresholds_of(const TestCase& test, const PlacedApparatus& apparatus,
+std::optional<CrackThresholds> crack_thresholds_of(const ResolvedCase& test, const PlacedApparatus& apparatus,
                                                    const TestState& state) {
     if (!apparatus.compression || !apparatus.uniaxial) return std::nullopt;
     const FirstLoading first = judged_rows(test, state);
@@ -401,7 +401,7 @@ std::optional<CrackThresholds> crack_thresholds_of(const TestCase& test, const P
                                  apparatus.confining_pressure);
 }
 
-Summary make_summary(const TestCase& test, const TestSetup& setup, const TestState& state, const World& world,
+Summary make_summary(const ResolvedCase& test, const TestSetup& setup, const TestState& state, const World& world,
                      const TestTiming& timing, const NumericalErrors* errors) {
     Summary s;
     const FirstLoading first = judged_rows(test, state);

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "specimens/case/case_file.hpp"
 #include "specimens/measures/crack_thresholds.hpp"
 #include "specimens/measures/cycles.hpp"
+#include "specimens/parts/resolved_case.hpp"
 #include "specimens/results/state.hpp"
 #include "specimens/setup/setup.hpp"
 #include "specimens/summary/summary.hpp"
@@ -27,13 +27,13 @@ struct TestTiming {
 
 /// The rows from which peak, moduli and thresholds are computed: all rows, or those without unloading cycles if the
 /// case unloads.
-FirstLoading judged_rows(const TestCase& test, const TestState& state);
+FirstLoading judged_rows(const ResolvedCase& test, const TestState& state);
 /// Crack thresholds of a compression test between platens; empty for other tests.
-std::optional<CrackThresholds> crack_thresholds_of(const TestCase& test, const PlacedApparatus& apparatus,
+std::optional<CrackThresholds> crack_thresholds_of(const ResolvedCase& test, const PlacedApparatus& apparatus,
                                                    const TestState& state);
 
 /// @param errors  the numerical errors from companion runs; null if there are none
-Summary make_summary(const TestCase& test, const TestSetup& setup, const TestState& state, const World& world,
+Summary make_summary(const ResolvedCase& test, const TestSetup& setup, const TestState& state, const World& world,
                      const TestTiming& timing, const NumericalErrors* errors = nullptr);
 
 }  // namespace crackle

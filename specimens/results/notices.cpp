@@ -12,7 +12,7 @@
 
 namespace crackle {
 
-std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup, const TestState& state,
+std::vector<std::string> notices_of(const ResolvedCase& test, const TestSetup& setup, const TestState& state,
                                     const World& world, double viscous_share) {
     constexpr std::int64_t rows_that_resolve = 100;
     // Twice the largest value found for the DEMseg guide's example rock with default values.
@@ -80,27 +80,28 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
                         "negative; increase loading.normal_stress, or reduce loading.normal_stiffness",
                         -deepest->lateral_strain * setup.specimen.height));
     }
-    if (const TestCase::Loading& loading = test.loading; loading.unloads()) {
-        const auto& asked = loading.unload_at_strain ? *loading.unload_at_strain : *loading.unload_at_stress;
+    if (const parts::Loading& loading = test.loading; loading.unloads()) {
+        const std::vector<double>& asked = loading.unloading.at;
         if (state.path.unloaded < std::ssize(asked)) {
             notices.push_back(
                 fmt::format("the test ended after {} of {} unloadings", state.path.unloaded, asked.size()));
         }
     }
-    if (!test.loading.rate_tolerance) return notices;
+    const double* tolerance = test.loading.rate_tolerance();
+    if (tolerance == nullptr) return notices;
     const double above = state.share_above_tolerance();
     if (above > share_above_to_mention) {
         notices.push_back(
             fmt::format("the inertia error exceeded loading.rate_tolerance = {} over {:.0f} % of the strain, because "
                         "breaks release energy faster than loading can slow down; run `crackle test --verify` to see "
                         "how results change at half the rate",
-                        *test.loading.rate_tolerance, 100.0 * above));
+                        *tolerance, 100.0 * above));
     }
-    if (viscous_share > *test.loading.rate_tolerance) {
+    if (viscous_share > *tolerance) {
         notices.push_back(
             fmt::format("when loading begins, dashpots carry a fraction {:.2g} of the largest stress, which exceeds "
                         "loading.rate_tolerance = {}; lower the tolerance or the damping",
-                        viscous_share, *test.loading.rate_tolerance));
+                        viscous_share, *tolerance));
     }
     return notices;
 }

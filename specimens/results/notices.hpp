@@ -14,7 +14,7 @@ namespace crackle {
 
 /// Notices from the setup of the test, and notices on its results.
 /// @param viscous_share  the fraction of the largest stress that dashpots carry when loading begins
-std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup, const TestState& state,
+std::vector<std::string> notices_of(const ResolvedCase& test, const TestSetup& setup, const TestState& state,
                                     const World& world, double viscous_share);
 
 /// A sentence stating that companions disagree about the peak; empty if they agree or have not run.

@@ -12,7 +12,7 @@
 #include "solver/base/names.hpp"
 #include "solver/base/quantity.hpp"
 #include "solver/files/file_mark.hpp"
-#include "specimens/case/test_case.hpp"
+#include "specimens/parts/resolved_case.hpp"
 #include "specimens/recordings/stated_files.hpp"
 
 namespace crackle {
@@ -27,7 +27,7 @@ using TableMarks = std::array<FileMark, result_tables>;
 
 /// Options for the files of a test.
 struct FileOptions {
-    TestCase::Output output = {};
+    parts::Output output = {};
     bool emission = false;                  ///< whether acoustic events are recorded
     bool pressed = false, jointed = false;  ///< whether curve and events have the columns for such a test
     std::size_t large_frame = 200'000;      ///< number of bodies from which the frame at the peak is kept on disk

@@ -20,7 +20,7 @@ namespace {
 constexpr double circle_thick_share = 0.1;  // relative to the mean radius
 
 /// Applies the case's time step. Its stability can be checked only once there are bonds.
-void apply_given_step(World& world, const TestCase& test) {
+void apply_given_step(World& world, const ResolvedCase& test) {
     if (!test.numerics.time_step) return;
     try {
         set_time_step(world, *test.numerics.time_step);
@@ -28,7 +28,7 @@ void apply_given_step(World& world, const TestCase& test) {
         throw InputError(fmt::format(
             "{}: found {} s, expected at most the exact stable step of this specimen, {:.6g} s; give a smaller "
             "time step, omit it for an automatic step, or run with --allow-unstable to find the limit",
-            test.at("numerics.time_step"), *test.numerics.time_step, world.stepping.exact_step));
+            test.at(CaseKey::numerics_time_step), *test.numerics.time_step, world.stepping.exact_step));
     }
 }
 
@@ -36,20 +36,19 @@ void apply_given_step(World& world, const TestCase& test) {
 /// more than this.
 constexpr double overhang_share = 0.05;
 
-Bonding bonding_of(const Specimen& specimen, const TestCase& test, double thick) {
+Bonding bonding_of(const Specimen& specimen, const ResolvedCase& test, double thick) {
     Bonding bonding;
     bonding.thick = thick;
     if (!test.bond_facts().bonds_across_gaps) return bonding;
-    const TestCase::Bond& keys = test.bond;
-    if (specimen.polygons) bonding.gap = keys.gap.value_or(overhang_share * thick);
+    const parts::Bonds& bonds = test.bond;
+    if (specimen.polygons) bonding.gap = bonds.gap.value_or(overhang_share * thick);
     // Pairs of circles use `range`; this gap applies between circles and the parts that hold them.
     if (!specimen.polygons && !specimen.shape.outline.empty()) bonding.gap = cut_circles_offset * specimen.particle;
-    bonding.range = keys.range;
-    bonding.tensile_factor = keys.tensile_factor;
-    bonding.cohesion_factor = keys.cohesion_factor;
-    if (keys.strength_distribution != StrengthDistribution::none) {
-        bonding.factors = StrengthFactors(keys.strength_distribution, *keys.strength_cv, *keys.strength_seed);
-    }
+    bonding.range = bonds.range;
+    bonding.tensile_factor = bonds.tensile_factor;
+    bonding.cohesion_factor = bonds.cohesion_factor;
+    if (const auto& random = bonds.random)
+        bonding.factors = StrengthFactors(random->distribution, random->cv, random->seed);
     return bonding;
 }
 
@@ -76,7 +75,7 @@ std::function<bool(Vec2, BodyIndex, BodyIndex)> grips_of(const World& world, con
 }
 
 /// The scene to be bonded, without platens.
-Scene scene_of(const Specimen& specimen, const TestCase& test) {
+Scene scene_of(const Specimen& specimen, const ResolvedCase& test) {
     Scene scene = specimen.scene;
     scene.thick = test.bond.thick     ? *test.bond.thick
                   : specimen.polygons ? specimen.mesh_gap
@@ -90,37 +89,34 @@ Scene scene_of(const Specimen& specimen, const TestCase& test) {
     scene.step_scale = test.step_scale;
     scene.allow_unstable = test.numerics.allow_unstable;
     scene.first_kick = FirstKick::half;
-    scene.threads = static_cast<int>(test.numerics.threads);
+    scene.threads = test.numerics.threads;
     scene.intact = {test.numerics.intact, test.numerics.intact, test.numerics.intact};
     return scene;
 }
 
-void bond(World& world, const TestCase& test, const Bonding& bonding) {
+void bond(World& world, const ResolvedCase& test, const Bonding& bonding) {
     try {
         bond_all(world, bonding);
     } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: {}", test.at("bond.law"), error.what()));
+        throw InputError(fmt::format("{}: {}", test.at(CaseKey::bond_law), error.what()));
     }
 }
 
 }  // namespace
 
-BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading,
-                             std::function<void()> while_solving) {
+BondedSpecimen bond_specimen(const Specimen& specimen, const ResolvedCase& test, std::function<void()> while_solving) {
     Scene scene = scene_of(specimen, test);
     BondedSpecimen bonded;
-    TestCase asked = test;
-    asked.loading = loading;
-    bonded.platens = add_platens(scene, specimen, asked, scene.thick);
+    bonded.platens = add_platens(scene, specimen, test, scene.thick);
     const double thick = scene.thick;
     bonded.world = build_world(std::move(scene));
     bonded.world.workers.while_solving = std::move(while_solving);
     forget_point_forces(bonded.world);  // not needed: platens give the stress, and curve rows the energy of the springs
     Bonding bonding = bonding_of(specimen, test, thick);
-    const TestKind& kind = test_kind(loading.kind);
+    const TestKind& kind = test_kind(test.loading.kind);
     bonding.pressed = kind.compression || kind.shear_box;
-    if (loading.platens == PlatenKind::glued)
-        bonding.holds = grips_of(bonded.world, specimen, bonded.platens, loading.grip.value_or(0.0));
+    if (test.loading.platens == PlatenKind::glued)
+        bonding.holds = grips_of(bonded.world, specimen, bonded.platens, test.loading.grip);
     if (specimen.shape.notch && specimen.polygons) bonding.leaves = parted_by(bonded.world, *specimen.shape.notch);
     bond(bonded.world, test, bonding);
     apply_given_step(bonded.world, test);
@@ -128,7 +124,7 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, con
     return bonded;
 }
 
-World bond_alone(const Specimen& specimen, const TestCase& test, Traces traces) {
+World bond_alone(const Specimen& specimen, const ResolvedCase& test, Traces traces) {
     Scene scene = scene_of(specimen, test);
     scene.domain.wall_present = {false, false, false, false};
     if (traces == Traces::as_rock) std::ranges::fill(scene.trace_joints, -1);

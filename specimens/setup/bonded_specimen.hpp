@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "solver/world/world.hpp"
-#include "specimens/case/case_file.hpp"
 #include "specimens/making/specimen.hpp"
+#include "specimens/parts/resolved_case.hpp"
 #include "specimens/setup/platen.hpp"
 
 namespace crackle {
@@ -23,7 +23,7 @@ struct BondedSpecimen {
 /// computed. @param loading  the test's own loading, or a copy with other platens @param while_solving  passed to the
 /// world (Workers)
 /// @throws InputError if the time step exceeds the exact stable step; the error names the case's key
-BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading,
+BondedSpecimen bond_specimen(const Specimen& specimen, const ResolvedCase& test,
                              std::function<void()> while_solving = {});
 
 /// How the traces of joints are treated.
@@ -34,6 +34,6 @@ enum class Traces : std::uint8_t {
 };
 
 /// The bonded specimen alone, without platens and walls.
-World bond_alone(const Specimen& specimen, const TestCase& test, Traces traces = Traces::as_they_are);
+World bond_alone(const Specimen& specimen, const ResolvedCase& test, Traces traces = Traces::as_they_are);
 
 }  // namespace crackle

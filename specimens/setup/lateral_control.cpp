@@ -15,13 +15,14 @@ constexpr double band_share = 0.05;  // relative to the lateral strain at the st
 
 }  // namespace
 
-LateralRule lateral_rule_of(const TestCase& test, const RateRule& rate, double poissons_ratio) {
+LateralRule lateral_rule_of(const parts::Loading& loading, const Places& places, const RateRule& rate,
+                            double poissons_ratio) {
     LateralRule rule;
-    if (!test.loading.by_lateral_strain()) return rule;
+    if (!loading.by_lateral_strain()) return rule;
     if (!(poissons_ratio > 0.0)) {
         throw InputError(fmt::format(
             "{}: found a specimen whose Poisson's ratio is {:.3g}, expected one that widens; load it by axial strain",
-            test.at("loading.control"), poissons_ratio));
+            places.at(CaseKey::loading_control), poissons_ratio));
     }
     rule.ratio = poissons_ratio;
     rule.band = band_share * poissons_ratio * rate.first_strain;

@@ -12,7 +12,8 @@
 // Tested by tests/specimens/loading/lateral_control_test.cpp.
 #pragma once
 
-#include "specimens/case/test_case.hpp"
+#include "specimens/parts/loading.hpp"
+#include "specimens/places/places.hpp"
 #include "specimens/setup/loading_path.hpp"
 
 namespace crackle {
@@ -27,7 +28,8 @@ struct LateralRule {
     bool on() const { return ratio > 0.0; }
 };
 /// @throws InputError if the specimen does not widen in the linear solution
-LateralRule lateral_rule_of(const TestCase& test, const RateRule& rate, double poissons_ratio);
+LateralRule lateral_rule_of(const parts::Loading& loading, const Places& places, const RateRule& rate,
+                            double poissons_ratio);
 
 /// Chooses the next speed and stores it in the path. @param allowed  1/s, strain rate allowed by the tolerance
 /// @param strain  axial strain @param lateral_strain  current value, not smoothed

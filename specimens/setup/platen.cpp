@@ -45,9 +45,9 @@ int material_with_friction(Scene& scene, const Specimen& specimen, double angle)
     return static_cast<int>(scene.materials.size()) - 1;
 }
 
-int platen_material(Scene& scene, const Specimen& specimen, const TestCase::Loading& loading) {
+int platen_material(Scene& scene, const Specimen& specimen, const parts::Loading& loading) {
     if (loading.platens != PlatenKind::frictional) return specimen.platen_material;
-    return material_with_friction(scene, specimen, *loading.platen_friction_angle);
+    return material_with_friction(scene, specimen, loading.platen_friction_angle);
 }
 
 void hold(Scene& scene, std::uint32_t body, double velocity) {
@@ -78,7 +78,7 @@ double part_offset(const Specimen& specimen, double thick) {
 int next_id(const Scene& scene) { return std::ranges::max_element(scene.bodies, {}, &Body::id)->id + 1; }
 
 /// Adds the parts for a kind of test without platens.
-void add_parts(Scene& scene, const Specimen& specimen, const TestCase& test, double thick, Platens& platens) {
+void add_parts(Scene& scene, const Specimen& specimen, const ResolvedCase& test, double thick, Platens& platens) {
     KindRequest request{test, scene.domain, specimen.particle};
     request.offset = part_offset(specimen, thick);
     // Circles selected by their centres extend beyond the outline. The offset of half a radius prevents a circle from
@@ -107,10 +107,10 @@ void add_parts(Scene& scene, const Specimen& specimen, const TestCase& test, dou
 
 /// Adds the blocks beside the specimen that are driven by the pressure; they extend beyond both platens.
 /// @param sides  extent of the particles alone
-void add_walls(Scene& scene, const Specimen& specimen, const TestCase& test, double thick, const Platens& platens,
+void add_walls(Scene& scene, const Specimen& specimen, const ResolvedCase& test, double thick, const Platens& platens,
                const Extent& sides) {
     const int material = material_with_friction(scene, specimen, 0.0);
-    const double force = *test.confinement.pressure * specimen.height;
+    const double force = test.pressure() * specimen.height;
     const double depth = platen_depth_ratio * specimen.width, beyond = platen_depth_ratio * specimen.height;
     const double low = platens.bottom_y - beyond, high = platens.top_y + beyond;
     const auto add = [&](int id, double face, double outwards) {
@@ -131,8 +131,8 @@ void add_walls(Scene& scene, const Specimen& specimen, const TestCase& test, dou
 
 }  // namespace
 
-Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase& test, double thick) {
-    const TestCase::Loading& loading = test.loading;
+Platens add_platens(Scene& scene, const Specimen& specimen, const ResolvedCase& test, double thick) {
+    const parts::Loading& loading = test.loading;
     const Extent extent = extent_along(scene, &Vec2::y), sides = extent_along(scene, &Vec2::x);
     const Domain& domain = scene.domain;
     Platens platens;
@@ -152,11 +152,12 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase& test
         platens.top_y = extent.high + thick;
     }
     // The speed is set later if the loading rate is derived from a tolerance.
-    const double speed = loading.axial_strain_rate.value_or(0.0) * specimen.height;
+    const double* rate = loading.axial_strain_rate();
+    const double speed = rate != nullptr ? *rate * specimen.height : 0.0;
     platens.velocity = test_kind(loading.kind).compression ? -speed : speed;
     spread_velocity(scene, platens);
 
-    platens.walls = test.confined() && test.confinement.by_walls();
+    platens.walls = test.confinement && test.confinement->by_walls();
     platens.bottom_id = next_id(scene);
     platens.top_id = platens.bottom_id + (platens.walls ? 3 : 1);
     const int material = platen_material(scene, specimen, loading);

@@ -60,7 +60,7 @@ bool connected(const World& world, const TestSetup& setup) {
     });
 }
 
-void check_part_hold(const World& world, const TestSetup& setup, const TestCase& test) {
+void check_part_hold(const World& world, const TestSetup& setup, const Places& places) {
     const TestKind& kind = test_kind(setup.apparatus.kind);
     for (const SetupPart& part : setup.apparatus.parts) {
         const double width = face_width(world, part);
@@ -72,8 +72,9 @@ void check_part_hold(const World& world, const TestSetup& setup, const TestCase&
         throw InputError(fmt::format(
             "{}: {} the {}, {:.3g} m wide, expected bonds over half of that; make it wider, or the particles smaller, "
             "or {}",
-            test.at("loading.kind"), found, part.body == setup.apparatus.top ? kind.driver : kind.support, width,
-            test.bond_facts().bonds_across_gaps
+            places.at(CaseKey::loading_kind), found, part.body == setup.apparatus.top ? kind.driver : kind.support,
+            width,
+            setup.bonds.facts().bonds_across_gaps
                 ? "give the bonds a reach (bond.range, bond.gap)"
                 : fmt::format("use bond.law = {}, whose bonds have a reach (bond.range, bond.gap)",
                               laws_with(&BondLawFacts::bonds_across_gaps))));
@@ -82,8 +83,8 @@ void check_part_hold(const World& world, const TestSetup& setup, const TestCase&
 
 }  // namespace
 
-void check_platen_hold(const World& world, const TestSetup& setup, const Platens& platens, const TestCase& test) {
-    if (!setup.apparatus.uniaxial) check_part_hold(world, setup, test);
+void check_platen_hold(const World& world, const TestSetup& setup, const Platens& platens, const Places& places) {
+    if (!setup.apparatus.uniaxial) check_part_hold(world, setup, places);
     for (const BodyIndex platen : {setup.apparatus.bottom, setup.apparatus.top}) {
         if (!setup.apparatus.uniaxial) break;
         const BondedFace hold = hold_of(world, setup, platen);
@@ -93,14 +94,14 @@ void check_platen_hold(const World& world, const TestSetup& setup, const Platens
             fmt::format("{}: found {} bonded points over {:.3g} m of the {:.3g} m wide specimen at the {} platen (face "
                         "at y = {:.6g} m), expected them to reach over half of it; circles must overlap the domain's "
                         "face, polygons end flat half the meshing thickness inside it (mesh.boundary = \"domain\")",
-                        test.at("bond.thick"), hold.bonds, hold.length(), setup.specimen.width,
+                        places.at(CaseKey::bond_thick), hold.bonds, hold.length(), setup.specimen.width,
                         lower ? "lower" : "upper", lower ? platens.bottom_y : platens.top_y));
     }
     if (!connected(world, setup)) {
         throw InputError(fmt::format(
             "{}: found {} bonds, none of which join the lower and the upper platen, expected a specimen in one "
             "piece; {}",
-            test.at("bond.thick"), setup.bonds.points.size(),
+            places.at(CaseKey::bond_thick), setup.bonds.points.size(),
             world.settings.joints.empty() ? "polygons bond where bond.thick is larger than the gap between them"
                                           : "an open joint across the specimen holds it together only if its faces "
                                             "touch, that is, without an aperture"));

@@ -3,7 +3,7 @@
 // Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
-#include "specimens/case/case_file.hpp"
+#include "specimens/places/places.hpp"
 #include "specimens/setup/setup.hpp"
 
 namespace crackle {
@@ -14,6 +14,6 @@ inline constexpr double min_platen_hold = 0.5;
 /// @param setup  of a world with bonded platens
 /// @throws InputError if a platen holds nothing or only a corner of the specimen, or if no chain of bonds connects the
 /// platens. Strength and stiffness would then be those of a few bonds.
-void check_platen_hold(const World& world, const TestSetup& setup, const Platens& platens, const TestCase& test);
+void check_platen_hold(const World& world, const TestSetup& setup, const Platens& platens, const Places& places);
 
 }  // namespace crackle

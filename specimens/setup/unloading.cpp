@@ -8,7 +8,6 @@
 namespace crackle {
 namespace {
 
-constexpr double to_unless_given = 0.1;
 constexpr double creep_share = 0.05;  // relative to the largest rate
 // Fraction of the acceleration used for braking: the speed is chosen at intervals and lags behind continuous braking.
 constexpr double brake_share = 0.7;
@@ -38,12 +37,12 @@ double UnloadRule::added_travel(double strain) const {
     return sum;
 }
 
-UnloadRule unload_rule_of(const TestCase::Loading& loading, const RateRule& rate, double modulus) {
+UnloadRule unload_rule_of(const parts::Unloading& asked, const RateRule& rate, double modulus) {
     UnloadRule rule;
-    if (!loading.unloads()) return rule;
-    rule.by_strain = loading.unload_at_strain.has_value();
-    rule.at = rule.by_strain ? *loading.unload_at_strain : *loading.unload_at_stress;
-    rule.to = loading.unload_to.value_or(to_unless_given);
+    if (asked.at.empty()) return rule;
+    rule.by_strain = asked.by_strain;
+    rule.at = asked.at;
+    rule.to = asked.to;
     rule.acceleration = largest_acceleration(rate);
     rule.modulus = modulus;
     rule.creep = creep_share * largest_rate(rate);

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-#include "specimens/case/test_case.hpp"
+#include "specimens/parts/loading.hpp"
 #include "specimens/setup/loading_path.hpp"
 
 namespace crackle {
@@ -31,8 +31,8 @@ struct UnloadRule {
     /// strain of the test
     double added_travel(double strain) const;
 };
-/// Rule of a case. @param modulus N/m, of the linear solution
-UnloadRule unload_rule_of(const TestCase::Loading& loading, const RateRule& rate, double modulus);
+/// @param modulus N/m, of the linear solution
+UnloadRule unload_rule_of(const parts::Unloading& asked, const RateRule& rate, double modulus);
 
 /// Initial speed, 1/s, from which the platen can still stop before the first reversal. @param allowed  1/s, as below
 double first_speed(const UnloadRule& rule, double allowed);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "solver/scene/scene.hpp"
-#include "specimens/case/test_case.hpp"
 #include "specimens/making/specimen.hpp"
+#include "specimens/parts/resolved_case.hpp"
 #include "specimens/summary/figure.hpp"
 
 namespace crackle {

@@ -6,7 +6,7 @@ set(readers
     solver/demseg/deck_state.cpp solver/demseg/geometry.cpp solver/demseg/outputs.cpp solver/demseg/read_outputs.cpp
     solver/demseg/circle_list.cpp solver/files/file_kind.cpp solver/files/file_set.cpp solver/files/read_file.cpp
     solver/files/table_reader.cpp solver/files/text_lines.cpp solver/world/checkpoint.cpp
-    specimens/case/case_file.cpp specimens/case/consistency.cpp specimens/case/joint_checks.cpp specimens/case/mineral_checks.cpp specimens/case/test_case.cpp
+    specimens/case/case_file.cpp specimens/case/consistency.cpp specimens/case/joint_checks.cpp specimens/case/mineral_checks.cpp specimens/case/resolve.cpp specimens/case/test_case.cpp
     specimens/case/keyed_table.cpp specimens/case/toml_file.cpp specimens/case/toml_shape.cpp
     specimens/calibration/rock.cpp specimens/campaign/axis.cpp specimens/campaign/ledger.cpp specimens/campaign/ledger_failure.cpp specimens/campaign/ledger_hashes.cpp
     specimens/campaign/plan.cpp specimens/campaign/plan_file.cpp specimens/campaign/point_table.cpp specimens/envelope/measured_strengths.cpp

@@ -22,10 +22,11 @@ enum class MeshKind : std::uint8_t;
 
 struct ElasticAnalysis;
 struct JointedCompliance;
+struct JointCase;
 struct MeshReport;
 struct PackingRequest;
 struct Scene;
-struct TestCase;
+struct ResolvedCase;
 struct TestCheck;
 struct TestHooks;
 struct TestOptions;
@@ -92,7 +93,7 @@ Scene meshed_scene(const std::string& name, const std::string& text, const po::v
                    Messages& messages, MeshReport& report, std::vector<std::string>* of_joints = nullptr,
                    const std::function<bool()>& interrupted = {});
 /// Runs `crackle joints` for the joints of a case. @param name name of the case, for errors
-int joints_of(TestCase test, const std::string& name, const Invocation& given);
+int joints_of(JointCase test, const std::string& name, const Invocation& given);
 /// Limits options.most_threads to the number of threads worth using, at most `asked`.
 void limit_threads(TestOptions& options, std::int64_t asked);
 /// Number of threads for a resumed test: as given in the options, otherwise as in its case. @throws InputError
@@ -102,7 +103,7 @@ Progress shown_progress(const TestProgress& test);
 /// Output of `crackle test --check --json`. @param indent spaces per level; -1 for a single line
 std::string check_as_json(const TestCheck& check, int indent = -1);
 /// The case as used for the linear solution. @param notices receives a notice for each part of the case that is ignored
-TestCase elastic_case(TestCase description, std::vector<std::string>& notices);
+ResolvedCase elastic_case(ResolvedCase description, std::vector<std::string>& notices);
 /// Output of `crackle elastic --json`. @param indent as in check_as_json()
 std::string elastic_as_json(const VirtualTest& test, const ElasticAnalysis& analysis,
                             const std::optional<JointedCompliance>& compliance, double seconds, int indent = -1);

@@ -12,6 +12,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/files/output_path.hpp"
 #include "solver/files/replace_file.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/elastic/analysis.hpp"
 #include "specimens/elastic/jointed_compliance.hpp"
 #include "specimens/loading/prepare.hpp"
@@ -89,7 +90,7 @@ std::string bonds_table(const ElasticAnalysis& a) {
 
 }  // namespace
 
-TestCase elastic_case(TestCase description, std::vector<std::string>& notices) {
+ResolvedCase elastic_case(ResolvedCase description, std::vector<std::string>& notices) {
     if (description.loading.platens == PlatenKind::frictional) {
         notices.push_back(fmt::format("the linear solution supports only bonded platens, which are used in place of {}",
                                       name_of(description.loading.platens)));
@@ -98,7 +99,7 @@ TestCase elastic_case(TestCase description, std::vector<std::string>& notices) {
     if (description.confined()) {
         notices.push_back("the linear solution is for the specimen without confining pressure");
         description.loading.kind = LoadingKind::compression;
-        description.confinement = {};
+        description.confinement.reset();
     }
     return description;
 }
@@ -231,7 +232,7 @@ int elastic(const Invocation& given) {
         throw InputError(fmt::format("crackle elastic: --strain: found {}, expected a number > 0 and < 1", strain));
     const int modes = values["modes"].as<int>();
     if (modes < 0) throw InputError(fmt::format("crackle elastic: --modes: found {}, expected a number >= 0", modes));
-    TestCase description = read_case(given_or_shipped(given.operands.front()));
+    ResolvedCase description = read_case(given_or_shipped(given.operands.front()));
     if (values.contains("bonds"))
         output_file(values["bonds"].as<std::string>(), values.contains("force"), files_read(description));
     TestHooks hooks;

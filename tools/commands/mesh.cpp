@@ -203,11 +203,11 @@ MeshRequest request_of(const po::variables_map& values, MeshKind kind, const Sou
 }
 
 /// The case that defines the traces, given by the option --joints.
-std::optional<TestCase> joints_case(const po::variables_map& values) {
+std::optional<JointCase> joints_case(const po::variables_map& values) {
     if (!values.contains("joints")) return std::nullopt;
     const fs::path file = values["joints"].as<std::string>();
-    TestCase test = CaseFiles(file).joints();
-    if (!test.jointed())
+    JointCase test = CaseFiles(file).joints();
+    if (test.joints.empty())
         throw InputError(
             fmt::format("{}: found no [[joint_set]] and no [[trace]], expected at least one", file.string()));
     return test;
@@ -225,10 +225,8 @@ std::vector<fs::path> output_paths(const po::variables_map& values, const std::v
                         asked.string()));
     }
     std::vector<fs::path> inputs{input};
-    if (const auto joints = joints_case(values)) {
-        const std::vector<fs::path> files = files_read(*joints);
-        inputs.insert(inputs.end(), files.begin(), files.end());
-    }
+    if (const auto joints = joints_case(values))
+        inputs.insert(inputs.end(), joints->files.begin(), joints->files.end());
     std::vector<fs::path> paths;
     for (const MeshKind kind : kinds) {
         const char* usual = kind == MeshKind::delaunay ? "in_gm_tri.dat" : "in_gm_volo.dat";
@@ -285,7 +283,8 @@ Scene meshed_scene(const std::string& name, const std::string& text, const po::v
     messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
     messages.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
     JointNetwork joints;
-    if (const auto test = joints_case(values)) joints = make_joints(*test, source.scene.domain, source.centres.size());
+    if (const auto test = joints_case(values))
+        joints = make_joints(test->joints, source.scene.domain, source.centres.size());
     request.traces = mesh_traces(joints);
     Mesh made;
     try {

@@ -12,6 +12,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/check.hpp"
 #include "specimens/loading/run.hpp"
 #include "specimens/measures/verdicts.hpp"
@@ -224,10 +225,10 @@ int check(const Invocation& given) {
     const po::variables_map& values = given.values;
     refuse_unused("crackle test", values, "--check", {"check", "json", "threads", "allow-unstable"});
     if (given.operands.empty()) throw InputError("crackle test: found no CASE.toml, expected one with --check");
-    TestCase description = read_case(given_or_shipped(given.operands.front()));
+    ResolvedCase description = read_case(given_or_shipped(given.operands.front()));
     if (values.contains("allow-unstable")) description.numerics.allow_unstable = true;
     if (values.contains("threads")) description.numerics.threads = values["threads"].as<int>();
-    description.numerics.threads = threads_of_machine(static_cast<int>(description.numerics.threads), given.messages);
+    description.numerics.threads = threads_of_machine(description.numerics.threads, given.messages);
     watch_interrupts();
     end_unheard(nothing_written);
     TestHooks hooks = hooks_for(given.messages);
@@ -431,7 +432,7 @@ int test(const Invocation& given) {
         limit_threads(options, threads_to_resume(options));
         outcome = resume_test(options, hooks);
     } else {
-        TestCase description = read_case(given_or_shipped(given.operands.front()));
+        ResolvedCase description = read_case(given_or_shipped(given.operands.front()));
         limit_threads(options, options.threads > 0 ? options.threads : description.numerics.threads);
         if (values.contains("allow-unstable")) description.numerics.allow_unstable = true;
         try {

@@ -32,9 +32,9 @@ namespace fs = std::filesystem;
 constexpr double most_grains = 1e9;
 
 /// The box given by the case or the options. As in a packing, its lower left corner is the origin.
-Domain box_of(const TestCase& test, const po::variables_map& values) {
+Domain box_of(const JointCase& given, const po::variables_map& values) {
     Domain box{0.0, 0.0, 0.0, 0.0};
-    const auto take = [&](double& to, const std::optional<double>& of_case, const char* option, const char* key) {
+    const auto take = [&](double& to, const std::optional<double>& of_case, const char* option, CaseKey key) {
         if (values.contains(option)) {
             to = values[option].as<double>();
             if (!(to > 0.0 && is_a_size(to)))
@@ -43,11 +43,11 @@ Domain box_of(const TestCase& test, const po::variables_map& values) {
             to = *of_case;
         } else {
             throw InputError(fmt::format("{}: found nothing, expected the size of the box; state it, or give --{}",
-                                         test.at(std::string("packing.") + key), option));
+                                         given.joints.places.at(key), option));
         }
     };
-    take(box.x2, test.packing.width, "box-width", "width");
-    take(box.y2, test.packing.height, "box-height", "height");
+    take(box.x2, given.width, "box-width", CaseKey::packing_width);
+    take(box.y2, given.height, "box-height", CaseKey::packing_height);
     return box;
 }
 
@@ -214,18 +214,19 @@ int joints(const Invocation& given) {
     return joints_of(CaseFiles(fs::path(source)).joints(), source, given);
 }
 
-int joints_of(TestCase test, const std::string& name, const Invocation& given) {
+int joints_of(JointCase test, const std::string& name, const Invocation& given) {
     const po::variables_map& values = given.values;
-    if (!test.jointed())
+    JointRequest& joints = test.joints;
+    if (joints.empty())
         throw InputError(
             fmt::format("{}: found no [[joint_set]] and no [[trace]], expected one; see crackle test --keys", name));
     if (values.contains("seed")) {
-        if (test.joint_set.empty()) throw without_effect("crackle joints", "--seed", "traces that are all given");
-        test.joints.seed = values["seed"].as<std::int64_t>();
-        if (test.joints.seed < 0)
-            throw InputError(fmt::format("--seed: found {}, expected a whole number >= 0", test.joints.seed));
+        if (joints.sets.empty()) throw without_effect("crackle joints", "--seed", "traces that are all given");
+        const auto seed = values["seed"].as<std::int64_t>();
+        if (seed < 0) throw InputError(fmt::format("--seed: found {}, expected a whole number >= 0", seed));
+        joints.seed = static_cast<std::uint64_t>(seed);
     }
-    const std::vector<fs::path> inputs = files_read(test);
+    const std::vector<fs::path>& inputs = test.files;
     plot::Format format = plot::Format::svg;
     const std::string figure = values.contains("output") ? values["output"].as<std::string>() : "";
     const std::string table = values.contains("traces") ? values["traces"].as<std::string>() : "";
@@ -236,8 +237,8 @@ int joints_of(TestCase test, const std::string& name, const Invocation& given) {
     const plot::FigureLook look = plot::figure_look("joints", values, format);
     if (!table.empty()) output_file(table, values.contains("force"), inputs);
     const Domain box = box_of(test, values);
-    const JointNetwork network = make_joints(test, box, grains_in(box, values));
-    const JointReport report = report_joints(test, network);
+    const JointNetwork network = make_joints(joints, box, grains_in(box, values));
+    const JointReport report = report_joints(joints, network);
     if (!figure.empty()) draw(network, report, figure, look, format);
     if (!table.empty()) replace_file(table, text_of(network));
     if (values.contains("json")) {

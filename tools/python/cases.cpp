@@ -16,22 +16,23 @@ namespace crackle::python {
 namespace py = pybind11;
 
 void bind_cases(py::module_& module) {
-    py::class_<TestCase>(module, "Case",
-                         "One virtual test as described by a case, checked and with defaults filled in.")
-        .def_readonly("title", &TestCase::title, "Name of the test in the case.")
+    py::class_<ResolvedCase>(module, "Case",
+                             "One virtual test as described by a case, checked and with defaults filled in.")
+        .def_readonly("title", &ResolvedCase::title, "Name of the test in the case.")
         .def_property_readonly(
-            "kind", [](const TestCase& test) { return name_of(test.loading.kind); },
+            "kind", [](const ResolvedCase& test) { return name_of(test.loading.kind); },
             "Kind of test (loading.kind), for example \"tension\".")
-        .def_property_readonly("stress_unit", &TestCase::stress_unit, "\"Pa\" or \"N/m\".")
+        .def_property_readonly("stress_unit", &ResolvedCase::stress_unit, "\"Pa\" or \"N/m\".")
         .def(
             "resolved",
-            [](const TestCase& test) {
+            [](const ResolvedCase& test) {
                 std::ostringstream text;
                 write_resolved_case(text, test, ".");
                 return text.str();
             },
             "The case as TOML with every value stated, each with its unit and a description.")
-        .def("__repr__", [](const TestCase& test) { return "<crackle.Case '" + test.title + "'>"; });
+        .def("__repr__", [](const ResolvedCase& test) { return "<crackle.Case '" + test.title + "'>"; });
+    py::class_<JointCase>(module, "Joints", "The joints of a case.");
     module.def(
         "read_case_file", [](const std::string& path) { return read_case(std::filesystem::path(path)); },
         py::arg("path"));
@@ -52,10 +53,12 @@ void bind_cases(py::module_& module) {
         py::arg("text"), py::arg("name"), py::arg("json"),
         "The joints of a TOML text, which need not be a complete case.");
     module.def(
+        "joints_of_case", [](const ResolvedCase& test) { return joints_of(test); }, py::arg("case"));
+    module.def(
         "files_of_joints",
         [](const std::string& path) {
             std::vector<std::string> all;
-            for (const std::filesystem::path& file : files_read(CaseFiles(std::filesystem::path(path)).joints()))
+            for (const std::filesystem::path& file : CaseFiles(std::filesystem::path(path)).joints().files)
                 all.push_back(file.string());
             return all;
         },

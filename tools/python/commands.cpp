@@ -113,13 +113,13 @@ py::tuple run_command(const std::string& name, const tools::Arguments& words, co
 }
 
 /// Runs `crackle joints` for a case, which may have been made in Python.
-py::tuple run_joints(const TestCase& test, const std::string& name, const tools::Arguments& words) {
+py::tuple run_joints(const JointCase& test, const std::string& name, const tools::Arguments& words) {
     return run_words("joints", words, py::none(),
                      [&](const tools::Invocation& given) { return tools::joints_of(test, name, given); });
 }
 
 /// @return result as JSON text, all bonds, and notices
-py::tuple elastic(const TestCase& description, double strain, int modes, const py::object& report) {
+py::tuple elastic(const ResolvedCase& description, double strain, int modes, const py::object& report) {
     if (!(strain > 0.0) || !(strain < 1.0))
         throw InputError(fmt::format("crackle elastic: strain: found {}, expected a number > 0 and < 1", strain));
     if (modes < 0) throw InputError(fmt::format("crackle elastic: modes: found {}, expected a number >= 0", modes));
@@ -143,10 +143,10 @@ py::tuple elastic(const TestCase& description, double strain, int modes, const p
 }
 
 /// @return result as JSON text
-std::string check(TestCase description, int threads, const py::object& report) {
+std::string check(ResolvedCase description, int threads, const py::object& report) {
     tools::Messages messages(tools::Loudness::quiet);
     if (threads > 0) description.numerics.threads = threads;
-    description.numerics.threads = tools::threads_of_machine(static_cast<int>(description.numerics.threads), messages);
+    description.numerics.threads = tools::threads_of_machine(description.numerics.threads, messages);
     Interrupts interrupts;
     const TestHooks hooks = reporting_hooks(report, interrupts);
     std::string json;

@@ -72,7 +72,7 @@ void bind_tests(py::module_& module) {
         .def_readwrite("command", &TestOptions::command);
     module.def(
         "run_test",
-        [](TestCase description, TestOptions options, bool allow_unstable, const py::object& report,
+        [](ResolvedCase description, TestOptions options, bool allow_unstable, const py::object& report,
            const py::object& call, std::int64_t every) {
             if (allow_unstable) description.numerics.allow_unstable = true;
             if (options.verify && !call.is_none())

@@ -35,12 +35,12 @@ void use_threads(World& world, int threads) {
     set_threads(world, room.threads);
 }
 
-Shared world_of_case(TestCase description, int threads, const py::object& report) {
+Shared world_of_case(ResolvedCase description, int threads, const py::object& report) {
     if (threads > 0) description.numerics.threads = threads;
     Interrupts interrupts;
     const TestHooks hooks = reporting_hooks(report, interrupts);
     auto test = std::make_shared<VirtualTest>();
-    const int asked = static_cast<int>(description.numerics.threads);
+    const int asked = description.numerics.threads;
     refuse_threads_after_fork(asked);
     run_free(interrupts, [&] { *test = prepare_test(description, hooks); });
     use_threads(test->world, asked);

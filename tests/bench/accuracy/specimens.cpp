@@ -27,15 +27,14 @@ struct Setting {
 };
 
 VirtualTest prepared(const Setting& s, std::int64_t seed, bool quick) {
-    TestCase test = verification::packed_case(seed, LoadingKind::tension, s.rate, 0.01);
-    test.packing.count = quick ? 30 : 100;
+    ResolvedCase test = verification::packed_case(seed, LoadingKind::tension, s.rate, 0.01);
+    test.packing()->box = parts::CircleCount{quick ? 30 : 100, 2.0};
     if (s.tolerance > 0.0) {
-        test.loading.axial_strain_rate.reset();
-        test.loading.rate_tolerance = s.tolerance;
+        test.loading.rate = parts::RateTolerance{s.tolerance};
     }
     if (std::strcmp(s.kind, "circles") != 0) {
         verification::mesh_voronoi(test);
-        test.mesh.kind = from_name<MeshKind>(s.kind);
+        test.mesh->kind = from_name<MeshKind>(s.kind).value();
     }
     test.numerics.contact_law = s.law;
     test.numerics.integrator = s.integrator;

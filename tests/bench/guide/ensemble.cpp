@@ -53,7 +53,7 @@ double cost_of_second(World& world) {
 }
 
 /// Counts and back-tensions of a specimen without platens.
-void take_counts(GuideResult& result, const TestCase& description, const TestHooks& hooks) {
+void take_counts(GuideResult& result, const ResolvedCase& description, const TestHooks& hooks) {
     const Specimen specimen = make_specimen(description, hooks);
     Scene scene = specimen.scene;
     // The thickness does not matter for circles, which bond at their existing overlaps.
@@ -115,14 +115,14 @@ void take_loaded(GuideResult& result, const VirtualTest& test, double seconds) {
     q["processor_seconds"] = seconds;
 }
 
-std::string case_text(const TestCase& description) {
+std::string case_text(const ResolvedCase& description) {
     std::ostringstream text;
     write_resolved_case(text, description, fs::path("."));
     return text.str();
 }
 
 /// Identifies the input of a cached result.
-std::string mark_of(const TestCase& description, const GuideTest& test) {
+std::string mark_of(const ResolvedCase& description, const GuideTest& test) {
     return sha256(fmt::format("{} {}\n{}", measures_version, test.loading, case_text(description)));
 }
 
@@ -175,18 +175,18 @@ std::string unit_of_quantity(const std::string& quantity) {
     return found == units.end() ? "-" : found->second;
 }
 
-TestCase guide_case(const GuideTest& test, const EnsembleOptions& options) {
+ResolvedCase guide_case(const GuideTest& test, const EnsembleOptions& options) {
     const std::string loading = test.loading == "compression" ? "compression" : "tension";
-    TestCase description = read_case(options.cases / (test.specimen + "_" + loading + ".toml"));
-    description.packing.seed = test.seed;
-    description.numerics.contact_law = value_named<SegmentLaw>("numerics.contact_law", test.law);
-    description.numerics.threads = 1;
-    description.loading.scale_rate(options.rate_factor);
-    guide_experiment(test.experiment).change(description);
-    return description;
+    const CaseFiles shipped(options.cases / (test.specimen + "_" + loading + ".toml"));
+    const GuideExperiment& experiment = guide_experiment(test.experiment);
+    std::vector<CaseSetting> settings = experiment.settings(shipped.with({}));
+    settings.push_back({"packing.seed", test.seed, "guide:1"});
+    settings.push_back({"numerics.contact_law", test.law, "guide:1"});
+    settings.push_back({"numerics.threads", std::int64_t{1}, "guide:1"});
+    return shipped.with(settings, {.rate = options.rate_factor * experiment.rate});
 }
 
-GuideResult measure_guide_test(const TestCase& description, const GuideTest& test,
+GuideResult measure_guide_test(const ResolvedCase& description, const GuideTest& test,
                                const std::function<bool()>& interrupted) {
     TestHooks hooks;
     hooks.interrupted = interrupted;
@@ -226,7 +226,7 @@ GuideResults run_guide_tests(const std::vector<GuideTest>& tests, const Ensemble
     const auto work = [&] {
         try {
             for (std::size_t k = next++; k < tests.size(); k = next++) {
-                const TestCase description = guide_case(tests[k], options);
+                const ResolvedCase description = guide_case(tests[k], options);
                 const fs::path file = options.cache / (tests[k].name() + ".json");
                 const std::string mark = mark_of(description, tests[k]);
                 results[k] = read_cached(file, mark);

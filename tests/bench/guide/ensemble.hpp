@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "specimens/case/test_case.hpp"
+#include "specimens/parts/resolved_case.hpp"
 #include "tests/bench/guide/experiments.hpp"
 
 namespace crackle::studies {
@@ -55,11 +55,11 @@ struct EnsembleOptions {
 };
 
 /// The shipped case of a test, with the changes made by its experiment. @throws InputError
-TestCase guide_case(const GuideTest& test, const EnsembleOptions& options);
+ResolvedCase guide_case(const GuideTest& test, const EnsembleOptions& options);
 
 /// Runs one test. If its specimen cannot be made (for example because the inset destroys a cell), the result contains
 /// this error. @throws TestInterrupted
-GuideResult measure_guide_test(const TestCase& description, const GuideTest& test,
+GuideResult measure_guide_test(const ResolvedCase& description, const GuideTest& test,
                                const std::function<bool()>& interrupted);
 
 struct EnsembleHooks {

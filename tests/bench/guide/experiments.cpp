@@ -15,22 +15,30 @@ constexpr Reach runs{.elastic = false};
 constexpr Reach elastic{.tension = false, .compression = false};
 constexpr Reach squeezing{.elastic = false, .tension = false};
 
-void set_damping(TestCase& test, double ratio) { test.material.damping_ratio = ratio; }
+using Settings = std::vector<CaseSetting>;
 
-void set_radii(TestCase& test, double least, double largest) {
-    test.packing.radius_min = least;
-    test.packing.radius_max = largest;
+CaseSetting set_key(const char* key, CaseValue value) { return {key, std::move(value), "guide:1"}; }
+
+Settings set_damping(double ratio) { return {set_key("material.damping_ratio", ratio)}; }
+
+Settings set_radii(double least, double largest) {
+    return {set_key("packing.radius_min", least), set_key("packing.radius_max", largest)};
 }
 
-void set_platens(TestCase& test, double friction_angle) {
-    test.loading.platens = PlatenKind::frictional;
-    test.loading.platen_friction_angle = friction_angle;
+Settings set_platens(double friction_angle) {
+    return {set_key("loading.platens", std::string("frictional")),
+            set_key("loading.platen_friction_angle", friction_angle)};
 }
 
 /// Scales the overlaps at bonding, for circles and polygons.
-void scale_overlap(TestCase& test, double factor) {
-    test.packing.mean_overlap = factor * *test.packing.mean_overlap;
-    if (test.bond.thick) test.bond.thick = *test.mesh.thick + factor * (*test.bond.thick - *test.mesh.thick);
+Settings scale_overlap(const ResolvedCase& test, double factor) {
+    Settings settings{
+        set_key("packing.mean_overlap", factor * std::get<parts::MeanOverlap>(test.packing()->target).value)};
+    if (test.mesh) {
+        const double thick = std::get<parts::MeshGap>(test.mesh->gap).thick;
+        settings.push_back(set_key("bond.thick", thick + factor * (*test.bond.thick - thick)));
+    }
+    return settings;
 }
 
 }  // namespace
@@ -42,34 +50,44 @@ bool Reach::holds(const std::string& specimen, const std::string& loading) const
 
 const std::vector<GuideExperiment>& guide_experiments() {
     static const std::vector<GuideExperiment> all{
-        {as_shipped, "the shipped cases", everything, [](TestCase&) {}},
-        {"seeds_boundary", "triangles between the centres only, mesh.boundary = \"seeds\"; no platens", elastic,
-         [](TestCase& test) {
-             if (test.mesh.kind == MeshKind::delaunay) test.mesh.boundary = Boundary::centres;
-             test.mesh.merge_destroyed = test.has_table("mesh");  // merges slivers at the uneven outline
+        {as_shipped, "the shipped cases", everything, [](const ResolvedCase&) { return Settings{}; }},
+        {"seeds_boundary", "triangles between the centres alone, mesh.boundary = \"seeds\"; nothing has platens",
+         elastic,
+         [](const ResolvedCase& test) {
+             Settings settings;
+             if (test.mesh && test.mesh->kind == MeshKind::delaunay)
+                 settings.push_back(set_key("mesh.boundary", std::string("seeds")));
+             if (test.mesh)  // merges slivers at the uneven outline
+                 settings.push_back(set_key("mesh.merge_destroyed", true));
+             return settings;
          },
-         true},
-        {"narrow_radii", "radii from 1.8 to 2.2 cm instead of 1.333 to 2.667", everything,
-         [](TestCase& test) { set_radii(test, 1.8e-2, 2.2e-2); }},
-        {"wide_radii", "radii from 0.8 to 3.2 cm instead of 1.333 to 2.667", everything,
-         [](TestCase& test) { set_radii(test, 0.8e-2, 3.2e-2); }},
-        {"square", "as high as wide instead of twice as high", everything,
-         [](TestCase& test) { test.packing.height_to_width = 1.0; }},
+         1.0, true},
+        {"narrow_radii", "radii from 1.8 to 2.2 cm in place of 1.333 to 2.667", everything,
+         [](const ResolvedCase&) { return set_radii(1.8e-2, 2.2e-2); }},
+        {"wide_radii", "radii from 0.8 to 3.2 cm in place of 1.333 to 2.667", everything,
+         [](const ResolvedCase&) { return set_radii(0.8e-2, 3.2e-2); }},
+        {"square", "as high as wide in place of twice as high", everything,
+         [](const ResolvedCase&) { return Settings{set_key("packing.height_to_width", 1.0)}; }},
         {"double_overlap", "twice the overlap at bonding", everything,
-         [](TestCase& test) { scale_overlap(test, 2.0); }},
-        {"equal_springs", "k_s = k_n instead of k_n/4", everything,
-         [](TestCase& test) { test.material.shear_stiffness = *test.material.normal_stiffness; }},
-        {"soft_shear", "k_s = k_n/16 instead of k_n/4", everything,
-         [](TestCase& test) { test.material.shear_stiffness = *test.material.normal_stiffness / 16.0; }},
-        {"low_friction", "friction angle 10 degrees instead of 27", runs,
-         [](TestCase& test) { test.material.friction_angle = 10.0; }},
-        {"low_damping", "damping ratio 0.02 instead of 0.2", runs, [](TestCase& test) { set_damping(test, 0.02); }},
-        {"high_damping", "damping ratio 1 instead of 0.2", runs, [](TestCase& test) { set_damping(test, 1.0); }},
+         [](const ResolvedCase& test) { return scale_overlap(test, 2.0); }},
+        {"equal_springs", "k_s = k_n in place of k_n/4", everything,
+         [](const ResolvedCase& test) {
+             return Settings{set_key("material.shear_stiffness", *test.material.normal_stiffness)};
+         }},
+        {"soft_shear", "k_s = k_n/16 in place of k_n/4", everything,
+         [](const ResolvedCase& test) {
+             return Settings{set_key("material.shear_stiffness", *test.material.normal_stiffness / 16.0)};
+         }},
+        {"low_friction", "friction angle 10 degrees in place of 27", runs,
+         [](const ResolvedCase&) { return Settings{set_key("material.friction_angle", 10.0)}; }},
+        {"low_damping", "damping ratio 0.02 in place of 0.2", runs,
+         [](const ResolvedCase&) { return set_damping(0.02); }},
+        {"high_damping", "damping ratio 1 in place of 0.2", runs, [](const ResolvedCase&) { return set_damping(1.0); }},
         {"frictional_platens", "platens not bonded, friction 27 degrees", squeezing,
-         [](TestCase& test) { set_platens(test, 27.0); }},
+         [](const ResolvedCase&) { return set_platens(27.0); }},
         {"smooth_platens", "platens not bonded, without friction", squeezing,
-         [](TestCase& test) { set_platens(test, 0.0); }},
-        {"fast", "loaded eight times as fast", runs, [](TestCase& test) { test.loading.scale_rate(8.0); }},
+         [](const ResolvedCase&) { return set_platens(0.0); }},
+        {"fast", "loaded eight times as fast", runs, [](const ResolvedCase&) { return Settings{}; }, 8.0},
     };
     return all;
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "specimens/case/test_case.hpp"
+#include "specimens/case/case_file.hpp"
 
 namespace crackle::studies {
 
@@ -25,8 +25,9 @@ struct GuideExperiment {
     std::string name;
     std::string sentence;
     Reach reach;
-    void (*change)(TestCase& test);
-    bool without_platens = false;  ///< the specimen has no platens, so its tests only count
+    std::vector<CaseSetting> (*settings)(const ResolvedCase& shipped);
+    double rate = 1.0;             ///< factor on the loading rate
+    bool without_platens = false;  ///< no platen holds such a specimen: its tests only count
 };
 
 /// All experiments, beginning with the shipped case.

@@ -74,8 +74,9 @@ TEST(GuideEnsemble, EveryExperimentChangesTheCaseOfEveryTestItReaches) {
         for (const char* specimen : {"circles", "delaunay", "voronoi"}) {
             for (const char* loading : {elastic_test, "tension", "compression"}) {
                 if (!experiment.reach.holds(specimen, loading)) continue;
-                const TestCase test = guide_case(guide_test(experiment.name, "rounded", specimen, loading, 7), options);
-                EXPECT_EQ(test.packing.seed, 7);
+                const ResolvedCase test =
+                    guide_case(guide_test(experiment.name, "rounded", specimen, loading, 7), options);
+                EXPECT_EQ(test.packing()->seed, 7);
                 EXPECT_EQ(test.loading.kind, from_name<LoadingKind>(loading).value_or(LoadingKind::tension));
                 EXPECT_TRUE(test.loading.platens == PlatenKind::bonded || test.loading.kind == LoadingKind::compression)
                     << experiment.name;

@@ -11,7 +11,7 @@
 void crackle::fuzz::case_file(std::string_view bytes) {
     const auto [text, other] = files_of<2>(bytes);
     write_file("other.toml", other);
-    const TestCase test = read_case(write_file("case.toml", text));
+    const ResolvedCase test = read_case(write_file("case.toml", text));
     std::ostringstream out;
     write_resolved_case(out, test, scratch());
 }

@@ -38,20 +38,14 @@ void image(std::string_view bytes) {
     scene.materials.assign(2, material);
     scene.domain = {0.0, 4.0, 0.0, 4.0};
     for (int id = 1; id <= 4; ++id) scene.add_circle_body(id, 0, {{id % 2 == 0 ? 1.0 : 3.0, id < 3 ? 1.0 : 3.0}, 1.0});
-    TestCase test;
-    test.mineral.resize(2);
-    test.mineral[0].name = "quartz";
-    test.mineral[0].colour = "#000000";
-    test.mineral[1].name = "mica";
-    test.mineral[1].colour = "#ffffff";
-    test.minerals.assign = MineralAssignment::image;
-    test.minerals.image = "image.png";
-    test.position["minerals.image"] = (scratch() / "case.toml:1").string();
+    parts::Minerals minerals;
+    minerals.list = {{"quartz", {}, {}, 0.0}, {"mica", {}, {}, 0.0}};
+    minerals.assign = parts::GrainImage{scratch() / "image.png", "image.png", {0x000000, 0xffffff}};
     std::string png(bytes);
     mend_chunks(png);
     write_file("image.png", png);
     std::vector<std::string> notices;
-    assign_minerals(scene, test, notices);
+    assign_minerals(scene, minerals, {}, notices);
 }
 
 }  // namespace crackle::fuzz

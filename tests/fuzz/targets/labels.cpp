@@ -11,14 +11,10 @@ void crackle::fuzz::labels(std::string_view bytes) {
     material.density = 1.0;
     scene.materials.assign(2, material);
     for (int id = 1; id <= 4; ++id) scene.add_circle_body(id, 0, {{2.0 * id, 0.0}, 1.0});
-    TestCase test;
-    test.mineral.resize(2);
-    test.mineral[0].name = "quartz";
-    test.mineral[1].name = "mica";
-    test.minerals.assign = MineralAssignment::labels;
-    test.minerals.labels = "labels.txt";
-    test.position["minerals.labels"] = (scratch() / "case.toml:1").string();
+    parts::Minerals minerals;
+    minerals.list = {{"quartz", {}, {}, 0.0}, {"mica", {}, {}, 0.0}};
+    minerals.assign = parts::GrainLabels{scratch() / "labels.txt"};
     write_file("labels.txt", bytes);
     std::vector<std::string> notices;
-    assign_minerals(scene, test, notices);
+    assign_minerals(scene, minerals, {}, notices);
 }

@@ -4,11 +4,12 @@
 #include <cstdio>
 
 #include "solver/base/errors.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 
 int main() try {
-    const crackle::TestCase pulled = crackle::read_case(crackle::CaseText{"pull", R"(
+    const crackle::ResolvedCase pulled = crackle::read_case(crackle::CaseText{"pull", R"(
         [packing]
         count = 60
         radius_min = 0.01333   # m

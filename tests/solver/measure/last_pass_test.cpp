@@ -10,6 +10,7 @@
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/making/materials.hpp"
 #include "tests/support/claim.hpp"

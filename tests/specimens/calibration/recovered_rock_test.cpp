@@ -47,7 +47,7 @@ TEST_F(RecoveredRock, HasItsKeysWithinTheStatedIntervals) {
     }
     // The cases that it writes must be read back with the values found.
     write_calibration(rock, outcome, folder_ / "out");
-    const TestCase back = read_case(folder_ / "out" / "cases" / "tension.toml");
+    const ResolvedCase back = read_case(folder_ / "out" / "cases" / "tension.toml");
     EXPECT_TRUE(agrees("tensile strength of the case", *back.material.tensile_strength, outcome.keys[2].value, 1e-12));
     const auto json = nlohmann::json::parse(read_file(folder_ / "out" / "calibration.json"));
     EXPECT_EQ(json["targets"].size(), 4U);

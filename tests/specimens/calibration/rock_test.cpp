@@ -45,7 +45,7 @@ TEST_F(RockFile, IsReadWithItsDefaults) {
     EXPECT_EQ(rock.targets[0].tolerance, 0.05);
     EXPECT_EQ(rock.title, "rock");
     EXPECT_TRUE(agrees("start between bounds above 0: their geometric mean", rock.free[0].start, 1e7, 1e-12));
-    const TestCase test = rock.case_of(1, std::vector<double>{4e6, 2.5});
+    const ResolvedCase test = rock.case_of(1, std::vector<double>{4e6, 2.5});
     EXPECT_EQ(test.loading.kind, LoadingKind::tension);
     EXPECT_EQ(test.material.tensile_strength, 4e6);
     EXPECT_EQ(test.material.cohesion, 2.5 * 4e6) << "the search varies the ratio";

@@ -139,8 +139,8 @@ TEST_F(CampaignTest, WithoutPackingsACaseHasItsOwnSeedAndAnAxisMayHaveIt) {
                "[[test]]\ncase = \"tension.toml\"\n[[axis]]\nkey = \"packing.seed\"\nvalues = [7, 8]\n");
     const Plan plan = read_plan(folder_ / "plan.toml");
     ASSERT_EQ(plan.rows.size(), 2U);
-    EXPECT_EQ(plan.test_of(plan.rows[0]).packing.seed, 7);
-    EXPECT_EQ(plan.test_of(plan.rows[1]).packing.seed, 8);
+    EXPECT_EQ(plan.test_of(plan.rows[0]).packing()->seed, 7);
+    EXPECT_EQ(plan.test_of(plan.rows[1]).packing()->seed, 8);
     EXPECT_EQ(run("out").run, 2) << "two specimens";
     write_text(folder_ / "plan.toml",
                "[[test]]\ncase = \"tension.toml\"\n[[axis]]\nkey = \"packing.seed\"\n"

@@ -10,6 +10,7 @@
 
 #include "solver/base/version.hpp"
 #include "solver/files/read_file.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/case/parameters.hpp"
 #include "specimens/results/sha256.hpp"
 #include "tests/support/deck_files.hpp"
@@ -18,7 +19,7 @@
 namespace crackle {
 namespace {
 
-TestCase with(const CaseFiles& files, const std::string& key, const CaseValue& value) {
+ResolvedCase with(const CaseFiles& files, const std::string& key, const CaseValue& value) {
     return files.with(std::vector<CaseSetting>{{key, value, "here:1"}});
 }
 
@@ -49,9 +50,8 @@ TEST(Identity, ChangesWithEveryKeyButThoseThatNoFigureDependsOn) {
                                                         {"output.frame_precision", std::string("double")},
                                                         {"output.checkpoint_interval", 5.0}})
         EXPECT_EQ(identity_of(with(files, key, value), hashes), asked) << key;
-    TestCase halved = files.with({});
-    halved.halve_step();
-    EXPECT_TRUE(seen.insert(identity_of(halved, hashes)).second);
+    EXPECT_TRUE(seen.insert(identity_of(files.with({}, {.step = 0.5}), hashes)).second);
+    EXPECT_TRUE(seen.insert(identity_of(files.with({}, {.rate = 0.5}), hashes)).second);
 }
 
 TEST(Identity, LooksIntoFilesAndNotAtTheirNames) {

@@ -200,7 +200,7 @@ TEST_F(OutcomesTest, AFileThatTheSystemDoesNotOpenIsNoRefusal) {
     const Plan plan = read_plan(folder_ / "plan.toml");
     FileHashes files;
     PackingStore packings(folder_ / "out/packings", files);
-    const TestCase test = plan.test_of(plan.rows[0]);
+    const ResolvedCase test = plan.test_of(plan.rows[0]);
     RowResult result;
     {
         const NoFurtherFile full;

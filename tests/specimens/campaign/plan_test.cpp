@@ -44,10 +44,10 @@ TEST_F(PlanTest, HasEveryCombinationWithEveryPacking) {
     ASSERT_EQ(plan.points.size(), 4U) << "two tests at two values";
     ASSERT_EQ(plan.rows.size(), 12U);
     for (std::size_t k = 0; k < plan.rows.size(); ++k) EXPECT_EQ(plan.rows[k].seed, 1 + static_cast<int>(k) / 4);
-    const TestCase last = plan.test_of(plan.rows.back());
+    const ResolvedCase last = plan.test_of(plan.rows.back());
     EXPECT_EQ(last.loading.kind, LoadingKind::compression);
     EXPECT_EQ(last.material.friction_angle, 35.0);
-    EXPECT_EQ(last.packing.seed, 3);
+    EXPECT_EQ(last.packing()->seed, 3);
     EXPECT_EQ(plan.test_of(plan.rows[0]).material.friction_angle, 20.0);
 }
 
@@ -67,9 +67,9 @@ TEST_F(PlanTest, ASettingReplacesTheOtherWayToSayIt) {
     const Plan plan = plan_of(test_ +
                               "set = {\"loading.rate_tolerance\" = 0.02, \"material.cohesion\" = 5.0, "
                               "\"bond.law\" = \"coulomb\", \"material.tensile_strength\" = 7.0}\n");
-    const TestCase test = plan.test_of(plan.rows[0]);
-    EXPECT_FALSE(test.loading.axial_strain_rate.has_value());
-    EXPECT_EQ(test.loading.rate_tolerance, 0.02);
+    const ResolvedCase test = plan.test_of(plan.rows[0]);
+    EXPECT_EQ(test.loading.axial_strain_rate(), nullptr);
+    EXPECT_EQ(*test.loading.rate_tolerance(), 0.02);
     EXPECT_EQ(test.material.cohesion, 5.0);
 }
 
@@ -82,7 +82,8 @@ TEST_F(PlanTest, SpacesAxesEvenlyInValuesOrInTheirLogarithms) {
     EXPECT_NEAR(std::get<double>(plan.axes[0].values[1]), 1e7, 1e7 * 1e-12);
     EXPECT_EQ(std::get<std::int64_t>(plan.axes[1].values[1]), 50) << "whole where the key is";
     EXPECT_EQ(plan.points.size(), 9U);
-    EXPECT_EQ(plan.test_of(plan.rows[1]).packing.count, 50) << "the last axis changes fastest";
+    EXPECT_EQ(std::get<parts::CircleCount>(plan.test_of(plan.rows[1]).packing()->box).count, 50)
+        << "the last axis changes fastest";
 }
 
 TEST_F(PlanTest, EachValueOfAnAxisMeetsEachOfTheOther) {
@@ -91,8 +92,8 @@ TEST_F(PlanTest, EachValueOfAnAxisMeetsEachOfTheOther) {
                               "[[axis]]\nkey = \"packing.count\"\nvalues = [40, 50, 60]\n");
     std::vector<std::pair<double, std::int64_t>> met;
     for (const PlanRow& row : plan.rows) {
-        const TestCase test = plan.test_of(row);
-        met.emplace_back(test.material.friction_angle.value(), test.packing.count.value());
+        const ResolvedCase test = plan.test_of(row);
+        met.emplace_back(test.material.friction_angle.value(), std::get<parts::CircleCount>(test.packing()->box).count);
     }
     EXPECT_EQ(met, (std::vector<std::pair<double, std::int64_t>>{
                        {20.0, 40}, {20.0, 50}, {20.0, 60}, {35.0, 40}, {35.0, 50}, {35.0, 60}}));
@@ -130,7 +131,7 @@ TEST_F(PlanTest, DesignsFillTheBoxEvenly) {
     ASSERT_EQ(plan.points.size(), 16U);
     std::set<double> seen;
     for (const PlanRow& row : plan.rows) {
-        const TestCase test = plan.test_of(row);
+        const ResolvedCase test = plan.test_of(row);
         seen.insert(*test.material.friction_angle);
         EXPECT_TRUE(*test.material.normal_stiffness >= 1e6 && *test.material.normal_stiffness <= 1e8);
         EXPECT_TRUE(*test.material.friction_angle >= 10.0 && *test.material.friction_angle <= 50.0);
@@ -141,12 +142,12 @@ TEST_F(PlanTest, DesignsFillTheBoxEvenly) {
 TEST_F(PlanTest, CompanionsHaveHalfTheStepOrHalfTheRate) {
     const Plan plan = plan_of(test_, true);
     ASSERT_EQ(plan.rows.size(), 3U);
-    const TestCase asked = plan.test_of(plan.rows[0]), step = plan.test_of(plan.rows[1]),
-                   rate = plan.test_of(plan.rows[2]);
+    const ResolvedCase asked = plan.test_of(plan.rows[0]), step = plan.test_of(plan.rows[1]),
+                       rate = plan.test_of(plan.rows[2]);
     EXPECT_EQ(asked.step_scale, 1.0);
     EXPECT_EQ(step.step_scale, 0.5);
-    EXPECT_EQ(step.loading.axial_strain_rate, asked.loading.axial_strain_rate);
-    EXPECT_EQ(*rate.loading.axial_strain_rate, 0.5 * *asked.loading.axial_strain_rate);
+    EXPECT_EQ(*step.loading.axial_strain_rate(), *asked.loading.axial_strain_rate());
+    EXPECT_EQ(*rate.loading.axial_strain_rate(), 0.5 * *asked.loading.axial_strain_rate());
     EXPECT_EQ(rate.step_scale, 1.0);
 }
 
@@ -155,9 +156,9 @@ TEST_F(PlanTest, APackingsNumberIsTheSeedOfAllThatIsRandom) {
         "[[test]]\ncase = \"tension.toml\"\nset = {\"bond.law\" = \"coulomb\", \"material.tensile_strength\" = 7.0, "
         "\"material.cohesion\" = 9.0, \"bond.strength_distribution\" = \"weibull\", \"bond.strength_cv\" = 0.3, "
         "\"bond.strength_seed\" = 77}\n[packings]\ncount = 2\nfirst_seed = 5\n");
-    const TestCase second = plan.test_of(plan.rows[1]);
-    EXPECT_EQ(second.packing.seed, 6);
-    EXPECT_EQ(second.bond.strength_seed, 6);
+    const ResolvedCase second = plan.test_of(plan.rows[1]);
+    EXPECT_EQ(second.packing()->seed, 6);
+    EXPECT_EQ(second.bond.random->seed, 6);
 }
 
 TEST_F(PlanTest, APackingsNumberIsTheSeedOfItsJointsToo) {
@@ -167,7 +168,7 @@ TEST_F(PlanTest, APackingsNumberIsTheSeedOfItsJointsToo) {
     const Plan plan = plan_of("[[test]]\ncase = \"jointed.toml\"\n[packings]\ncount = 2\nfirst_seed = 5\n");
     EXPECT_EQ(plan.test_of(plan.rows[0]).joints.seed, 5);
     EXPECT_EQ(plan.test_of(plan.rows[1]).joints.seed, 6);
-    EXPECT_EQ(plan.test_of(plan.rows[1]).packing.seed, 6);
+    EXPECT_EQ(plan.test_of(plan.rows[1]).packing()->seed, 6);
 }
 
 TEST_F(PlanTest, ThoseThatAreShippedArePossible) {

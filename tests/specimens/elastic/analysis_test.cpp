@@ -4,6 +4,7 @@
 
 #include "specimens/elastic/analysis.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/displace.hpp"
 #include "specimens/loading/prepare.hpp"
 
@@ -149,7 +150,7 @@ TEST_F(ElasticAnalysisOf, FirstBreakIsTheLeastOfAllBondsAndNoneBreaksBeforeItSli
 }
 
 /// A square lattice of discs between walls instead of the small rock, written with the given number of digits.
-TestCase square_lattice_case(const testing::ScratchFolder& folder, const SmallCase& wanted, const char* digits) {
+ResolvedCase square_lattice_case(const testing::ScratchFolder& folder, const SmallCase& wanted, const char* digits) {
     const std::filesystem::path file = testing::write_small_case(folder / "", wanted);
     constexpr double radius = 0.5, overlap = 1e-4;
     Scene lattice = square_lattice(10, 20, radius, overlap, testing::small_rock_scene().materials[0]);
@@ -172,9 +173,8 @@ TEST_F(ElasticAnalysisOf, ALatticeSqueezedAlongItsAxisHasNoFirstEventAndNoRateOf
         SmallCase wanted;
         wanted.kind = "compression";
         wanted.max_strain = 0.002;
-        TestCase described = square_lattice_case(scratch_, wanted, digits);
-        described.loading.axial_strain_rate.reset();
-        described.loading.rate_tolerance = 0.1;
+        ResolvedCase described = square_lattice_case(scratch_, wanted, digits);
+        described.loading.rate = parts::RateTolerance{0.1};
         const VirtualTest test = prepare_test(described);
         const ElasticAnalysis a = analysed(test, 1e-5);
         EXPECT_FALSE(a.first_break) << digits << ": at " << a.first_break->strain;
@@ -213,19 +213,18 @@ TEST(FreeMotions, AreCountedAndNamedAndDoNotSpoilTheSolution) {
 
 /// Discs without shear springs roll on each other: 584 contacts do not constrain all of the 3 x 304 motions.
 TEST(ElasticAnalysis, NamesAMechanismWhichHasNoModulus) {
-    const TestCase rock =
+    const ResolvedCase rock =
         read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/guide_rock/circles_tension.toml");
     EXPECT_TRUE(bond_test(rock).small_strain);
-    TestCase smooth = rock, loose = rock;
+    ResolvedCase smooth = rock, loose = rock;
     smooth.material.friction_angle = 0.0;
     loose.material.shear_stiffness = 0.0;
-    for (TestCase test : {smooth, loose}) {
+    for (ResolvedCase test : {smooth, loose}) {
         const VirtualTest made = bond_test(test);
         EXPECT_FALSE(made.small_strain);
         EXPECT_NE(made.no_small_strain.find("found a mechanism"), std::string::npos) << made.no_small_strain;
         EXPECT_TRUE(std::isnan(made.state.youngs_modulus));
-        test.loading.axial_strain_rate.reset();
-        test.loading.rate_tolerance = 0.01;
+        test.loading.rate = parts::RateTolerance{0.01};
         try {
             prepare_test(test);
             ADD_FAILURE() << "expected an error, got a rate";

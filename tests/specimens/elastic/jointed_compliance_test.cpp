@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "specimens/case/case_file.hpp"
 #include "tests/specimens/joints/cases.hpp"
 
 namespace crackle {
@@ -34,13 +35,14 @@ TEST(JointedCompliance, OfPersistentTracesIsThatOfTheTheory) {
 
 // The specimen for comparison has the same flat faces, so the difference is due to the joint alone.
 TEST(JointedCompliance, OfCirclesIsThatOfTheTheory) {
-    TestCase asked = read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/jointed/softrock_welded.toml");
-    TestCase::JointSet& set = asked.joint_set[0];
-    set.angle = 0.0;
-    set.spacing = 0.083;  // m, so that there is one joint, in the middle
-    set.through = {0.02, 0.0415};
-    set.own.normal_stiffness = 4e11;
-    set.own.shear_stiffness = 1.6e11;
+    ResolvedCase asked =
+        read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/jointed/softrock_welded.toml");
+    JointSet& set = asked.joints.sets[0];
+    set.directions = OrientationLaw::fixed(0.0);
+    set.amount = {AmountKind::spacing, 0.083, LengthLaw::fixed(0.083),
+                  Vec2{0.02, 0.0415}};  // m, so that there is one joint, in the middle
+    set.mechanics->normal_stiffness = 4e11;
+    set.mechanics->shear_stiffness = 1.6e11;
     const auto found = jointed_compliance(asked, {});
     ASSERT_TRUE(found && found->expected) << (found ? found->why_not : "nothing");
     const double ragged = 2.66e-3 / 0.083;  // error due to rows: a diameter divided by the spacing

@@ -14,6 +14,7 @@
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/making/materials.hpp"
@@ -174,7 +175,7 @@ TEST_F(Clustering, PartsWhatIsFarInPlaceOrTime) {
 TEST(EmissionRule, TakesTheSpeedFromModuliAndMassesInEitherUnits) {
     const testing::ScratchFolder scratch;
     testing::write_circles_rock(scratch / "");
-    TestCase wanted = read_case(scratch / "compression.toml");
+    ResolvedCase wanted = read_case(scratch / "compression.toml");
     wanted.output.emission = true;
     const VirtualTest area = prepare_test(wanted);
     const EmissionRule& rule = area.state.emission.rule;

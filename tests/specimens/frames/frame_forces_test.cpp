@@ -13,6 +13,7 @@
 
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/frames/fragments.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
@@ -176,7 +177,8 @@ TEST_F(FrameForcesOfRock, OfASpecimenUnderPressureAreThoseOfItsPoints) {
 
 // Between flat faces, the overlap at zero force depends on the rotation of the circles.
 TEST_F(FrameForcesOfRock, OfFlatFacesAreThoseOfTheirPoints) {
-    TestCase asked = read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/jointed/softrock_welded.toml");
+    ResolvedCase asked =
+        read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/jointed/softrock_welded.toml");
     asked.loading.max_axial_strain = 0.004;  // shortly before the peak
     VirtualTest test = prepare_test(asked);
     load_specimen(test);

@@ -18,6 +18,7 @@
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/step.hpp"
 #include "solver/world/point_order.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/frames/frame_painter.hpp"
 #include "specimens/frames/read_frames.hpp"
 #include "specimens/loading/load_specimen.hpp"

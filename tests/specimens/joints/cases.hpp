@@ -11,10 +11,10 @@
 
 namespace crackle::testing {
 
-inline TestCase joints_of(const std::string& text) {
+inline JointRequest joints_of(const std::string& text) {
     const ScratchFolder folder;
     std::ofstream(folder / "joints.toml") << text;
-    return CaseFiles(folder / "joints.toml").joints();
+    return CaseFiles(folder / "joints.toml").joints().joints;
 }
 
 /// A case of triangles to which joints can be added.
@@ -61,7 +61,7 @@ kind = "compression"
 max_axial_strain = 0.01
 )";
 
-inline TestCase case_of(const std::string& text) {
+inline ResolvedCase case_of(const std::string& text) {
     const ScratchFolder folder;
     std::ofstream(folder / "case.toml") << text;
     return read_case(folder / "case.toml");

@@ -248,15 +248,15 @@ TEST(CleanTraces, AFineCurveHasAsManyPointsAsItTakes) {
 TEST(CleanTraces, ShippedCasesKeepTheirTraces) {
     for (const char* name : {"survey", "granite_plane", "granite_slipping", "granite_bridges", "granite_set",
                              "softrock_slipping", "granite_welded", "softrock_welded"}) {
-        TestCase test =
+        JointCase test =
             CaseFiles(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/jointed" / (std::string(name) + ".toml"))
                 .joints();
-        const Domain domain = box(test.packing.width.value_or(0.05), test.packing.height.value_or(0.1));
+        const Domain domain = box(test.width.value_or(0.05), test.height.value_or(0.1));
         for (const std::size_t centres : {800U, 3200U, 20000U}) {
             test.joints.snap = std::nullopt;
-            const JointNetwork cleaned = make_joints(test, domain, centres);
+            const JointNetwork cleaned = make_joints(test.joints, domain, centres);
             test.joints.snap = 0.0;
-            const JointNetwork given = make_joints(test, domain, centres);
+            const JointNetwork given = make_joints(test.joints, domain, centres);
             fmt::print("  {} of {}: {}\n", name, centres, cleaning_text(cleaned.cleaning));
             ASSERT_EQ(cleaned.traces.size(), given.traces.size()) << name;
             for (std::size_t k = 0; k < given.traces.size(); ++k)

@@ -175,7 +175,7 @@ TEST(JointNetwork, LinesAtASpacingThatScatterHaveItsFrequencyAcrossTheirMean) {
     const double spacing = 5e-5;
     for (const double deviation : {60.0, 85.0}) {
         for (const char* through : {"", "through = [0.3, 0.9]\n"}) {
-            const TestCase test = joints_of(
+            const JointRequest test = joints_of(
                 set_of(fmt::format("orientation = \"uniform\"\nangle = 20.0\nangle_deviation = {}\nspacing = {}\n{}",
                                    deviation, spacing, through)));
             double across = 0.0;
@@ -200,10 +200,10 @@ TEST(JointNetwork, GapsLeaveThePersistence) {
 TEST(JointNetwork, TheRimIsNoDifferentFromTheMiddle) {
     for (const char* length : {lengths[3], lengths[4]}) {
         const std::string text = set_of(std::string(directions[1]) + length + "number = 30000\n");
-        const TestCase test = joints_of(text);
+        const JointRequest test = joints_of(text);
         const Domain domain = box(1.0, 1.0);
         const JointNetwork network = make_joints(test, domain);
-        const LengthLaw law = length_law(test.joint_set.front());
+        const LengthLaw law = std::get<LengthLaw>(test.sets.front().length);
         std::vector<double> whole;
         double rim = 0.0, all = 0.0;
         const Domain core = box(0.5, 0.5, 0.25, 0.25);
@@ -246,7 +246,7 @@ TEST(JointNetwork, MeasuredTracesAreScaledMovedAndClipped) {
     std::ofstream(folder / "survey.txt") << "100 0 100 400 300 400\n900 0 900 100\n";
     std::ofstream(folder / "joints.toml") << "[[trace]]\nfile = \"survey.txt\"\nscale = 0.01\noffset = [-0.5, -1.0]\n"
                                              "[[trace]]\nname = \"own\"\npoints = [0.0, 1.0, 2.0, 1.0]\n";
-    const JointNetwork network = make_joints(CaseFiles(folder / "joints.toml").joints(), box(2.0, 2.0));
+    const JointNetwork network = make_joints(CaseFiles(folder / "joints.toml").joints().joints, box(2.0, 2.0));
     ASSERT_EQ(network.traces.size(), 2U);
     EXPECT_EQ(network.traces[0].points, (std::vector<Vec2>{{0.5, 0.0}, {0.5, 2.0}}));
     EXPECT_EQ(network.traces[0].whole_length, 6.0);

@@ -6,6 +6,7 @@
 
 #include <sstream>
 
+#include "specimens/case/case_file.hpp"
 #include "specimens/case/joint_checks.hpp"
 #include "tests/specimens/joints/cases.hpp"
 #include "tests/support/refusal.hpp"
@@ -174,17 +175,16 @@ file = "survey.txt"
 scale = 0.001
 )";
     std::ofstream(folder / "survey.txt") << "0 0 1 1\n";
-    const TestCase test = read_case(folder / "joints.toml");
+    const ResolvedCase test = read_case(folder / "joints.toml");
     std::filesystem::create_directory(folder / "out");
     std::ostringstream text;
     write_resolved_case(text, test, folder / "out");
     std::ofstream(folder / "out" / "case.toml") << text.str();
-    const TestCase again = read_case(folder / "out" / "case.toml");
-    EXPECT_EQ(again.joints.section_trend, 20.0);
-    ASSERT_EQ(again.joint_set.size(), 1U);
-    EXPECT_EQ(again.joint_set[0].through, (std::vector<double>{0.1, 0.2}));
-    EXPECT_EQ(again.joint_set[0].fisher_k, 50.0);
-    EXPECT_EQ(again.resolve_path("trace[1].file", *again.trace[0].file), (folder / "survey.txt").lexically_normal());
+    const ResolvedCase again = read_case(folder / "out" / "case.toml");
+    ASSERT_EQ(again.joints.sets.size(), 1U);
+    EXPECT_EQ(again.joints.sets[0].amount.through, (Vec2{0.1, 0.2}));
+    EXPECT_EQ(again.joints.sets[0].directions.mean(), test.joints.sets[0].directions.mean());
+    EXPECT_EQ(std::get<TraceFile>(again.joints.traces[0].from).path, (folder / "survey.txt").lexically_normal());
     const auto files = files_read(test);
     EXPECT_NE(std::find(files.begin(), files.end(), (folder / "survey.txt").lexically_normal()), files.end());
 }

@@ -21,7 +21,7 @@ using testing::within;
 constexpr double degree = std::numbers::pi / 180.0;
 
 JointReport report_of(const std::string& text, const Domain& domain) {
-    const TestCase test = joints_of(text);
+    const JointRequest test = joints_of(text);
     return report_joints(test, make_joints(test, domain));
 }
 

@@ -11,8 +11,8 @@
 #include <numbers>
 
 #include "solver/base/errors.hpp"
-#include "specimens/case/case_file.hpp"
 #include "specimens/case/parameters.hpp"
+#include "specimens/parts/resolved_case.hpp"
 #include "tests/bench/verify/scenes/lattice_case.hpp"
 #include "tests/support/claim.hpp"
 
@@ -28,6 +28,11 @@ TEST(TestKinds, TheCaseKnowsEveryKindByItsName) {
     for (const std::string& name : names_of<LoadingKind>()) {
         const LoadingKind value = *from_name<LoadingKind>(name);
         const TestKind& kind = test_kind(value);
+        ResolvedCase test;
+        test.loading.kind = value;
+        EXPECT_EQ(kind.kind, value) << name;
+        EXPECT_EQ(test.uniaxial(), kind.uniaxial) << name;
+        EXPECT_EQ(test.pressed(), kind.shear_box || test.confined()) << name;
         EXPECT_EQ(kind.apparatus == nullptr, kind.uniaxial) << name;
         for (const KindKey& one : kind.keys) {
             const std::string key = one.key, table = key.substr(0, key.find('.'));
@@ -62,7 +67,7 @@ TEST(TestKinds, ANotchPartsWhatLiesOnEitherSideOfIt) {
 /// Checks that jaws are at the positions given by the parts of a test: the outline and the face of each jaw differ by
 /// the distance at which contact begins.
 TEST(TestKinds, JawsThatAreNotBondedJustTouchTheDisc) {
-    TestCase test;
+    ResolvedCase test;
     test.loading.kind = LoadingKind::brazilian;
     test.loading.platens = PlatenKind::frictional;
     constexpr double reach = 1e-5;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "specimens/case/case_file.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/small_rock.hpp"
@@ -36,7 +37,7 @@ TEST(StrainOfShare, CountsOnlyWhatCanBreak) {
 
 TEST(TestCheck, CountsGrainsStepsAndSeconds) {
     const testing::ScratchFolder scratch;
-    const TestCase test = read_case(testing::write_small_case(scratch / "", {}));
+    const ResolvedCase test = read_case(testing::write_small_case(scratch / "", {}));
     const TestCheck check = check_test(test);
     const TestSetup& setup = check.test.setup;
     EXPECT_TRUE(
@@ -119,8 +120,8 @@ TEST(TestCheck, CornersComeNearerToAPlatenAsTheThicknessShrinks) {
     const auto pressed = [](const char* thick, const char* bond) {
         const testing::ScratchFolder scratch;
         const auto file = testing::write_small_case(scratch / "", {.kind = "compression", .mesh = "voronoi"});
-        TestCase test = read_case(file);
-        test.mesh.thick = std::stod(thick);
+        ResolvedCase test = read_case(file);
+        test.mesh->gap = parts::MeshGap{std::stod(thick), {}};
         test.bond.thick = std::stod(bond);
         return check_test(test);
     };
@@ -134,9 +135,8 @@ TEST(TestCheck, CornersComeNearerToAPlatenAsTheThicknessShrinks) {
 
 TEST(TestCheck, OfATestByToleranceTheRateMayFall) {
     const testing::ScratchFolder scratch;
-    TestCase test = read_case(testing::write_small_case(scratch / "", {}));
-    test.loading.axial_strain_rate.reset();
-    test.loading.rate_tolerance = 0.01;
+    ResolvedCase test = read_case(testing::write_small_case(scratch / "", {}));
+    test.loading.rate = parts::RateTolerance{0.01};
     const TestCheck check = check_test(test);
     EXPECT_TRUE(agrees("slowest rate over the first", check.slowest_rate / check.rate, 0.15, 1e-12));
 }

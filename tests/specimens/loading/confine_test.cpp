@@ -14,6 +14,7 @@
 #include "solver/measure/ledger.hpp"
 #include "solver/membrane/wrap.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/elastic/held_parts.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
@@ -29,8 +30,8 @@ using testing::within;
 
 class Confined : public ::testing::Test {
   protected:
-    TestCase described(const std::string& mesh, double pressure, const std::string& loading = {},
-                       const std::string& side = "membrane") const {
+    ResolvedCase described(const std::string& mesh, double pressure, const std::string& loading = {},
+                           const std::string& side = "membrane") const {
         testing::SmallCase wanted;
         wanted.kind = "biaxial";
         wanted.mesh = mesh;
@@ -80,7 +81,7 @@ TEST_F(Confined, SpecimenThatItsPlatensDoNotHoldIsRefusedSoon) {
                         << "title = \"smooth platens\"\n[packing]\ncount = 300\n[confinement]\npressure = 5e6\n"
                         << "[loading]\nkind = \"biaxial\"\nmax_axial_strain = 0.01\nplatens = \"frictional\"\n"
                         << "platen_friction_angle = 0.01\n";
-    const TestCase smooth = read_case(file);
+    const ResolvedCase smooth = read_case(file);
     std::string refused;
     try {
         VirtualTest prepared = prepare_test(smooth);
@@ -146,9 +147,9 @@ TEST_F(Confined, WallsDoTheWorkOfTheirForceAndTheEnergyCloses) {
 
 TEST_F(Confined, SpecimenBetweenWallsHasTheModulusOfItsSolutionAndIsNoSofterThanInAMembrane) {
     for (const char* mesh : {"", "voronoi"}) {
-        TestCase description = described(mesh, pressure, {}, "walls");
+        ResolvedCase description = described(mesh, pressure, {}, "walls");
         description.loading.max_axial_strain = 1e-4;  // small enough that initial waves would be noticed
-        *description.loading.axial_strain_rate = 5e-4;
+        description.loading.rate = parts::StrainRate{5e-4};
         VirtualTest test = prepare_test(description);
         const double solved = nominal_stress(test.setup.apparatus, test.small_strain->moduli.solution.reaction);
         load_specimen(test);
@@ -164,9 +165,8 @@ TEST_F(Confined, SpecimenBetweenWallsHasTheModulusOfItsSolutionAndIsNoSofterThan
 
 TEST_F(Confined, LoadingBetweenWallsBeginsWithoutAShock) {
     for (const char* mesh : {"", "voronoi"}) {
-        TestCase description = described(mesh, pressure, {}, "walls");
-        description.loading.axial_strain_rate.reset();
-        description.loading.rate_tolerance = 0.01;
+        ResolvedCase description = described(mesh, pressure, {}, "walls");
+        description.loading.rate = parts::RateTolerance{0.01};
         VirtualTest test = prepare_test(description);
         const auto kinetic = [&] {
             compute_forces(test.world);
@@ -197,10 +197,10 @@ TEST_F(Confined, StressOnThePlatensIsTheirsAloneAndItsEnergyCloses) {
 
 TEST_F(Confined, SpecimenThatHoldsHasTheModulusOfTheSolveWhateverThePressure) {
     for (const char* mesh : {"", "voronoi"}) {
-        TestCase description = described(mesh, pressure);
+        ResolvedCase description = described(mesh, pressure);
         description.numerics.intact = true;
         description.loading.max_axial_strain = 1e-4;
-        *description.loading.axial_strain_rate = 5e-4;
+        description.loading.rate = parts::StrainRate{5e-4};
         VirtualTest test = prepare_test(description);
         load_specimen(test);
         const CurveRow &first = test.state.rows.front(), &last = test.state.rows.back();

@@ -11,6 +11,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/loading/press.hpp"
@@ -26,8 +27,8 @@ using testing::within;
 
 class Kinds : public ::testing::Test {
   protected:
-    TestCase described(const std::string& kind, const std::string& mesh, const std::string& loading, double rate = 0.01,
-                       const std::string& numerics = {}) const {
+    ResolvedCase described(const std::string& kind, const std::string& mesh, const std::string& loading,
+                           double rate = 0.01, const std::string& numerics = {}) const {
         testing::SmallCase wanted;
         wanted.kind = kind;
         wanted.mesh = mesh;
@@ -38,7 +39,7 @@ class Kinds : public ::testing::Test {
         return read_case(testing::write_small_case(scratch_ / "", wanted));
     }
     /// Circles of a few millimetres in the shear box under 5 MPa. @param tables TOML tables of traces and mesh
-    TestCase packed(const std::string& tables, double max_strain) const {
+    ResolvedCase packed(const std::string& tables, double max_strain) const {
         std::ofstream(scratch_ / "packed.toml") << fmt::format(
             "[packing]\nwidth = 0.03\nheight = 0.02\nradius_min = 0.9e-3\nradius_max = 1.6e-3\nmean_overlap = "
             "1e-6\nseed = 4\n"
@@ -70,7 +71,7 @@ TEST_F(Kinds, BoxPressesCirclesThatMeetByTheNormalStress) {
 // The joint separates the boxes from side to side, so its normal and shear stresses are the forces on the boxes divided
 // by its length.
 TEST_F(Kinds, OpenJointAmongCirclesSlidesAtItsFriction) {
-    TestCase description = packed(open_joint, 4e-4);
+    ResolvedCase description = packed(open_joint, 4e-4);
     description.loading.strength_drop = 1.0;  // it continues to slide
     VirtualTest test = prepare_test(description);
     const double strength = 5e6 * std::tan(30.0 * std::numbers::pi / 180.0);
@@ -132,7 +133,7 @@ TEST_F(Kinds, NormalForceStaysWhenShearingBeginsAndDoesItsWork) {
 
 TEST_F(Kinds, NormalStiffnessMakesTheNormalForceGrowWithTheRise) {
     constexpr double normal = 1e3, stiffness = 1e8;  // N/m, N/m2
-    TestCase description = described("direct_shear", "", "normal_stress = 1e3\nnormal_stiffness = 1e8");
+    ResolvedCase description = described("direct_shear", "", "normal_stress = 1e3\nnormal_stiffness = 1e8");
     description.loading.max_axial_strain = 0.02;  // beyond its strength, so that it dilates
     VirtualTest test = prepare_test(description);
     load_specimen(test);
@@ -157,7 +158,7 @@ TEST_F(Kinds, NormalStiffnessMakesTheNormalForceGrowWithTheRise) {
 
 TEST_F(Kinds, EnergyClosesWhenShearedFarBeyondTheStrength) {
     for (const char* mesh : {"", "delaunay", "voronoi"}) {
-        TestCase description = described("direct_shear", mesh, "normal_stress = 2e4");
+        ResolvedCase description = described("direct_shear", mesh, "normal_stress = 2e4");
         description.loading.max_axial_strain = 0.1;
         VirtualTest test = prepare_test(description);
         load_specimen(test);
@@ -187,7 +188,7 @@ TEST_F(Kinds, StressRisesByTheLinearSolutionsModulus) {
         for (const char* mesh : {"", "voronoi"}) {
             // A specimen six circles wide is not a disc, and a pad that touches a single circle rotates about it.
             if (*mesh == '\0' && std::string(kind) != "direct_shear") continue;
-            TestCase description = described(kind, mesh, loading, 1e-3, "intact = true");
+            ResolvedCase description = described(kind, mesh, loading, 1e-3, "intact = true");
             description.loading.max_axial_strain = 1e-4;
             VirtualTest test = prepare_test(description);
             ASSERT_TRUE(test.small_strain) << kind << test.no_small_strain;

@@ -12,6 +12,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/kinds/test_kind.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
@@ -30,11 +31,11 @@ using testing::SmallCase;
 
 class ExpectedRun : public ::testing::Test {
   protected:
-    TestCase small_case(const SmallCase& wanted = {}) const {
+    ResolvedCase small_case(const SmallCase& wanted = {}) const {
         return read_case(testing::write_small_case(scratch_ / "", wanted));
     }
     /// The message for a refused test, which must not leave a folder behind.
-    std::string refusal(const TestCase& test) const {
+    std::string refusal(const ResolvedCase& test) const {
         TestOptions options;
         options.folder = scratch_ / "out";
         try {
@@ -46,7 +47,7 @@ class ExpectedRun : public ::testing::Test {
         }
         return "went through";
     }
-    void expect_refused(const TestCase& test, const std::string& key) const {
+    void expect_refused(const ResolvedCase& test, const std::string& key) const {
         const std::string message = refusal(test);
         EXPECT_NE(message.find("max_axial_strain"), std::string::npos) << message;
         EXPECT_NE(message.find("--long"), std::string::npos) << message;
@@ -71,9 +72,8 @@ TEST_F(ExpectedRun, WithoutAnEndInSightIsRefusedByTheKeyThatMakesItSo) {
     SmallCase slow;
     slow.rate = 1e-12;
     expect_refused(small_case(slow), "loading.axial_strain_rate = 1e-12 1/s");
-    TestCase slippery = small_case();
-    slippery.loading.axial_strain_rate.reset();
-    slippery.loading.rate_tolerance = 0.01;
+    ResolvedCase slippery = small_case();
+    slippery.loading.rate = parts::RateTolerance{0.01};
     slippery.material.friction_angle = 1e-12;
     expect_refused(slippery, "check friction angles and strengths");
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "tests/support/claim.hpp"
@@ -17,7 +18,7 @@ namespace {
 using testing::agrees;
 
 VirtualTest bonded(const std::string& specimen, SegmentLaw law) {
-    TestCase test =
+    ResolvedCase test =
         read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/guide_rock" / (specimen + "_tension.toml"));
     test.numerics.contact_law = law;
     return prepare_test(test);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "tests/support/claim.hpp"
@@ -54,14 +55,13 @@ TEST(LateralControl, FollowsABarSteadilyAndGoesBackFromABurst) {
 
 class WidenedRock : public ::testing::Test {
   protected:
-    TestCase controlled(const std::string& mesh, double max_strain) const {
+    ResolvedCase controlled(const std::string& mesh, double max_strain) const {
         SmallCase wanted;
         wanted.kind = "compression";
         wanted.mesh = mesh;
         wanted.max_strain = max_strain;
-        TestCase description = read_case(testing::write_small_case(scratch_ / "", wanted));
-        description.loading.axial_strain_rate.reset();
-        description.loading.rate_tolerance = 0.01;
+        ResolvedCase description = read_case(testing::write_small_case(scratch_ / "", wanted));
+        description.loading.rate = parts::RateTolerance{0.01};
         description.loading.control = LoadingControl::lateral;
         return description;
     }
@@ -69,12 +69,12 @@ class WidenedRock : public ::testing::Test {
 };
 
 TEST_F(WidenedRock, IsLoadedAsByAxialStrainWhileNothingBreaks) {
-    TestCase description = controlled("", 4e-4);
+    ResolvedCase description = controlled("", 4e-4);
     description.numerics.intact = true;
     description.loading.max_axial_strain = 3.0 * prepare_test(description).setup.rate_rule.first_strain;
     VirtualTest test = prepare_test(description);
     load_specimen(test);
-    description.loading.control.reset();
+    description.loading.control = LoadingControl::axial;
     VirtualTest axial = prepare_test(description);
     load_specimen(axial);
     ASSERT_EQ(test.state.ended_by, ended_by_strain);
@@ -89,8 +89,8 @@ TEST_F(WidenedRock, IsLoadedAsByAxialStrainWhileNothingBreaks) {
 
 TEST_F(WidenedRock, BreakingSpecimenWidensNoFasterThanItsTarget) {
     const auto widening = [&](bool lateral) {
-        TestCase description = controlled("voronoi", 0.02);
-        if (!lateral) description.loading.control.reset();
+        ResolvedCase description = controlled("voronoi", 0.02);
+        if (!lateral) description.loading.control = LoadingControl::axial;
         VirtualTest test = prepare_test(description);
         load_specimen(test);
         EXPECT_TRUE(test.state.failure.failed);

@@ -12,6 +12,7 @@
 
 #include "solver/stepping/controls.hpp"
 #include "solver/world/state_hash.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "tests/support/claim.hpp"
@@ -32,10 +33,9 @@ class OwnLoading : public ::testing::Test {
     }
     /// A test loaded by a tolerance instead of a rate.
     VirtualTest tolerant(const std::vector<double>& unload_at_strain) {
-        TestCase description = read_case(testing::write_small_case(scratch_ / "", brief()));
-        description.loading.axial_strain_rate.reset();
-        description.loading.rate_tolerance = 0.05;
-        if (!unload_at_strain.empty()) description.loading.unload_at_strain = unload_at_strain;
+        ResolvedCase description = read_case(testing::write_small_case(scratch_ / "", brief()));
+        description.loading.rate = parts::RateTolerance{0.05};
+        description.loading.unloading = {true, unload_at_strain, 0.1};
         return prepare_test(description);
     }
     static SmallCase brief() {

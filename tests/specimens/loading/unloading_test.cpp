@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "solver/base/errors.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/measures/cycles.hpp"
@@ -32,10 +33,7 @@ TEST(Unloading, ABarTurnsWhereItIsAskedToWithoutMoreThanItsAcceleration) {
     rate.transit_time = 0.02;
     rate.first_strain = 1e-3;
     constexpr double modulus = 5e6;
-    TestCase::Loading loading;
-    loading.unload_at_strain = {2e-3, 4e-3};
-    loading.unload_to = 0.25;
-    const UnloadRule rule = unload_rule_of(loading, rate, modulus);
+    const UnloadRule rule = unload_rule_of({true, {2e-3, 4e-3}, 0.25}, rate, modulus);
     // ρ height² a/2 = E T² a/2, the stress that accelerates the bar, is the tolerance times E ε1.
     EXPECT_TRUE(agrees("out-of-balance by it, N/m",
                        modulus * rate.transit_time * rate.transit_time * rule.acceleration / 2.0,
@@ -70,9 +68,7 @@ TEST(Unloading, NeverStandsStillBeforeAStressThatIsNotReached) {
     rate.tolerance = 0.01;
     rate.transit_time = 0.02;
     rate.first_strain = 1e-3;
-    TestCase::Loading loading;
-    loading.unload_at_stress = {1000.0};
-    const UnloadRule rule = unload_rule_of(loading, rate, 1e6);
+    const UnloadRule rule = unload_rule_of({false, {1000.0}, 0.1}, rate, 1e6);
     LoadingPath path;
     path.speed = largest_rate(rate);
     for (int n = 0; n < 1000; ++n) turn_by_list(path, rule, largest_rate(rate), 1e-3, 999.9, 1e-3);
@@ -81,25 +77,24 @@ TEST(Unloading, NeverStandsStillBeforeAStressThatIsNotReached) {
 
 class UnloadedRock : public ::testing::Test {
   protected:
-    TestCase loaded(const std::string& kind, const std::string& mesh, double max_strain) const {
+    ResolvedCase loaded(const std::string& kind, const std::string& mesh, double max_strain) const {
         SmallCase wanted;
         wanted.kind = kind;
         wanted.mesh = mesh;
         wanted.max_strain = max_strain;
-        TestCase description = read_case(testing::write_small_case(scratch_ / "", wanted));
-        description.loading.axial_strain_rate.reset();
-        description.loading.rate_tolerance = 0.01;
+        ResolvedCase description = read_case(testing::write_small_case(scratch_ / "", wanted));
+        description.loading.rate = parts::RateTolerance{0.01};
         return description;
     }
     /// Unloaded at two and four times its first strain, and then loaded to six times.
-    TestCase unloaded(const std::string& kind) const {
-        TestCase description = loaded(kind, "", 0.005);
+    ResolvedCase unloaded(const std::string& kind) const {
+        ResolvedCase description = loaded(kind, "", 0.005);
         const double first = prepare_test(description).setup.rate_rule.first_strain;
-        description.loading.unload_at_strain = {2.0 * first, 4.0 * first};
+        description.loading.unloading = {true, {2.0 * first, 4.0 * first}, 0.1};
         description.loading.max_axial_strain = 6.0 * first;
         return description;
     }
-    VirtualTest tested(const TestCase& description) const {
+    VirtualTest tested(const ResolvedCase& description) const {
         VirtualTest test = prepare_test(description);
         load_specimen(test);
         return test;
@@ -109,7 +104,7 @@ class UnloadedRock : public ::testing::Test {
 
 TEST_F(UnloadedRock, ElasticSpecimenHasItsModulusInEveryCycle) {
     for (const char* kind : {"compression", "tension"}) {
-        TestCase description = unloaded(kind);
+        ResolvedCase description = unloaded(kind);
         description.numerics.intact = true;
         const VirtualTest test = tested(description);
         const auto cycles = find_cycles(test.state.rows, test.setup.apparatus.compression);
@@ -118,8 +113,8 @@ TEST_F(UnloadedRock, ElasticSpecimenHasItsModulusInEveryCycle) {
         const double area = test.setup.apparatus.section * test.setup.apparatus.length;
         for (std::size_t k = 0; k < 2; ++k) {
             const LoadingCycle& c = cycles[k];
-            EXPECT_TRUE(within("strain at turn", c.strain, (*description.loading.unload_at_strain)[k],
-                               spacing + 1e-3 * first_strain));
+            EXPECT_TRUE(
+                within("strain at turn", c.strain, description.loading.unloading.at[k], spacing + 1e-3 * first_strain));
             // Dashpots exert no force on platens at rest; the remaining error is the out-of-balance force of the
             // reversal.
             EXPECT_TRUE(agrees("modulus of the cycle, N/m", c.modulus, test.state.youngs_modulus, 0.01));
@@ -140,15 +135,13 @@ TEST_F(UnloadedRock, ElasticSpecimenHasItsModulusInEveryCycle) {
 
 TEST_F(UnloadedRock, CyclesOfOneAmplitudeAllTurnThere) {
     for (const bool by_strain : {true, false}) {
-        TestCase description = unloaded("compression");
+        ResolvedCase description = unloaded("compression");
         description.numerics.intact = true;
         const VirtualTest prepared = prepare_test(description);
         const double first = prepared.setup.rate_rule.first_strain, strain = 2.0 * first;
         const double stress = strain * prepared.state.youngs_modulus;
         description.loading.max_axial_strain = 3.0 * first;
-        description.loading.unload_at_strain.reset();
-        (by_strain ? description.loading.unload_at_strain : description.loading.unload_at_stress) =
-            std::vector<double>(3, by_strain ? strain : stress);
+        description.loading.unloading = {by_strain, std::vector<double>(3, by_strain ? strain : stress), 0.1};
         const VirtualTest test = tested(description);
         const auto cycles = find_cycles(test.state.rows, true);
         ASSERT_EQ(cycles.size(), 3U);
@@ -161,11 +154,11 @@ TEST_F(UnloadedRock, CyclesOfOneAmplitudeAllTurnThere) {
 }
 
 TEST_F(UnloadedRock, WhatBreaksLowersTheModulusAndCostsWork) {
-    TestCase description = loaded("compression", "voronoi", 0.02);
+    ResolvedCase description = loaded("compression", "voronoi", 0.02);
     const VirtualTest plain = tested(description);
     ASSERT_TRUE(plain.state.failure.failed);
     const double peak = plain.state.failure.peak_strain;
-    description.loading.unload_at_strain = {{0.3 * peak, 0.95 * peak}};
+    description.loading.unloading = {true, {0.3 * peak, 0.95 * peak}, 0.1};
     const VirtualTest test = tested(description);
     const auto cycles = find_cycles(test.state.rows, true);
     ASSERT_EQ(cycles.size(), 2U);
@@ -180,7 +173,7 @@ TEST_F(UnloadedRock, WhatBreaksLowersTheModulusAndCostsWork) {
 }
 
 TEST_F(UnloadedRock, GoesOnFromWithinACycleAsIfItHadNotStopped) {
-    const TestCase description = unloaded("compression");
+    const ResolvedCase description = unloaded("compression");
     const VirtualTest whole = tested(description);
     VirtualTest begun = prepare_test(description);
     TestHooks hooks;

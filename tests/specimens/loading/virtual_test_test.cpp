@@ -2,6 +2,7 @@
 // Tests a specimen between its platens: their positions and measurements.
 
 #include "specimens/loading/virtual_test.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 
@@ -217,7 +218,7 @@ TEST_F(VirtualRock, NoTermOfTheAccountOfEnergyCouldBeMissing) {
         SmallCase wanted;
         wanted.mesh = "voronoi";
         wanted.numerics = "safety_factor = 0.4";
-        TestCase description = read_case(write_small_case(scratch_ / "", wanted));
+        ResolvedCase description = read_case(write_small_case(scratch_ / "", wanted));
         description.material.damping_ratio.reset();
         description.material.normal_damping = shear ? 0.0 : 2000.0;  // N s/m, about 0.2 of critical
         description.material.shear_damping = shear ? 1000.0 : 0.0;
@@ -243,7 +244,7 @@ TEST_F(VirtualRock, HalfTheStepIsHalfAlsoWhereTheBoundRulesIt) {
         SmallCase wanted;
         wanted.mesh = "voronoi";
         wanted.numerics = std::string("safety_factor = ") + share;
-        TestCase description = read_case(write_small_case(scratch_ / "", wanted));
+        ResolvedCase description = read_case(write_small_case(scratch_ / "", wanted));
         VirtualTest whole = prepare_test(description);
         description.step_scale = 0.5;
         VirtualTest half = prepare_test(description);

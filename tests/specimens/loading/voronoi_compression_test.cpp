@@ -12,6 +12,7 @@
 
 #include "solver/world/checkpoint.hpp"
 #include "solver/world/world.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/loading/run.hpp"
@@ -32,11 +33,10 @@ using verification::hash_of;
 
 constexpr int steps_between_questions = 64;  // between calls that ask the loading loop to stop
 
-TestCase fast_case() {
-    TestCase test =
+ResolvedCase fast_case() {
+    ResolvedCase test =
         read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/guide_rock/voronoi_compression.toml");
-    test.loading.rate_tolerance.reset();
-    test.loading.axial_strain_rate = 0.05;
+    test.loading.rate = parts::StrainRate{0.05};
     return test;
 }
 
@@ -81,7 +81,7 @@ TEST(VoronoiCompression, HasTheSameStateForAnyNumberOfThreadsPastFailure) {
 
 TEST(VoronoiCompression, HasTheSameFilesForAnyNumberOfThreadsAndResumedAtFiveRandomSteps) {
     const ScratchFolder scratch;
-    const TestCase test = fast_case();
+    const ResolvedCase test = fast_case();
     TestOptions options;
     options.command = "crackle test";
     options.folder = scratch / "one";

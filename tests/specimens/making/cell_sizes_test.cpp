@@ -22,16 +22,11 @@ namespace {
 using testing::agrees;
 using testing::within;
 
-TestCase cells_case(MeshKind kind, double diameter, double spread) {
-    TestCase test;
-    test.source = "cells.toml";
-    test.table_present["packing"] = test.table_present["mesh"] = true;
-    test.packing.count = 300;
-    test.packing.height_to_width = 2.0;
-    test.packing.cell_diameter = diameter;
-    test.packing.cell_spread = spread;
-    test.packing.mean_overlap = 0.002 * diameter;
-    test.mesh.kind = kind;
+ResolvedCase cells_case(MeshKind kind, double diameter, double spread, RadiusLaw sizes = RadiusLaw::uniform) {
+    ResolvedCase test;
+    test.source = parts::Packing{parts::CircleCount{300, 2.0}, parts::MeanOverlap{0.002 * diameter},
+                                 parts::CellDiameters{sizes, diameter, spread}, 1};
+    test.mesh = {kind, parts::DerivedGap{}};
     test.material.density = 2500.0;
     test.material.normal_stiffness = 1e7;
     test.material.shear_stiffness = 2.5e6;
@@ -75,10 +70,9 @@ TEST(CellSizes, AskedForAreReached) {
          {Asked{MeshKind::voronoi, RadiusLaw::uniform, 0.12}, Asked{MeshKind::voronoi, RadiusLaw::lognormal, 0.24},
           Asked{MeshKind::voronoi, RadiusLaw::lognormal, 0.35}, Asked{MeshKind::delaunay, RadiusLaw::uniform, 0.2},
           Asked{MeshKind::delaunay, RadiusLaw::lognormal, 0.5}}) {
-        TestCase test = cells_case(asked.kind, 0.004, asked.spread);
-        test.packing.sizes = asked.sizes;
-        test.mesh.thick = 4e-9;
-        test.mesh.merge_destroyed = true;
+        ResolvedCase test = cells_case(asked.kind, 0.004, asked.spread, asked.sizes);
+        test.mesh->gap = parts::MeshGap{4e-9, {}};
+        test.mesh->merge_destroyed = true;
         const Specimen specimen = make_specimen(test, {});
         const CellSizes made = recounted(specimen.scene);
         const std::string what = std::string(name_of(asked.kind)) + ", " + name_of(asked.sizes);
@@ -95,11 +89,8 @@ TEST(CellSizes, AskedForAreReached) {
 }
 
 TEST(CellSizes, InABoxTakeAsManyCirclesAsFillIt) {
-    TestCase test = cells_case(MeshKind::voronoi, 0.004, 0.15);
-    test.packing.count.reset();
-    test.packing.height_to_width.reset();
-    test.packing.width = 0.06;
-    test.packing.height = 0.1;
+    ResolvedCase test = cells_case(MeshKind::voronoi, 0.004, 0.15);
+    test.packing()->box = parts::Box{0.06, 0.1};
     const Specimen specimen = make_specimen(test, {});
     EXPECT_TRUE(agrees("width", specimen.width, 0.06, 1e-12));
     const double number = 4.0 * 0.06 * 0.1 / (std::numbers::pi * 0.004 * 0.004 * (1.0 + 0.15 * 0.15));
@@ -108,8 +99,7 @@ TEST(CellSizes, InABoxTakeAsManyCirclesAsFillIt) {
 
 TEST(CellSizes, OutOfReachAreRefusedWithTheirKey) {
     const auto refusal = [](double spread, RadiusLaw sizes) -> std::string {
-        TestCase test = cells_case(MeshKind::voronoi, 0.004, spread);
-        test.packing.sizes = sizes;
+        ResolvedCase test = cells_case(MeshKind::voronoi, 0.004, spread, sizes);
         try {
             make_specimen(test, {});
         } catch (const InputError& error) {
@@ -131,13 +121,13 @@ TEST(CellSizes, OutOfReachAreRefusedWithTheirKey) {
 }
 
 TEST(DerivedGap, IsAFiftiethOfTheMeanCellSize) {
-    TestCase test = cells_case(MeshKind::voronoi, 0.004, 0.15);
+    ResolvedCase test = cells_case(MeshKind::voronoi, 0.004, 0.15);
     const Specimen specimen = make_specimen(test, {});
     const double size = std::sqrt(specimen.width * specimen.height / static_cast<double>(specimen.scene.bodies.size()));
     EXPECT_TRUE(agrees("mesh.thick", specimen.mesh_thick, 0.02 * size, 1e-12));
     EXPECT_EQ(specimen.mesh_gap, specimen.mesh_thick);
-    test.mesh.inset = 2e-5;
-    EXPECT_EQ(make_specimen(test, {}).mesh_gap, 4e-5) << "twice the inset, if it is given";
+    test.mesh->gap = parts::MeshGap{4e-5, 2e-5};
+    EXPECT_EQ(make_specimen(test, {}).mesh_gap, 4e-5) << "twice the inset, where that is given";
 }
 
 }  // namespace

@@ -94,13 +94,14 @@ std::pair<std::vector<double>, double> counted_shares(const Specimen& specimen) 
 }
 
 TEST_F(MineralRock, HasWhatItsTableGivesAndTheRestOfMaterial) {
-    const TestCase test = read_case(write(three_minerals));
-    ASSERT_EQ(test.mineral.size(), 3u);
-    EXPECT_EQ(test.mineral[1].name, "feldspar");
-    EXPECT_EQ(test.minerals.assign, MineralAssignment::random);
-    EXPECT_EQ(mineral_material(test, 0).normal_stiffness, 2e7);
-    EXPECT_EQ(mineral_material(test, 0).damping_ratio, 0.2) << "[material]'s";
-    EXPECT_FALSE(mineral_material(test, 1).normal_stiffness.has_value()) << "the file's";
+    const ResolvedCase test = read_case(write(three_minerals));
+    const std::vector<parts::Mineral>& list = test.minerals.list;
+    ASSERT_EQ(list.size(), 3u);
+    EXPECT_EQ(list[1].name, "feldspar");
+    EXPECT_TRUE(std::holds_alternative<parts::RandomGrains>(test.minerals.assign));
+    EXPECT_EQ(list[0].material.normal_stiffness, 2e7);
+    EXPECT_EQ(list[0].material.damping_ratio, 0.2) << "[material]'s";
+    EXPECT_FALSE(list[1].material.normal_stiffness.has_value()) << "the file's";
     const Specimen rock = make_specimen(test, {});
     const auto& materials = rock.scene.materials;
     ASSERT_EQ(materials.size(), 4u) << "the last one is that of the platens";
@@ -139,7 +140,7 @@ TEST_F(MineralRock, EveryNumberOfMaterialIsAKeyOfAMineral) {
 }
 
 TEST_F(MineralRock, ResolvedCaseReadsBackToTheSameResolvedCase) {
-    const TestCase test = read_case(
+    const ResolvedCase test = read_case(
         write("[minerals]\nassign = \"size\"\n" + std::string(three_minerals) +
               "[[mineral_pair]]\nbetween = [\"mica\", \"quartz\"]\nshear_stiffness = 1e6\nfriction_angle = 0\n"));
     std::ostringstream once, twice;
@@ -154,11 +155,10 @@ TEST_F(MineralRock, ResolvedCaseReadsBackToTheSameResolvedCase) {
 TEST_F(MineralRock, OwnListStandsInPlaceOfTheIncludedFiles) {
     write(three_minerals);
     std::ofstream(scratch_ / "own.toml") << "include = \"case.toml\"\n[[mineral]]\nname = \"olivine\"\n";
-    const TestCase test = read_case(scratch_ / "own.toml");
-    ASSERT_EQ(test.mineral.size(), 1u);
-    EXPECT_EQ(test.mineral[0].name, "olivine");
-    EXPECT_FALSE(test.mineral[0].area_share.has_value()) << "the area share of quartz, which had this position";
-    EXPECT_FALSE(test.position.contains("mineral[1].area_share"));
+    const ResolvedCase test = read_case(scratch_ / "own.toml");
+    ASSERT_EQ(test.minerals.list.size(), 1u);
+    EXPECT_EQ(test.minerals.list[0].name, "olivine");
+    EXPECT_FALSE(test.minerals.list[0].asked.has_value()) << "quartz's, which stood at this place";
 }
 
 TEST_F(MineralRock, DrawnSharesMissByNoMoreThanAGrain) {
@@ -188,14 +188,14 @@ TEST_F(MineralRock, SameSeedGivesTheSameGrainsInAnyOrderOfTheFile) {
     EXPECT_EQ(of_seed(1), first);
     std::set<std::map<int, int>> all;
     for (int seed = 0; seed < 8; ++seed) all.insert(of_seed(seed));
-    EXPECT_EQ(all.size(), 8u) << "each seed gives another result";
-    const TestCase test = read_case(write(std::string("[minerals]\nseed = 1\n") + three_minerals));
+    EXPECT_EQ(all.size(), 8u) << "each seed its own";
+    const ResolvedCase test = read_case(write(std::string("[minerals]\nseed = 1\n") + three_minerals));
     Scene scene = testing::small_rock_scene();
     for (CircleElement& circle : scene.circles) circle.radius = testing::rock_radius;
     scene.materials.resize(4, scene.materials[0]);
     std::reverse(scene.bodies.begin(), scene.bodies.end());
     std::vector<std::string> notices;
-    assign_minerals(scene, test, notices);
+    assign_minerals(scene, test.minerals, test.places, notices);
     for (const Body& body : scene.bodies) EXPECT_EQ(body.material, first.at(body.id)) << body.id;
     EXPECT_TRUE(notices.empty());
 }
@@ -208,15 +208,13 @@ TEST_F(MineralRock, NoMineralIsDrawnForPlaceOrSize) {
     scene.materials.resize(3, scene.materials[0]);
     for (std::size_t k = 0; k < scene.circles.size(); ++k)
         scene.circles[k].radius = 0.01 * (1.0 + 0.5 * static_cast<double>(k % 7) / 7.0);
-    TestCase test;
-    test.mineral.resize(2);
-    test.mineral[0] = {"a", 0.5, {}, {}};
-    test.mineral[1] = {"b", 0.5, {}, {}};
+    parts::Minerals minerals;
+    minerals.list = {{"a", {}, 0.5, 0.5}, {"b", {}, 0.5, 0.5}};
     double left = 0.0, large = 0.0, large_all = 0.0;
     for (int seed = 0; seed < 400; ++seed) {
-        test.minerals.seed = seed;
+        minerals.assign = parts::RandomGrains{seed};
         std::vector<std::string> notices;
-        assign_minerals(scene, test, notices);
+        assign_minerals(scene, minerals, {}, notices);
         for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
             const bool first = scene.bodies[b].material == 0;
             if (b % 40 < 20) left += first ? 1.0 : 0.0;
@@ -471,7 +469,7 @@ TEST_F(MineralRock, TwoMineralsOfEqualPropertiesGiveTheBytesOfOne) {
 TEST_F(MineralRock, FramesAndSummaryTellTheMinerals) {
     TestOptions options;
     options.folder = scratch_ / "out";
-    const TestCase test = read_case(write(three_minerals, "voronoi"));
+    const ResolvedCase test = read_case(write(three_minerals, "voronoi"));
     const TestOutcome outcome = run_test(test, options);
     const Specimen rock = make_specimen(test, {});
     const Recording recording = read_test_recording(outcome.folder, 5);

@@ -23,18 +23,14 @@ namespace {
 
 /// Given in N s/m, although the packing itself has a damping ratio.
 TEST(Specimen, DashpotsOfTheCaseReplaceTheRatioThatAPackingHasByItself) {
-    TestCase test;
-    test.source = "dashpots.toml";
-    test.table_present["packing"] = true;
-    test.packing.count = 30;
-    test.packing.height_to_width = 2.0;
-    test.packing.radius_min = 0.015;
-    test.packing.radius_max = 0.025;
-    test.packing.mean_overlap = 7.74e-5;
+    ResolvedCase test;
+    test.source =
+        parts::Packing{parts::CircleCount{30, 2.0}, parts::MeanOverlap{7.74e-5}, UniformRadii{0.015, 0.025}, 1};
     test.material.density = 2500.0;
     test.material.normal_stiffness = 1e7;
     test.material.shear_stiffness = 2.5e6;
     test.material.friction_angle = 27.0;
+    test.material.damping_ratio = default_damping_ratio;
     ASSERT_TRUE(make_specimen(test, {}).scene.materials.at(0).damping_ratio.has_value());
     test.material.normal_damping = 120.0;
     test.material.shear_damping = 40.0;

@@ -10,6 +10,7 @@
 
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/frames/crack_faces.hpp"
 #include "specimens/frames/fragments.hpp"
 #include "specimens/loading/prepare.hpp"

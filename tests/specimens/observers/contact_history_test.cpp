@@ -12,6 +12,7 @@
 
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/frames/crack_faces.hpp"
 #include "specimens/frames/frame_painter.hpp"
 #include "specimens/frames/read_frames.hpp"

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/run.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "tests/support/deck_files.hpp"

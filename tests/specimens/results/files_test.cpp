@@ -16,6 +16,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/base/system_failure.hpp"
 #include "solver/files/read_file.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/frames/frame.hpp"
 #include "specimens/frames/read_frames.hpp"
 #include "specimens/loading/run.hpp"
@@ -48,7 +49,7 @@ class TestFolder : public ::testing::Test {
         wanted.command = "crackle test";
         return wanted;
     }
-    TestCase small_case(const SmallCase& wanted = {}) const {
+    ResolvedCase small_case(const SmallCase& wanted = {}) const {
         return read_case(write_small_case(scratch_ / "", wanted));
     }
     /// Cases that together use every law, unit, factor, way of ending and file.
@@ -111,7 +112,7 @@ class TestFolder : public ::testing::Test {
     }
 
     /// Interrupts a test repeatedly, after `longer` more calls each time, then compares it with an uninterrupted test.
-    void expect_same_resumed(const TestCase& test, int longer, const std::string& what) {
+    void expect_same_resumed(const ResolvedCase& test, int longer, const std::string& what) {
         TestOptions straight = options("straight"), broken = options("broken");
         straight.force = broken.force = true;
         const TestOutcome whole = run_test(test, straight);
@@ -228,7 +229,7 @@ TEST_F(TestFolder, HasTheSameBytesForAnyNumberOfThreads) {
     std::vector<SmallCase> rocks = stated_rocks();
     rocks.push_back(wanted);
     for (const SmallCase& rock : rocks) {
-        const TestCase test = small_case(rock);
+        const ResolvedCase test = small_case(rock);
         TestOptions single = options("one");
         single.force = true;
         const TestOutcome first = run_test(test, single);
@@ -252,11 +253,10 @@ TEST_F(TestFolder, ResumedEndsWithTheBytesOfAnUninterruptedTest) {
         wanted.mesh = *mesh == 'v' ? "voronoi" : "";
         if (std::string(mesh).ends_with("demseg")) wanted.numerics = "contact_law = \"demseg\"";
         wanted.max_strain = 7e-3;
-        TestCase test = small_case(wanted);
-        if (by_tolerance) {
-            test.loading.axial_strain_rate.reset();
-            test.loading.rate_tolerance = 0.005;
-        }
+        const ResolvedCase test = by_tolerance
+                                      ? CaseFiles(write_small_case(scratch_ / "", wanted))
+                                            .with(std::vector<CaseSetting>{{"loading.rate_tolerance", 0.005, "test:1"}})
+                                      : small_case(wanted);
         expect_same_resumed(test, by_tolerance ? 0 : 1, fmt::format("resumed {}", mesh));
     }
 }
@@ -274,7 +274,7 @@ TEST_F(TestFolder, ResumedKnowsHowOldItsContactsAre) {
     wanted.max_strain = 0.012;
     wanted.loading = "stop_at_share_of_peak = 0.05";
     wanted.output = "curve_rows = 2000\nframes = 20";
-    const TestCase test = small_case(wanted);
+    const ResolvedCase test = small_case(wanted);
     run_test(test, options("straight"));
     TestOutcome outcome = run_test(test, options("broken"), stopping_at(2));
     std::set<double> interrupts;  // s
@@ -299,7 +299,7 @@ TEST_F(TestFolder, ResumedKnowsHowOldItsContactsAre) {
 }
 
 TEST_F(TestFolder, ResumingTakesAwayWhatCameAfterTheCheckpoint) {
-    const TestCase test = small_case();
+    const ResolvedCase test = small_case();
     run_test(test, options("straight"));
     run_test(test, options("broken"), stopping_at(4));
     // The files have rows after the checkpoint, as after a kill.
@@ -507,7 +507,7 @@ TEST_F(TestFolder, IsRefusedWhereAnInputOrForeignFilesWouldBeReplaced) {
 }
 
 TEST_F(TestFolder, IsRefusedWhileAnotherTestWritesIntoIt) {
-    const TestCase test = small_case();
+    const ResolvedCase test = small_case();
     int asked = 0;
     TestHooks hooks;
     hooks.interrupted = [&] {

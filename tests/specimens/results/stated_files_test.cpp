@@ -11,6 +11,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/run.hpp"
 #include "specimens/recordings/test_results.hpp"
 #include "specimens/summary/summary_file.hpp"
@@ -35,7 +36,7 @@ class FinishedTest : public ::testing::Test {
     FinishedTest() {
         testing::SmallCase wanted;
         wanted.output += "\nslips = true";
-        const TestCase test = read_case(testing::write_small_case(scratch_ / "", wanted));
+        const ResolvedCase test = read_case(testing::write_small_case(scratch_ / "", wanted));
         summary_ = run_test(test, options()).summary;
     }
     TestOptions options() const {

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "solver/world/profile.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/results/make_summary.hpp"
 #include "specimens/summary/summary_file.hpp"

@@ -7,6 +7,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/companions.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
@@ -133,18 +134,17 @@ TEST(LoadingRate, BalanceIsSmoothedOverATransitWithItsSignOverTheLargestStress) 
 
 class ByTolerance : public ::testing::Test {
   protected:
-    TestCase small_case(const SmallCase& wanted) const {
+    ResolvedCase small_case(const SmallCase& wanted) const {
         return read_case(testing::write_small_case(scratch_ / "", wanted));
     }
-    TestCase by_tolerance(const std::string& mesh, double tolerance) const {
+    ResolvedCase by_tolerance(const std::string& mesh, double tolerance) const {
         SmallCase wanted;
         wanted.mesh = mesh;
-        TestCase description = small_case(wanted);
-        description.loading.axial_strain_rate.reset();
-        description.loading.rate_tolerance = tolerance;
+        ResolvedCase description = small_case(wanted);
+        description.loading.rate = parts::RateTolerance{tolerance};
         return description;
     }
-    VirtualTest tested(const TestCase& description) const {
+    VirtualTest tested(const ResolvedCase& description) const {
         VirtualTest test = prepare_test(description);
         load_specimen(test);
         return test;
@@ -154,7 +154,7 @@ class ByTolerance : public ::testing::Test {
 
 TEST_F(ByTolerance, StartsAsTheElasticSolutionMovesWithoutAShock) {
     for (const char* mesh : {"", "voronoi"}) {
-        TestCase description = by_tolerance(mesh, 0.01);
+        ResolvedCase description = by_tolerance(mesh, 0.01);
         description.loading.max_axial_strain = 2e-5;  // small enough that nothing slides
         description.numerics.intact = true;
         const VirtualTest test = tested(description);
@@ -201,7 +201,7 @@ TEST_F(ByTolerance, RuleHoldsTheSpecimensOwnScales) {
 
 TEST_F(ByTolerance, FirstRowsRiseByTheSolvedModulusAtTheRateOfAWholeTest) {
     for (const char* mesh : {"", "delaunay", "voronoi"}) {
-        TestCase description = by_tolerance(mesh, 0.01);
+        ResolvedCase description = by_tolerance(mesh, 0.01);
         description.numerics.intact = true;
         VirtualTest test = prepare_test(description);
         test.description.loading.max_axial_strain = 2e-5;  // the rate is for the whole test
@@ -221,11 +221,10 @@ TEST_F(ByTolerance, FirstRowsRiseByTheSolvedModulusAtTheRateOfAWholeTest) {
 TEST_F(ByTolerance, GivesThePeakOfASlowRunInFewerSteps) {
     SmallCase wanted;
     wanted.mesh = "voronoi";
-    TestCase description = small_case(wanted);
-    description.loading.axial_strain_rate = 5e-4;
+    ResolvedCase description = small_case(wanted);
+    description.loading.rate = parts::StrainRate{5e-4};
     const VirtualTest slow = tested(description);
-    description.loading.axial_strain_rate.reset();
-    description.loading.rate_tolerance = 0.02;
+    description.loading.rate = parts::RateTolerance{0.02};
     const VirtualTest quick = tested(description);
     EXPECT_LT(quick.world.stepping.steps, slow.world.stepping.steps / 2);
     EXPECT_TRUE(agrees("peak stress, N/m", quick.state.failure.peak_stress, slow.state.failure.peak_stress, 0.02));
@@ -236,7 +235,7 @@ TEST_F(ByTolerance, GivesThePeakOfASlowRunInFewerSteps) {
 }
 
 TEST_F(ByTolerance, TakesTheSameStepsHoweverFarApartTheRowsOfTheCurveAre) {
-    TestCase description = by_tolerance("", 0.02);
+    ResolvedCase description = by_tolerance("", 0.02);
     const VirtualTest close = tested(description);
     description.loading.max_axial_strain *= 7.0;  // the number of rows is constant, so their spacing increases
     const VirtualTest apart = tested(description);
@@ -250,15 +249,15 @@ TEST_F(ByTolerance, TakesTheSameStepsHoweverFarApartTheRowsOfTheCurveAre) {
 TEST_F(ByTolerance, StatedErrorCoversAFiveTimesSlowerRun) {
     SmallCase wanted;
     wanted.mesh = "voronoi";
-    TestCase description = small_case(wanted);
-    description.loading.axial_strain_rate = 0.02;
+    ResolvedCase description = small_case(wanted);
+    description.loading.rate = parts::StrainRate{0.02};
     const VirtualTest test = tested(description);
     const auto errors = run_companions(test, {});
     ASSERT_TRUE(errors);
     EXPECT_EQ(errors->figures.companions->size(), 4U);
     EXPECT_EQ(errors->peak_converged, true);
     EXPECT_FALSE(errors->figures.crack_initiation_stress) << "of a tension";
-    description.loading.axial_strain_rate = 0.004;
+    description.loading.rate = parts::StrainRate{0.004};
     const VirtualTest slow = tested(description);
     const double actual = std::abs(slow.state.failure.peak_stress / test.state.failure.peak_stress - 1.0);
     fmt::print("  stated {:.3g}, actual {:.3g}\n", *errors->figures.peak_stress->stated, actual);
@@ -335,8 +334,9 @@ TEST_F(ByTolerance, HoldsWhereNoRateIsGivenAndRefusesARateBesideIt) {
         text.replace(text.find(from), from.size(), to);
         std::ofstream(path) << text;
         try {
-            const TestCase test = read_case(path);
-            if (test.loading.rate_tolerance == 0.01 && !test.loading.axial_strain_rate) return std::string("tolerance");
+            const ResolvedCase test = read_case(path);
+            if (const double* tolerance = test.loading.rate_tolerance(); tolerance != nullptr && *tolerance == 0.01)
+                return std::string("tolerance");
         } catch (const InputError& error) {
             return std::string(error.what());
         }

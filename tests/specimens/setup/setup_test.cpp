@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "specimens/case/case_file.hpp"
 #include "specimens/elastic/analysis.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
@@ -62,9 +63,8 @@ TEST(Gauge, GivesThePoissonsRatioOfATriangularLattice) {
             std::ofstream out(scratch / "rock.dat");
             write_geometry(out, tall_lattice(material));
         }
-        TestCase description = read_case(path);
-        description.loading.axial_strain_rate.reset();
-        description.loading.rate_tolerance = 0.01;
+        ResolvedCase description = read_case(path);
+        description.loading.rate = parts::RateTolerance{0.01};
         description.numerics.intact = true;
         VirtualTest test = prepare_test(description);
         const double expected = (1.0 - share) / (3.0 + share);

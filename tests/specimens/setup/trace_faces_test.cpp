@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/measures/trace_motion.hpp"

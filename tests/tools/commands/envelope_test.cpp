@@ -19,7 +19,7 @@
 #include "specimens/campaign/identity.hpp"
 #include "specimens/campaign/ledger.hpp"
 #include "specimens/campaign/plan_file.hpp"
-#include "specimens/case/case_file.hpp"
+#include "specimens/parts/resolved_case.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/program_call.hpp"
 #include "tests/support/sample_results.hpp"
@@ -264,8 +264,8 @@ class EnvelopeOfCampaign : public EnvelopeCommand {
         for (const PlanRow& row : plan.rows) identities.push_back(identity_of(plan.test_of(row), files));
         ledger.set_plan(plan, identities);
         for (std::size_t k = 0; k + 1 < plan.rows.size(); ++k) {  // the last test has not been run
-            const TestCase test = plan.test_of(plan.rows[k]);
-            const double pressure = test.confinement.pressure.value_or(0.0);
+            const ResolvedCase test = plan.test_of(plan.rows[k]);
+            const double pressure = test.pressure();
             RowResult result;
             result.identity = identities[k];
             result.state = k + 2 == plan.rows.size() ? row_unstable : row_done;

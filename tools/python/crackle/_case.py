@@ -82,8 +82,10 @@ def read_case(case: _Case) -> _engine.Case:
     return _read(case, _engine.read_case_text, _engine.read_case_file)
 
 
-def read_joints(case: _Case) -> _engine.Case:
+def read_joints(case: _Case) -> _engine.Joints:
     """Reads the joints of a case, or of a file or text that contains nothing else."""
+    if isinstance(case, _engine.Case):
+        return _engine.joints_of_case(case)
     return _read(case, _engine.read_joints_text, _engine.read_joints_file)
 
 

@@ -151,10 +151,10 @@ std::vector<ClaimRow> exact_step_is_that_of_a_dense_matrix() {
 std::vector<ClaimRow> exact_step_of_specimens_between_platens() {
     Rows rows;
     for (const auto kind : {SpecimenKind::circles, SpecimenKind::delaunay, SpecimenKind::voronoi}) {
-        TestCase description = packed_case(1, LoadingKind::compression, 0.01, 0.01);
+        ResolvedCase description = packed_case(1, LoadingKind::compression, 0.01, 0.01);
         if (kind != SpecimenKind::circles) {
             mesh_voronoi(description);
-            description.mesh.kind = from_name<MeshKind>(name_of(kind));
+            description.mesh->kind = from_name<MeshKind>(name_of(kind)).value();
         }
         const std::string name = kind == SpecimenKind::circles    ? "circles"
                                  : kind == SpecimenKind::delaunay ? "Delaunay triangles"

@@ -80,7 +80,7 @@ std::vector<ClaimRow> intact_test_has_the_moduli_of_the_sparse_solve() {
     Rows rows;
     for (const bool meshed : {false, true}) {
         for (const LoadingKind kind : {LoadingKind::tension, LoadingKind::compression}) {
-            TestCase description = packed_case(1, kind, 0.002, 1e-4);  // a small strain; the solve is linear
+            ResolvedCase description = packed_case(1, kind, 0.002, 1e-4);  // a small strain; the solve is linear
             if (meshed) mesh_voronoi(description);
             description.numerics.intact = true;
             VirtualTest test = prepare_test(description);

@@ -34,15 +34,15 @@ double softness_along(const Compliance& s, double angle) {
     return strain;
 }
 
-Compliance compliance(const Specimen& specimen, const TestCase& test, Traces traces) {
+Compliance compliance(const Specimen& specimen, const ResolvedCase& test, Traces traces) {
     return compliance_of(bond_alone(specimen, test, traces), specimen.scene.domain, 0.5 * specimen.mesh_gap);
 }
 
-TestCase::JointKeys stiffnesses(double normal, double shear) {
-    TestCase::JointKeys own;
-    own.normal_stiffness = normal;
-    own.shear_stiffness = shear;
-    return own;
+Joint stiffnesses(double normal, double shear) {
+    Joint joint;
+    joint.normal_stiffness = normal;
+    joint.shear_stiffness = shear;
+    return joint;
 }
 
 std::vector<ClaimRow> persistent_set_adds_its_compliance() {
@@ -51,7 +51,7 @@ std::vector<ClaimRow> persistent_set_adds_its_compliance() {
     constexpr double spacing = rock_height / joints, normal = 2e11, shear = 8e10;  // m, Pa/m
     for (const SpecimenKind kind : {SpecimenKind::voronoi, SpecimenKind::delaunay}) {
         for (const std::int64_t seed : {1, 2}) {
-            TestCase test = jointed_rock(kind, seed);
+            ResolvedCase test = jointed_rock(kind, seed);
             add_set(test, 0.0, spacing, {0.0, 0.5 * spacing}, stiffnesses(normal, shear));
             const Specimen specimen = make_specimen(test, {});
             const Compliance jointed = compliance(specimen, test, Traces::as_they_are),
@@ -74,8 +74,8 @@ std::vector<ClaimRow> persistent_set_adds_its_compliance() {
 }
 
 /// The case with joints of the given stiffness, Pa/m.
-TestCase with_stiffness(TestCase test, double stiffness) {
-    for (TestCase::JointSet& set : test.joint_set) set.own = stiffnesses(stiffness, stiffness);
+ResolvedCase with_stiffness(ResolvedCase test, double stiffness) {
+    for (JointSet& set : test.joints.sets) set.mechanics = stiffnesses(stiffness, stiffness);
     return test;
 }
 
@@ -84,11 +84,11 @@ std::vector<ClaimRow> joint_among_circles_adds_its_compliance() {
     constexpr double normal = 2e11, shear = 8e10, stiff = 1e24;  // Pa/m
     for (const int joints : {8, 4, 1}) {
         const double spacing = rock_height / joints;
-        TestCase test = jointed_rock(SpecimenKind::circles, 1);
-        test.packing.radius_min = 0.5 * *test.packing.radius_min;
-        test.packing.radius_max = 0.5 * *test.packing.radius_max;
+        ResolvedCase test = jointed_rock(SpecimenKind::circles, 1);
+        auto& radii = std::get<UniformRadii>(test.packing()->sizes);
+        radii = {0.5 * radii.radius_min, 0.5 * radii.radius_max};
         add_set(test, 0.0, spacing, {0.0, 0.5 * spacing}, stiffnesses(normal, shear));
-        const TestCase rigid = with_stiffness(test, stiff);
+        const ResolvedCase rigid = with_stiffness(test, stiff);
         const Specimen specimen = make_specimen(test, {});
         const Compliance jointed = compliance(specimen, test, Traces::as_they_are),
                          welded = compliance(make_specimen(rigid, {}), rigid, Traces::as_they_are);
@@ -116,8 +116,8 @@ std::vector<ClaimRow> joint_among_circles_adds_its_compliance() {
 std::vector<ClaimRow> persistent_sets_add_up() {
     Rows rows;
     for (const SpecimenKind kind : {SpecimenKind::voronoi, SpecimenKind::delaunay}) {
-        TestCase test = jointed_rock(kind, 3);
-        test.mesh.thick = 5e-5;  // small, since cells at crossings are slender
+        ResolvedCase test = jointed_rock(kind, 3);
+        test.mesh->gap = parts::MeshGap{5e-5, {}};  // small, since cells at crossings are slender
         // Near crossings, Voronoi cells need more space than triangles.
         const std::size_t sets = kind == SpecimenKind::voronoi ? 2 : 3;
         const double spacings[] = {0.15, 0.12, 0.16}, angles[] = {0.0, 60.0, 110.0};
@@ -128,7 +128,7 @@ std::vector<ClaimRow> persistent_sets_add_up() {
         const Compliance jointed = compliance(specimen, test, Traces::as_they_are);
         Compliance expected = compliance(specimen, test, Traces::as_rock);
         const JointNetwork network =
-            make_joints(test, specimen.scene.domain, static_cast<std::size_t>(specimen.centres));
+            make_joints(test.joints, specimen.scene.domain, static_cast<std::size_t>(specimen.centres));
         for (std::size_t k = 0; k < sets; ++k) {
             double length = 0.0;
             for (const JointTrace& trace : network.traces) length += trace.source == k ? trace.length() : 0.0;

@@ -3,21 +3,18 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
+
 #include "tests/bench/verify/scenes/packed_case.hpp"
 
 namespace crackle::verification {
 
-TestCase jointed_rock(SpecimenKind kind, std::int64_t seed) {
-    TestCase test = packed_case(seed, LoadingKind::compression, 0.1, 1e-3);
-    test.packing.count.reset();
-    test.packing.height_to_width.reset();
-    test.packing.width = rock_width;
-    test.packing.height = rock_height;
-    test.material.normal_stiffness.reset();
-    test.material.shear_stiffness.reset();
+ResolvedCase jointed_rock(SpecimenKind kind, std::int64_t seed) {
+    ResolvedCase test = packed_case(seed, LoadingKind::compression, 0.1, 1e-3);
+    test.packing()->box = parts::Box{rock_width, rock_height};
     test.material.units = StiffnessUnits::area;
-    test.material.contact_modulus = rock_modulus;
-    test.material.stiffness_ratio = rock_ratio;
+    test.material.normal_stiffness = rock_modulus;
+    test.material.shear_stiffness = rock_modulus / rock_ratio;
     test.material.tensile_strength = 50e6;
     test.material.cohesion = 150e6;
     test.material.friction_angle = 40.0;
@@ -26,20 +23,18 @@ TestCase jointed_rock(SpecimenKind kind, std::int64_t seed) {
         test.bond.range = bonded_range;
         return test;
     }
-    test.mesh.kind = from_name<MeshKind>(name_of(kind));
-    test.mesh.thick = 8e-4;
-    test.table_present["mesh"] = true;
+    test.mesh = {from_name<MeshKind>(name_of(kind)).value(), parts::MeshGap{8e-4, {}}};
     return test;
 }
 
-void add_set(TestCase& test, double angle, double spacing, Vec2 through, const TestCase::JointKeys& own) {
-    TestCase::JointSet set;
-    set.name = fmt::format("set {}", test.joint_set.size() + 1);
-    set.angle = angle;
-    set.spacing = spacing;
-    set.through = std::vector{through.x, through.y};
-    set.own = own;
-    test.joint_set.push_back(set);
+void add_set(ResolvedCase& test, double angle, double spacing, Vec2 through, const Joint& mechanics) {
+    constexpr double radians = std::numbers::pi / 180.0;
+    test.joints.sets.push_back({fmt::format("set {}", test.joints.sets.size() + 1),
+                                OrientationLaw::fixed(angle * radians),
+                                PersistentTraces{},
+                                {AmountKind::spacing, spacing, LengthLaw::fixed(spacing), through},
+                                {},
+                                mechanics});
 }
 
 }  // namespace crackle::verification

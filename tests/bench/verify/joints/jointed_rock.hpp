@@ -4,8 +4,8 @@
 #pragma once
 
 #include "solver/world/world.hpp"
-#include "specimens/case/case_file.hpp"
 #include "specimens/making/specimen.hpp"
+#include "specimens/parts/resolved_case.hpp"
 
 namespace crackle::verification {
 
@@ -16,10 +16,10 @@ inline constexpr double bonded_range = 0.3;
 inline constexpr double circles_diameter = 0.04;  // m, mean
 
 /// About 500 circles with radii of 15 to 25 mm, meshed or not.
-TestCase jointed_rock(SpecimenKind kind, std::int64_t seed);
+ResolvedCase jointed_rock(SpecimenKind kind, std::int64_t seed);
 
 /// Adds a persistent joint set with a fixed spacing. @param angle degrees from +x @param through a point on one trace,
 /// m
-void add_set(TestCase& test, double angle, double spacing, Vec2 through, const TestCase::JointKeys& own);
+void add_set(ResolvedCase& test, double angle, double spacing, Vec2 through, const Joint& mechanics);
 
 }  // namespace crackle::verification

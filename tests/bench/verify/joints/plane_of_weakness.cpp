@@ -45,14 +45,12 @@ double strength_of_plane(double beta) {
 }
 
 /// A trace from the middle of the left side, up to the middle of the right side.
-TestCase::Trace plane_at(double beta) {
+MeasuredTraces plane_at(double beta) {
     const double rise = 0.5 * rock_width / std::tan(beta);
-    TestCase::Trace plane;
-    plane.name = "plane";
-    plane.points = std::vector{0.0, 0.5 * rock_height - rise, rock_width, 0.5 * rock_height + rise};
-    plane.own.bonded = false;
-    plane.own.friction_angle = friction;
-    return plane;
+    Joint open;
+    open.bonded = false;
+    open.friction_angle = friction;
+    return {"plane", std::vector<Vec2>{{0.0, 0.5 * rock_height - rise}, {rock_width, 0.5 * rock_height + rise}}, open};
 }
 
 /// Applies the pressure to each cell with a face on a side, inwards, and to each circle that reaches the side. The
@@ -156,13 +154,13 @@ struct Slipped {
 };
 
 Slipped slip(SpecimenKind kind, std::int64_t seed, double beta) {
-    TestCase test = jointed_rock(kind, seed);
+    ResolvedCase test = jointed_rock(kind, seed);
     const bool circles = kind == SpecimenKind::circles;
     if (circles)
         test.material.damping_ratio = circles_damping;
     else
-        test.mesh.thick = wide_gap;
-    test.trace.push_back(plane_at(beta));
+        test.mesh->gap = parts::MeshGap{wide_gap, {}};
+    test.joints.traces.push_back(plane_at(beta));
     const Specimen specimen = make_specimen(test, {});
     const double gap = specimen.mesh_gap;
     const double from = circles ? circles_slid_from : slid_from * gap, to = circles ? circles_slid_to : slid_to * gap;

@@ -10,6 +10,7 @@
 
 #include "solver/demseg/geometry.hpp"
 #include "solver/measure/point_view.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "tests/bench/verify/groups.hpp"

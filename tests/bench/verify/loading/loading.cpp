@@ -65,7 +65,7 @@ std::vector<ClaimRow> energy_of_loading_closes_to_second_order_before_breaks() {
 
 VirtualTest loaded_to_failure(std::int64_t seed, LoadingKind kind, double rate, double safety_factor,
                               double max_strain = 0.02) {
-    TestCase description = packed_case(seed, kind, rate, max_strain);
+    ResolvedCase description = packed_case(seed, kind, rate, max_strain);
     description.numerics.safety_factor = safety_factor;
     VirtualTest test = prepare_test(description);
     load_specimen(test);

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "solver/demseg/geometry.hpp"
+#include "specimens/case/case_file.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tests/bench/verify/scenes/temporary_folder.hpp"

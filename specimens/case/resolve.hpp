@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Turns a case as written into the parts that the stages of a test use. Behind it there are no keys, no words and no
+// defaults.
+// Tested by tests/specimens/case/resolve_test.cpp.
+#pragma once
+
+#include <memory>
+
+#include "specimens/case/test_case.hpp"
+
+namespace crackle {
+
+/// The parts of a case. @param written  a case with its defaults, after check_consistency()
+/// @throws InputError if planes of joints do not intersect the section, or if an aperture exceeds the gap of the mesh
+ResolvedCase resolve(std::shared_ptr<const TestCase> written);
+
+/// The joints of a case. @param written  a case after check_joints(); other keys may be missing
+/// @throws InputError if planes of joints do not intersect the section
+JointCase resolve_joints(const std::shared_ptr<const TestCase>& written);
+
+/// The case that was resolved, for writing it. Number of threads and numerics.allow_unstable may differ.
+/// @throws InputError if the parts were not made by resolve(), or if they were changed
+std::shared_ptr<const TestCase> written_case(const ResolvedCase& test);
+
+}  // namespace crackle
