@@ -59,6 +59,10 @@ void check_face_law(const FaceLaw& law) {
     require(law.softening_slip >= 0.0, "softening slip", law.softening_slip, "a length >= 0");
     require(law.softening_slip == 0.0 || std::isfinite(law.cohesion), "cohesion", law.cohesion,
             "a finite stress, since it falls with the slip");
+    require(law.residual_tensile_strength >= 0.0 && law.residual_tensile_strength <= law.tensile_strength,
+            "residual tensile strength", law.residual_tensile_strength,
+            "a stress >= 0 that is at most the tensile strength");
+    require(law.softening_opening >= 0.0, "softening opening", law.softening_opening, "a length >= 0");
     require(law.damping_ratio >= 0.0, "damping ratio", law.damping_ratio, "a number >= 0");
 }
 

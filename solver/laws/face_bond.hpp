@@ -21,8 +21,11 @@
 //     d - aφ >= 0    nothing
 //     otherwise      b = a - d/φ,  F = -½ k φ b²,  |M| = |F|(a - b/3),  Ψ = k φ² b³/6,  M with the sign of δ_φ
 // Tension is positive. The shear force is limited to c(u) b_c + max(0, -F) tan φ_r. b_c is the least closed length
-// since failure. The cohesion c(u) falls from C to c_r over the slip u_c, and equals c_r if u_c = 0. All forces are per
-// metre of thickness. Sources: solver/MODEL.md 5.5. Tested by tests/solver/laws/face_bond_test.cpp.
+// since failure. The cohesion c(u) falls from C to c_r over the slip u_c, and equals c_r if u_c = 0.
+// After a failure in shear the edges hold a tension as well, where they do not press: (1 - D) times that of the intact
+// face. With σ = F/2a + 6β|M|/(2a)² without damage, D is the largest value so far of (1 - σ_r/σ)/(1 - σ_r/(k w_c)) for
+// σ > σ_r. The tension held thus falls from σ_r to 0 over the inelastic opening w_c, at once if w_c <= σ_r/k.
+// All forces are per metre of thickness. Sources: solver/MODEL.md 5.5. Tested by tests/solver/laws/face_bond_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -61,10 +64,12 @@ struct FaceLaw {
     double residual_friction = 0.0;                                     // tan φ_r
     double residual_cohesion = 0.0;                                     // c_r, Pa
     double softening_slip = 0.0;                                        // u_c, m
+    double residual_tensile_strength = 0.0;                             // σ_r, Pa
+    double softening_opening = 0.0;                                     // w_c, m
     double damping_ratio = 0.0;                                         // h of each spring of a face
 
     CRACKLE_FIELDS(tensile_strength, cohesion, friction, knee, friction_beyond, moment_share, residual_friction,
-                   residual_cohesion, softening_slip, damping_ratio);
+                   residual_cohesion, softening_slip, residual_tensile_strength, softening_opening, damping_ratio);
 };
 
 /// Checks a law. @throws InputError if a value is out of its range, or the residual strength could pass the peak
@@ -100,10 +105,10 @@ inline FaceFailure face_failure(const FaceLaw& law, double length, double share,
 
 /// Pressure of two edges on each other.
 struct LapPressure {
-    double force = 0.0;   // F, N; never above 0
+    double force = 0.0;   // F, N
     double moment = 0.0;  // M about the centre of the lap, N m
     double energy = 0.0;  // Ψ, J
-    double closed = 0.0;  // m, length over which the edges press
+    double closed = 0.0;  // m, length over which the edges press; dF/dd over k
 
     CRACKLE_FIELDS(force, moment, energy, closed);
 };
@@ -121,11 +126,34 @@ inline LapPressure lap_pressure(double stiffness, double half_lap, double openin
     return {force, std::copysign(-force * (a - b / 3.0), turn), stiffness * phi * phi * b * b * b / 6.0, b};
 }
 
+/// What edges pull at each other where they do not press, if nothing is damaged. Parameters as for lap_pressure().
+inline LapPressure lap_tension(double stiffness, double half_lap, double opening, double turn) {
+    const LapPressure push = lap_pressure(stiffness, half_lap, opening, turn);
+    const double k_n = 2.0 * half_lap * stiffness, k_phi = k_n * half_lap * half_lap / 3.0;
+    return {k_n * opening - push.force, k_phi * turn - push.moment,
+            0.5 * (k_n * opening * opening + k_phi * turn * turn) - push.energy, 2.0 * half_lap - push.closed};
+}
+
+/// 1 - D of a face that failed in shear. @param held 1 - D so far @param stiffness k, Pa/m @param stress σ, Pa
+/// @param share random factor on T
+inline double tension_held(const FaceLaw& law, double held, double stiffness, double stress, double share) {
+    const double residual = std::min(law.residual_tensile_strength, share * law.tensile_strength);
+    if (stress <= residual) return held;
+    const double steepness = 1.0 - residual / (stiffness * law.softening_opening);  // -infinity without an opening
+    if (!(steepness > 0.0)) return 0.0;
+    return std::min(held, std::max(0.0, 1.0 - (1.0 - residual / stress) / steepness));
+}
+
+/// Residual cohesion of a face, Pa. A weak face has at most its own cohesion. @param share random factor on C
+inline double residual_cohesion_of(const FaceLaw& law, double share) {
+    return std::min(law.residual_cohesion, share * law.cohesion);
+}
+
 /// What is left of the cohesion after a slip, Pa. @param slipped Σ|Δu_p|, m @param share random factor on C
 inline double cohesion_left(const FaceLaw& law, double slipped, double share) {
-    if (!(slipped < law.softening_slip)) return law.residual_cohesion;
-    return law.residual_cohesion +
-           (share * law.cohesion - law.residual_cohesion) * (1.0 - slipped / law.softening_slip);
+    const double residual = residual_cohesion_of(law, share);
+    if (!(slipped < law.softening_slip)) return residual;
+    return residual + (share * law.cohesion - residual) * (1.0 - slipped / law.softening_slip);
 }
 
 /// Shear force of a broken face and its plastic slip in this step.
@@ -140,21 +168,19 @@ struct FaceSlip {
 inline FaceSlip slip_of_face(const FaceLaw& law, double trial, double stiffness, double pressing, double glued,
                              double slipped, double share) {
     const double rubbing = law.residual_friction * pressing, size = std::abs(trial);
-    const double before = cohesion_left(law, slipped, share);
+    const double before = cohesion_left(law, slipped, share), residual = residual_cohesion_of(law, share);
     if (size <= rubbing + before * glued) return {trial, 0.0, 0.0};
     double slip = (size - rubbing - before * glued) / stiffness;
     if (slipped < law.softening_slip && glued > 0.0) {
-        const double slope = (share * law.cohesion - law.residual_cohesion) / law.softening_slip * glued;
+        const double slope = (share * law.cohesion - residual) / law.softening_slip * glued;
         const double longer =
             slope < stiffness ? slip * stiffness / (stiffness - slope) : std::numeric_limits<double>::infinity();
         // Beyond the softening slip the cohesion is the residual one.
-        slip = slipped + longer < law.softening_slip ? longer
-                                                     : (size - rubbing - law.residual_cohesion * glued) / stiffness;
+        slip = slipped + longer < law.softening_slip ? longer : (size - rubbing - residual * glued) / stiffness;
     }
     const double after = cohesion_left(law, slipped + slip, share);
     const double left = rubbing + after * glued;
-    return {std::copysign(left, trial), std::copysign(slip, trial),
-            (0.5 * (before + after) - law.residual_cohesion) * glued};
+    return {std::copysign(left, trial), std::copysign(slip, trial), (0.5 * (before + after) - residual) * glued};
 }
 
 }  // namespace crackle

@@ -128,6 +128,9 @@ TEST(LapPressure, IsTheIntegralOfALinearPressureWithoutTension) {
             EXPECT_NEAR(got.force, force, 1e-9);
             EXPECT_NEAR(got.moment, moment, 1e-9);
             EXPECT_NEAR(got.energy, energy, 1e-9);
+            const LapPressure pull = lap_tension(stiffness, a, opening, turn);
+            EXPECT_NEAR(got.force + pull.force, stiffness * 2.0 * a * opening, 1e-15);
+            EXPECT_NEAR(got.closed + pull.closed, 2.0 * a, 1e-15);
         }
     }
 }
@@ -182,6 +185,9 @@ TEST(FaceLaw, RefusesAResidualStrengthThatPassesThePeak) {
     EXPECT_THROW(check_face_law(law), InputError);
     law = rock();
     law.cohesion = 0.99 * law.friction * law.tensile_strength;
+    EXPECT_THROW(check_face_law(law), InputError);
+    law = rock();
+    law.residual_tensile_strength = 1.01 * law.tensile_strength;
     EXPECT_THROW(check_face_law(law), InputError);
     law = rock();
     law.moment_share = 1.1;
