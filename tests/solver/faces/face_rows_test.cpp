@@ -67,6 +67,31 @@ TEST(FacesInTheSolve, GiveThemWithinAPercentForUnequalStiffnesses) {
     }
 }
 
+TEST(FacesInTheSolve, GiveThemWithoutAPressureByTheShearRatio) {
+    const double nu = 0.2;
+    CellBox box{.columns = 28, .rows = 29, .platens = true};
+    const CellWorld cells = build_box(box);
+    FaceBonding bonding = elastic_rock(cells, box.gap, nu, 1.0);
+    bonding.materials[0].moduli = face_moduli_without_pressure(1.0, nu, 0.29);
+    const Moduli got = moduli_of(box, bonding, cells);
+    EXPECT_TRUE(agrees("Young's modulus", got.youngs, 1.0, 0.02));
+    EXPECT_TRUE(within("Poisson's ratio", got.poissons, nu, 0.02));
+}
+
+TEST(FacesInTheSolve, GiveThemForTrianglesWhoseDistancesHaveAFloor) {
+    const double nu = 0.26;
+    CellBox box{.kind = MeshKind::delaunay, .columns = 16, .rows = 16, .lloyd = 10, .platens = true};
+    const CellWorld cells = build_box(box);
+    FaceBonding bonding = elastic_rock(cells, box.gap, nu, 1.0);
+    bonding.reference.clear();
+    const Faces faces = bond_faces(cells.world, bonding);
+    const double shortening = 1e-3;
+    const ElasticSolution solution =
+        solve_elastic(cells.world, {{cells.platens[0], {}}, {cells.platens[1], {0.0, -shortening, 0.0}}}, {},
+                      ClosedPoints::bonded, face_rows(cells.world, faces));
+    EXPECT_TRUE(agrees("Young's modulus", -solution.reaction[1].y / shortening, 1.0, 0.02));
+}
+
 /// Moment of a beam of cells whose ends, free of shear, turn against each other; over that of Timoshenko.
 double bending_stiffness(int depth, double ratio, double correction) {
     const double nu = 0.26, span = 3.0;
