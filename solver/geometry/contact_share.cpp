@@ -7,14 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "solver/geometry/facing_edges.hpp"
 #include "solver/geometry/geometry.hpp"
 
 namespace crackle {
 namespace {
-
-/// Two edges face each other if the cosine of the angle between their directions is at most -least_facing. Facing edges
-/// of a mesh are parallel.
-constexpr double least_facing = 0.9;
 
 bool held(const World& world, BodyIndex b) {
     return world.bodies.inertia[b].inverse_mass_x == 0.0 && world.bodies.inertia[b].inverse_mass_y == 0.0;
@@ -31,58 +28,6 @@ double equivalent_radius(const World& world, BodyIndex b) {
 }
 
 Vec2 centre_of(const World& world, BodyIndex b) { return {world.bodies.state[b].x, world.bodies.state[b].y}; }
-
-std::vector<Vec2> corners_of(const World& world, BodyIndex b) {
-    const BodyInfo info = world.bodies.info(b);
-    std::vector<Vec2> corners;
-    corners.reserve(info.element_count);
-    const BodyView bodies(world);
-    for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e)
-        corners.push_back(centre_of(world, b) + turned(bodies.state[b], element_of(bodies, b, e)));
-    return corners;
-}
-
-/// An edge of an outline whose edges have all been shifted outwards by the same distance.
-struct OutsetEdge {
-    Vec2 start, along;  // m; unit vector
-    double length;      // m
-};
-
-Vec2 unit(Vec2 v) { return (1.0 / norm(v)) * v; }
-
-/// Tangent of half the angle from direction a to direction b.
-double half_turn(Vec2 a, Vec2 b) {
-    const double sine = a.x * b.y - a.y * b.x, cosine = dot(a, b);
-    return sine / (1.0 + cosine);
-}
-
-std::vector<OutsetEdge> outset_edges(const std::vector<Vec2>& corners, double by) {
-    const std::size_t n = corners.size();
-    const auto direction = [&](std::size_t k) { return unit(corners[(k + 1) % n] - corners[k % n]); };
-    std::vector<OutsetEdge> edges;
-    edges.reserve(n);
-    for (std::size_t k = 0; k < n; ++k) {
-        const Vec2 along = direction(k);
-        const double before = by * half_turn(direction(k + n - 1), along),
-                     beyond = by * half_turn(along, direction(k + 1));
-        const Vec2 outwards{along.y, -along.x};
-        edges.push_back({corners[k] + by * outwards - before * along, along,
-                         norm(corners[(k + 1) % n] - corners[k]) + before + beyond});
-    }
-    return edges;
-}
-
-/// Length over which two edges face each other, m; 0 if they do not. @param reach largest allowed distance between
-/// them, m
-double facing_length(const OutsetEdge& a, const OutsetEdge& b, double reach) {
-    if (dot(a.along, b.along) > -least_facing) return 0.0;
-    const Vec2 end = b.start + b.length * b.along;
-    const Vec2 outwards{a.along.y, -a.along.x};
-    const double from = dot(end - a.start, a.along), to = dot(b.start - a.start, a.along);
-    const double apart = dot(0.5 * (b.start + end) - a.start, outwards);
-    if (std::abs(apart) > reach) return 0.0;
-    return std::max(0.0, std::min(a.length, to) - std::max(0.0, from));
-}
 
 /// Half the sum of the lengths of the two edges that meet at a corner, m.
 double length_of_corner(const World& world, BodyIndex b, std::uint32_t element) {
@@ -132,13 +77,14 @@ std::optional<ContactShare> share_of_face(const World& world, BodyIndex i, BodyI
     Vec2 on_face;
     for (const OutsetEdge& a : edges_i) {
         for (const OutsetEdge& b : edges_j) {
-            const double length = facing_length(a, b, gap);
+            const FacingPart part = facing_part(a, b, gap);
+            const double length = std::max(0.0, part.to - part.from);
             if (length <= share.length) continue;
             share.length = length;
             share.edge_i = static_cast<std::uint32_t>(&a - edges_i.data());
             share.edge_j = static_cast<std::uint32_t>(&b - edges_j.data());
             const OutsetEdge& of_held = held(world, i) ? a : b;
-            outwards = {of_held.along.y, -of_held.along.x};
+            outwards = of_held.outwards();
             on_face = of_held.start;
         }
     }

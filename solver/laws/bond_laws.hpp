@@ -15,10 +15,9 @@
 // A new law needs a value and a name in BondLaw, a header, and an entry in BondLaws. Kernels are compiled for every
 // law.
 //
-// A law for faces would need a PointKind and a kernel of its own. A scalar per body that must be known before the
-// forces would need an array of Bodies in PassView. sweep_of() (stepping/sweep_kernels.cpp) would sum it in a phase
-// before do_smaller_kinds(), where all bodies are at time n. A world without such points would skip this phase and the
-// kernel.
+// The law of faces between polygons (face_bond.hpp) is not in the list, since it has no contact points and kernels of
+// points need no instance for it. It becomes a value of BondLaw when cases have keys for it. Until then bond_faces()
+// (faces/bond_faces.hpp) bonds worlds by it.
 #pragma once
 
 #include <cstddef>

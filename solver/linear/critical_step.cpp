@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/linear/absolute_bound.hpp"
 #include "solver/linear/lanczos_bound.hpp"
 #include "solver/linear/mass_scaled.hpp"
 #include "solver/linear/step_bound.hpp"
@@ -81,11 +82,11 @@ double step_of(const MassScaled::Quotient& q) {
 
 }  // namespace
 
-CriticalStep critical_step(const World& world, ClosedPoints which) {
+CriticalStep critical_step(const World& world, ClosedPoints which, const LinearRows& rows) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
-    const MassScaled pencil(world, which);
-    const double guaranteed =
-        stable_step_bound(world);  // a bound for all listed points, so never above the exact limit
+    const MassScaled pencil(world, which, rows);
+    // A bound for all listed points, so never above the exact limit.
+    const double guaranteed = rows.rows.empty() ? stable_step_bound(world) : absolute_step_bound(pencil);
     CriticalStep result{guaranteed, infinite, false, std::vector<BodyMotion>(world.bodies.size())};
     if (pencil.size() == 0 || !std::isfinite(guaranteed)) return {infinite, infinite, true, result.mode};
     const auto unproved = [&] {

@@ -53,11 +53,12 @@ std::vector<Spring> springs_between_bodies(const World& world, ClosedPoints clos
 /// most 1.
 class ScaledSystem {
   public:
-    ScaledSystem(const World& world, const std::vector<Spring>& springs, const std::vector<bool>& held) {
+    ScaledSystem(const World& world, const std::vector<Spring>& springs, const LinearRows& rows,
+                 const std::vector<bool>& held) {
         number_.assign(held.size(), -1);
-        int rows = 0;
+        int size = 0;
         for (std::size_t k = 0; k < held.size(); ++k)
-            if (!held[k]) number_[k] = rows++;
+            if (!held[k]) number_[k] = size++;
         // Diagonal entries are not used for scaling: for the rotation of a frictionless disc this entry is only
         // round-off, and scaling by it would make it look like stiffness.
         std::vector<double> stiffness(world.bodies.size(), 0.0);
@@ -65,7 +66,10 @@ class ScaledSystem {
             stiffness[s.i] += s.stiffness;
             stiffness[s.j] += s.stiffness;
         }
-        scale_ = Vector::Ones(rows);
+        for (const LinearRow& row : rows.rows)
+            for (const RowEntry& entry : rows.of(row))
+                if (entry.freedom < 2) stiffness[entry.body] += row.stiffness * entry.value * entry.value;
+        scale_ = Vector::Ones(size);
         for (std::size_t b = 0; b < stiffness.size(); ++b) {
             if (stiffness[b] == 0.0) continue;
             const double root = std::sqrt(stiffness[b]);
@@ -73,7 +77,7 @@ class ScaledSystem {
                 if (number(b, d) >= 0)
                     scale_[number(b, d)] = d < 2 ? 1.0 / root : 1.0 / (root * world.bodies.info(b).reach);
         }
-        assemble(springs, rows);
+        assemble(springs, rows, size);
     }
 
     int number(const Spring& s, std::size_t a) const { return number_[3 * std::size_t{a < 3 ? s.i : s.j} + a % 3]; }
@@ -88,7 +92,7 @@ class ScaledSystem {
     }
 
   private:
-    void assemble(const std::vector<Spring>& springs, int rows) {
+    void assemble(const std::vector<Spring>& springs, const LinearRows& rows, int size) {
         symmetric_ = std::ranges::all_of(springs, &Spring::symmetric);
         std::vector<Eigen::Triplet<double>> entries;
         entries.reserve(springs.size() * (symmetric_ ? 21 : 36));
@@ -104,7 +108,18 @@ class ScaledSystem {
                 }
             }
         }
-        stiffness_.resize(rows, rows);
+        for (const LinearRow& own : rows.rows) {
+            for (const RowEntry& a : rows.of(own)) {
+                const int row = number(a.body, a.freedom);
+                if (row < 0) continue;
+                for (const RowEntry& b : rows.of(own)) {
+                    const int column = number(b.body, b.freedom);
+                    if (column < 0 || (symmetric_ && column > row)) continue;
+                    entries.emplace_back(row, column, own.stiffness * a.value * scale_[row] * b.value * scale_[column]);
+                }
+            }
+        }
+        stiffness_.resize(size, size);
         stiffness_.setFromTriplets(entries.begin(), entries.end());
     }
 
@@ -168,7 +183,7 @@ Refined solve(const Workers& workers, const ScaledSystem& system, const Vector& 
 }  // namespace
 
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
-                              const std::vector<BodyMotion>& loads, ClosedPoints closed) {
+                              const std::vector<BodyMotion>& loads, ClosedPoints closed, const LinearRows& rows) {
     if (prescribed.empty()) throw InputError("elastic solve: found no prescribed body, expected at least one platen");
     ElasticSolution solution;
     solution.displacement.assign(world.bodies.size(), BodyMotion{});
@@ -181,7 +196,7 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
             if (held[3 * std::size_t{p.body} + static_cast<std::size_t>(d)])
                 component(solution.displacement[p.body], d) = component(p.motion, d);
     const std::vector<Spring> springs = springs_between_bodies(world, closed);
-    const ScaledSystem system(world, springs, held);
+    const ScaledSystem system(world, springs, rows, held);
     solution.unknowns = system.stiffness().rows();
     if (solution.unknowns > 0) {
         Vector load = Vector::Zero(system.stiffness().rows());
@@ -190,6 +205,13 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
             for (std::size_t a = 0; a < 6; ++a) {
                 const int row = system.number(s, a);
                 if (row >= 0) load[row] -= s.stiffness * imposed * s.push[a] * system.scale(row);
+            }
+        }
+        for (const LinearRow& own : rows.rows) {
+            const double imposed = rows.times(own, solution.displacement);
+            for (const RowEntry& entry : rows.of(own)) {
+                const int row = system.number(entry.body, entry.freedom);
+                if (row >= 0) load[row] -= own.stiffness * imposed * entry.value * system.scale(row);
             }
         }
         for (std::size_t b = 0; b < loads.size(); ++b) {
@@ -220,13 +242,19 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
             component(force[s.j], d) += s.stiffness * a * s.push[k + 3];
         }
     }
+    for (const LinearRow& own : rows.rows) {
+        const double a = rows.times(own, solution.displacement);
+        solution.energy += 0.5 * own.stiffness * a * a;
+        for (const RowEntry& entry : rows.of(own))
+            component(force[entry.body], entry.freedom) += own.stiffness * a * entry.value;
+    }
     for (const Prescribed& p : prescribed) solution.reaction.push_back(force[p.body]);
     return solution;
 }
 
 FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& held_bodies, ClosedPoints closed) {
     const std::vector<bool> held = held_freedoms(world, held_bodies);
-    const ScaledSystem system(world, symmetric_majorant(world, springs_between_bodies(world, closed)), held);
+    const ScaledSystem system(world, symmetric_majorant(world, springs_between_bodies(world, closed)), {}, held);
     FreeMotions free;
     if (system.stiffness().rows() == 0) return free;
     world.workers.hear();

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace crackle {
 
-MassScaled::MassScaled(const World& world, ClosedPoints which)
-    : while_solving_(world.workers.while_solving), springs_(symmetric_majorant(world, springs_of(world, which))) {
+MassScaled::MassScaled(const World& world, ClosedPoints which, LinearRows rows)
+    : while_solving_(world.workers.while_solving),
+      springs_(symmetric_majorant(world, springs_of(world, which))),
+      rows_(std::move(rows)) {
     number_.resize(3 * world.bodies.size(), -1);
     const auto take = [&](std::size_t dof, double inverse) {
         if (inverse == 0.0) return;
@@ -19,10 +22,16 @@ MassScaled::MassScaled(const World& world, ClosedPoints which)
         take(3 * b + 1, world.bodies.inertia[b].inverse_mass_y);
         take(3 * b + 2, world.bodies.inertia[b].inverse_moment);
     }
+    // Rows are stored in mass-scaled coordinates.
+    for (RowEntry& entry : rows_.entries) {
+        const int n = number_of(entry);
+        entry.value *= n < 0 ? 0.0 : root_[static_cast<std::size_t>(n)];
+    }
 }
 
 bool MassScaled::damped() const {
-    return std::any_of(springs_.begin(), springs_.end(), [](const Spring& s) { return s.damping > 0.0; });
+    const auto has_dashpot = [](const auto& spring) { return spring.damping > 0.0; };
+    return std::ranges::any_of(springs_, has_dashpot) || std::ranges::any_of(rows_.rows, has_dashpot);
 }
 
 MassScaled::Row MassScaled::row_of(const Spring& s) const {
@@ -49,6 +58,16 @@ MassScaled::Matrix MassScaled::matrix(double damping_share, double stiffness_sha
             }
         }
     }
+    for (const LinearRow& row : rows_.rows) {
+        const double weight = damping_share * row.damping + stiffness_share * row.stiffness;
+        for (const RowEntry& a : rows_.of(row)) {
+            const int n = number_of(a);
+            for (const RowEntry& b : rows_.of(row)) {
+                const int m = number_of(b);
+                if (n >= 0 && m >= 0 && m <= n) entries.emplace_back(n, m, weight * a.value * b.value);
+            }
+        }
+    }
     Matrix matrix(size(), size());
     matrix.setFromTriplets(entries.begin(), entries.end());
     return matrix;
@@ -60,6 +79,13 @@ double MassScaled::Row::times(const Vector& x) const {
     return stretch;
 }
 
+double MassScaled::times_row(const LinearRow& row, const Vector& x) const {
+    double sum = 0.0;
+    for (const RowEntry& entry : rows_.of(row))
+        if (const int n = number_of(entry); n >= 0) sum += entry.value * x[n];
+    return sum;
+}
+
 MassScaled::Vector MassScaled::times(double damping_share, double stiffness_share, const Vector& x) const {
     Vector result = Vector::Zero(size());
     for (const Spring& s : springs_) {
@@ -67,6 +93,11 @@ MassScaled::Vector MassScaled::times(double damping_share, double stiffness_shar
         const double force = (damping_share * s.damping + stiffness_share * s.stiffness) * row.times(x);
         for (int a = 0; a < 6; ++a)
             if (row.number[a] >= 0) result[row.number[a]] += force * row.value[a];
+    }
+    for (const LinearRow& row : rows_.rows) {
+        const double force = (damping_share * row.damping + stiffness_share * row.stiffness) * times_row(row, x);
+        for (const RowEntry& entry : rows_.of(row))
+            if (const int n = number_of(entry); n >= 0) result[n] += force * entry.value;
     }
     return result;
 }
@@ -77,6 +108,11 @@ MassScaled::Quotient MassScaled::quotient(const Vector& x) const {
         const double stretch = row_of(s).times(x);
         q.damping += s.damping * stretch * stretch;
         q.stiffness += s.stiffness * stretch * stretch;
+    }
+    for (const LinearRow& row : rows_.rows) {
+        const double stretch = times_row(row, x);
+        q.damping += row.damping * stretch * stretch;
+        q.stiffness += row.stiffness * stretch * stretch;
     }
     const double length = x.squaredNorm();
     return {q.damping / length, q.stiffness / length};

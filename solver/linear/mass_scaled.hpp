@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/linear/elastic.hpp"
+#include "solver/linear/linear_rows.hpp"
 #include "solver/linear/springs.hpp"
 
 namespace crackle {
@@ -20,8 +21,8 @@ class MassScaled {
     using Matrix = Eigen::SparseMatrix<double>;
     using Vector = Eigen::VectorXd;
 
-    /// Assembles the matrices. @param which points that count as springs
-    MassScaled(const World& world, ClosedPoints which);
+    /// Assembles the matrices. @param which points that count as springs @param rows further springs
+    MassScaled(const World& world, ClosedPoints which, LinearRows rows = {});
 
     /// Number of free degrees of freedom.
     Eigen::Index size() const { return static_cast<Eigen::Index>(root_.size()); }
@@ -59,7 +60,14 @@ class MassScaled {
     Row row_of(const Spring& spring) const;
 
     std::function<void()> while_solving_;
+    int number_of(const RowEntry& entry) const {
+        return number_[3 * std::size_t{entry.body} + static_cast<std::size_t>(entry.freedom)];
+    }
+    /// Product of one of `rows_` with x.
+    double times_row(const LinearRow& row, const Vector& x) const;
+
     std::vector<Spring> springs_;
+    LinearRows rows_;
     std::vector<int> number_;   // row index by body and degree of freedom; -1 if held
     std::vector<double> root_;  // M^-½, by row
 };

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/faces/bond_faces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle {
+namespace {
+
+bool is_rigid(const World& world, BodyIndex b) {
+    const BodyInertia& inertia = world.bodies.inertia[b];
+    return inertia.inverse_mass_x == 0.0 || inertia.inverse_mass_y == 0.0 || inertia.inverse_moment == 0.0;
+}
+
+Vec2 circumcentre(const std::vector<Vec2>& corners) {
+    const Vec2 a = corners[1] - corners[0], b = corners[2] - corners[0];
+    const double scale = 0.5 / cross(a, b), aa = dot(a, a), bb = dot(b, b);
+    return corners[0] + scale * Vec2{b.y * aa - a.y * bb, a.x * bb - b.x * aa};
+}
+
+FaceLaw weaker(const FaceLaw& a, const FaceLaw& b) {
+    FaceLaw law;
+    law.tensile_strength = std::min(a.tensile_strength, b.tensile_strength);
+    law.cohesion = std::min(a.cohesion, b.cohesion);
+    law.friction = std::min(a.friction, b.friction);
+    law.knee = std::min(a.knee, b.knee);
+    law.friction_beyond = std::min({a.friction_beyond, b.friction_beyond, law.friction});
+    law.moment_share = std::max(a.moment_share, b.moment_share);
+    law.residual_friction = std::min(a.residual_friction, b.residual_friction);
+    law.residual_cohesion = std::min(a.residual_cohesion, b.residual_cohesion);
+    law.softening_slip = std::min(a.softening_slip, b.softening_slip);
+    law.residual_tensile_strength = std::min(a.residual_tensile_strength, b.residual_tensile_strength);
+    law.softening_opening = std::min(a.softening_opening, b.softening_opening);
+    law.damping_ratio = std::min(a.damping_ratio, b.damping_ratio);
+    return law;
+}
+
+/// Bonds the faces of a net, one after another.
+class Bonder {
+  public:
+    Bonder(const World& world, const FaceBonding& bonding)
+        : world_(world),
+          bonding_(bonding),
+          outlines_(bonding.outlines.empty() ? outlines_before_inset(world, bonding.gap) : bonding.outlines),
+          net_(find_faces(outlines_)) {
+        if (net_.faces.empty())
+            throw InputError(
+                fmt::format("faces: found no edges of polygons that face each other, expected some; is the "
+                            "gap of the mesh {:.6g} m?",
+                            bonding.gap));
+        if (bonding.materials.size() != world.settings.materials.size())
+            throw InputError(fmt::format("faces: found {} materials, expected {} as in the scene",
+                                         bonding.materials.size(), world.settings.materials.size()));
+        if (!(bonding.least_distance_share > 0.0 && bonding.least_distance_share <= 1.0))
+            throw InputError(
+                fmt::format("faces: found a least distance of {:.6g} of the mean, expected a share > 0 that "
+                            "is at most 1",
+                            bonding.least_distance_share));
+        for (BodyIndex b = 0; b < world.bodies.size(); ++b) centres_.push_back(reference_of(b));
+        least_distance_ = bonding.least_distance_share * mean_distance();
+    }
+
+    Faces bond() {
+        const std::size_t materials = bonding_.materials.size();
+        for (std::size_t b = 0; b < materials; ++b)
+            for (std::size_t a = 0; a <= b; ++a)
+                faces_.laws.push_back(weaker(bonding_.materials[a].law, bonding_.materials[b].law));
+        for (const FaceLaw& law : faces_.laws) check_face_law(law);
+        for (const FaceMaterial& material : bonding_.materials) {
+            FaceLaw platen;
+            if (bonding_.platens == PlatenFaces::bonded) platen = material.law;
+            if (bonding_.platens == PlatenFaces::rubbing) platen.residual_friction = bonding_.platen_friction;
+            platen.damping_ratio = material.law.damping_ratio;
+            faces_.laws.push_back(platen);
+        }
+        for (SharedFace face : net_.faces) {
+            if (is_rigid(world_, face.i) && is_rigid(world_, face.j)) continue;
+            add(face);
+        }
+        set_pressures();
+        list_faces();
+        faces_.broken_at.assign(faces_.size(), no_face);
+        for (FaceIndex k = 0; k < faces_.size(); ++k)
+            if (starts_broken(k)) leave_broken(k);
+        faces_.motion.assign(faces_.size(), {});
+        faces_.force.assign(faces_.size(), {});
+        if (std::ranges::any_of(faces_.laws, [](const FaceLaw& law) { return law.damping_ratio > 0.0; })) {
+            for (FaceIndex k = 0; k < faces_.size(); ++k) faces_.dashpots.push_back(dashpots_of(k));
+            faces_.dashpot_force.assign(faces_.size(), {});
+        }
+        set_lags();
+        return std::move(faces_);
+    }
+
+    const FaceQuality& quality() const { return quality_; }
+
+  private:
+    const FaceModuli& moduli_of(BodyIndex b) const {
+        return bonding_.materials[world_.bodies.names[b].material].moduli;
+    }
+
+    Vec2 reference_of(BodyIndex b) const {
+        if (!bonding_.reference.empty()) return bonding_.reference[b];
+        return outlines_[b].size() == 3 ? circumcentre(outlines_[b]) : net_.cells[b].centroid;
+    }
+
+    double mean_distance() const {
+        double sum = 0.0;
+        std::size_t count = 0;
+        for (const SharedFace& face : net_.faces) {
+            if (is_rigid(world_, face.i) || is_rigid(world_, face.j)) continue;
+            sum += dot(centres_[face.j] - centres_[face.i], face.normal);
+            ++count;
+        }
+        return count > 0 ? sum / static_cast<double>(count) : 0.0;
+    }
+
+    /// Reference point of a cell for a side, or for a face of a rigid body.
+    Vec2 reference_at_side(BodyIndex b, Vec2 middle, Vec2 normal) {
+        if (dot(middle - centres_[b], normal) > 0.5 * least_distance_) return centres_[b];
+        ++quality_.by_centroid;
+        return net_.cells[b].centroid;
+    }
+
+    FaceSprings springs_with_rigid(BodyIndex cell, Vec2 middle, Vec2 outwards, double length, bool cell_is_i) {
+        const FaceModuli& moduli = moduli_of(cell);
+        const double distance = dot(middle - reference_at_side(cell, middle, outwards), outwards);
+        const double normal = moduli.contact * length / distance;
+        return {normal,
+                bonding_.platens != PlatenFaces::smooth ? moduli.shear_ratio * normal : 0.0,
+                length,
+                cell_is_i ? 1.0 : 0.0,
+                cell_is_i ? 0.0 : 1.0,
+                0.0,
+                0.0};
+    }
+
+    FaceSprings springs_between(const SharedFace& face) {
+        const FaceModuli &in_i = moduli_of(face.i), &in_j = moduli_of(face.j);
+        const Vec2 to_i = face.middle - centres_[face.i], to_j = face.middle - centres_[face.j];
+        const double a_i = dot(to_i, face.normal), a_j = -dot(to_j, face.normal), h = a_i + a_j;
+        const Vec2 along = perpendicular(face.normal);
+        const double soft_i = 1.0 / in_i.contact, soft_j = 1.0 / in_j.contact;
+        double compliance = a_i * soft_i + a_j * soft_j;
+        if (h < least_distance_) {
+            ++quality_.raised;
+            compliance = 0.5 * least_distance_ * (soft_i + soft_j);
+        } else {
+            quality_.largest_offset =
+                std::max(quality_.largest_offset, std::abs(dot(to_i, along) - dot(to_j, along)) / h);
+        }
+        const double ratio = (soft_i + soft_j) / (soft_i / in_i.shear_ratio + soft_j / in_j.shear_ratio);
+        const double normal = face.length / compliance;
+        return {normal,
+                ratio * normal,
+                face.length,
+                a_i * soft_i / compliance,
+                a_j * soft_j / compliance,
+                dot(to_i, along) * soft_i / compliance,
+                dot(to_j, along) * soft_j / compliance};
+    }
+
+    void add(const SharedFace& face) {
+        const bool rigid_i = is_rigid(world_, face.i), rigid_j = is_rigid(world_, face.j);
+        const auto material = [&](BodyIndex b) -> std::size_t { return world_.bodies.names[b].material; };
+        faces_.bodies.push_back({face.i, face.j});
+        faces_.springs.push_back(rigid_j ? springs_with_rigid(face.i, face.middle, face.normal, face.length, true)
+                                 : rigid_i
+                                     ? springs_with_rigid(face.j, face.middle, -1.0 * face.normal, face.length, false)
+                                     : springs_between(face));
+        const std::size_t law = rigid_i || rigid_j ? world_.settings.pair_count() + material(rigid_i ? face.j : face.i)
+                                                   : pair_number(material(face.i), material(face.j));
+        faces_.law.push_back(static_cast<std::uint16_t>(law));
+        faces_.strength_share.push_back(
+            bonding_.factors.between(world_.bodies.names[face.i].id, world_.bodies.names[face.j].id));
+        const BodyState &i = world_.bodies.state[face.i], &j = world_.bodies.state[face.j];
+        // Into a body's frame: turned backwards.
+        const auto in_frame = [](const BodyState& body, Vec2 v) {
+            return Vec2{body.shape[0] * v.x + body.shape[1] * v.y, body.shape[0] * v.y - body.shape[1] * v.x};
+        };
+        faces_.place.push_back({in_frame(i, face.normal), in_frame(j, face.normal),
+                                in_frame(i, face.middle - Vec2{i.x, i.y}), in_frame(j, face.middle - Vec2{j.x, j.y}),
+                                j.angle - i.angle});
+    }
+
+    void set_pressures() {
+        std::vector<double> side(world_.bodies.size(), 0.0);  // Σ L h_b/E_c
+        for (const FreeSide& free : net_.sides) {
+            if (is_rigid(world_, free.body)) continue;
+            const Vec2 from = reference_at_side(free.body, free.middle, free.normal);
+            side[free.body] += free.length * dot(free.middle - from, free.normal) / moduli_of(free.body).contact;
+        }
+        faces_.cells.resize(world_.bodies.size());
+        for (BodyIndex b = 0; b < world_.bodies.size(); ++b) {
+            const double modulus = moduli_of(b).pressure;
+            if (is_rigid(world_, b) || modulus == 0.0 || net_.cells[b].area == 0.0) continue;
+            faces_.cells[b].per_area = modulus / (net_.cells[b].area + modulus * side[b]);
+            faces_.has_pressure = true;
+        }
+    }
+
+    void list_faces() {
+        faces_.first_face.assign(world_.bodies.size() + 1, 0);
+        for (const BodyPair& pair : faces_.bodies) {
+            ++faces_.first_face[pair.body_i + 1];
+            ++faces_.first_face[pair.body_j + 1];
+        }
+        for (std::size_t b = 1; b < faces_.first_face.size(); ++b) faces_.first_face[b] += faces_.first_face[b - 1];
+        faces_.face_ends.resize(2 * faces_.size());
+        std::vector<std::uint32_t> next(faces_.first_face.begin(), faces_.first_face.end() - 1);
+        for (FaceIndex k = 0; k < faces_.size(); ++k) {
+            faces_.face_ends[next[faces_.bodies[k].body_i]++] = 2 * k;
+            faces_.face_ends[next[faces_.bodies[k].body_j]++] = 2 * k + 1;
+        }
+    }
+
+    FaceDashpots dashpots_of(FaceIndex k) const {
+        const double twice_ratio = 2.0 * faces_.law_of(k).damping_ratio;
+        // 1/m_eff = 1/m_i + 1/m_j, in which a rigid body has no part.
+        const auto inverse = [&](BodyIndex b, bool of_moment) {
+            const BodyInertia& inertia = world_.bodies.inertia[b];
+            return is_rigid(world_, b) ? 0.0 : of_moment ? inertia.inverse_moment : inertia.inverse_mass_x;
+        };
+        const BodyPair& pair = faces_.bodies[k];
+        const double mass = inverse(pair.body_i, false) + inverse(pair.body_j, false);
+        const double moment = inverse(pair.body_i, true) + inverse(pair.body_j, true);
+        const FaceSprings& springs = faces_.springs[k];
+        return {twice_ratio * std::sqrt(springs.normal / mass), twice_ratio * std::sqrt(springs.shear / mass),
+                twice_ratio * std::sqrt(springs.moment() / moment)};
+    }
+
+    bool starts_broken(FaceIndex k) const {
+        const auto& [i, j] = faces_.bodies[k];
+        if (bonding_.leaves && bonding_.leaves(i, j)) return true;
+        return bonding_.platens == PlatenFaces::rubbing && (is_rigid(world_, i) || is_rigid(world_, j));
+    }
+
+    void leave_broken(FaceIndex k) {
+        BrokenFace face;
+        face.face = k;
+        face.last.half_lap = 0.5 * faces_.springs[k].length;
+        faces_.broken_at[k] = static_cast<FaceIndex>(faces_.broken.size());
+        faces_.broken.push_back(face);
+    }
+
+    /// With H the matrix of the energy over all q_n and q_t in units of √k, H = 1 + M, a stride w of each descends if
+    /// 1/w >= (1 + Σ|M|)/2 for its row of M. The sum is over all faces of its two cells, as if all were open.
+    void set_lags() {
+        constexpr double margin = 0.9;
+        std::vector<double> in_cell(world_.bodies.size(), 0.0);
+        struct Weights {
+            double normal_i, normal_j, shear_i, shear_j;
+        };
+        const auto weights_of = [&](FaceIndex k) {
+            const FaceSprings& s = faces_.springs[k];
+            const double normal = s.length / std::sqrt(s.normal);
+            const double shear = s.shear > 0.0 ? s.length / std::sqrt(s.shear) : 0.0;
+            return Weights{normal * std::abs(s.share_i), normal * std::abs(s.share_j), shear * std::abs(s.skew_i),
+                           shear * std::abs(s.skew_j)};
+        };
+        for (FaceIndex k = 0; k < faces_.size(); ++k) {
+            const Weights w = weights_of(k);
+            in_cell[faces_.bodies[k].body_i] += w.normal_i + w.shear_i;
+            in_cell[faces_.bodies[k].body_j] += w.normal_j + w.shear_j;
+        }
+        for (FaceIndex k = 0; k < faces_.size(); ++k) {
+            const BodyIndex i = faces_.bodies[k].body_i, j = faces_.bodies[k].body_j;
+            const Weights w = weights_of(k);
+            const double of_i = faces_.cells[i].per_area * in_cell[i], of_j = faces_.cells[j].per_area * in_cell[j];
+            const auto share = [&](double row) { return std::min(1.0, margin * 2.0 / (1.0 + row)); };
+            faces_.lag.push_back(
+                {share(w.normal_i * of_i + w.normal_j * of_j), share(w.shear_i * of_i + w.shear_j * of_j)});
+            quality_.slowest_lag = std::min({quality_.slowest_lag, faces_.lag[k].pressure, faces_.lag[k].slip});
+        }
+    }
+
+    const World& world_;
+    const FaceBonding& bonding_;
+    Outlines outlines_;
+    FaceNet net_;
+    std::vector<Vec2> centres_;
+    double least_distance_ = 0.0;
+    Faces faces_;
+    FaceQuality quality_;
+};
+
+}  // namespace
+
+Faces bond_faces(const World& world, const FaceBonding& bonding, FaceQuality* quality) {
+    Bonder bonder(world, bonding);
+    Faces faces = bonder.bond();
+    if (quality != nullptr) *quality = bonder.quality();
+    return faces;
+}
+
+}  // namespace crackle

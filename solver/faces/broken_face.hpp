@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A broken face within a step: what it adds to the dilation of its cells, its forces, and its energies (faces.hpp).
+//
+// Energy that a broken face stores, at the late pressure p̄' and the slip u_p, with Ψ of lap_pressure():
+//     U = Ψ - (L/k_n) p̄' F + ½ (L²/k_n) p̄'² + ½ k_t (δ_t - u_p)²
+// Losses over a step, with a mean of the values before and after it marked by <>:
+//     friction   k_t <q_t> Δu_p + L <τ> Δu_p', q_t after the slip Δu_p;  <½ k w²> |Δlap| at the ends of the lap
+//     tearing    <Ψ_pull> ΔD, with Ψ_pull the energy of an undamaged tension
+//     lag        <F(p̄) - F(p̄')> Δδ_n + <M(p̄) - M(p̄')> Δδ_φ - L <p̄ - p̄'> Δq_n
+// Δu_p' is the slip of the step before, with which the cells' pressures were found: as slips get small, the friction is
+// <F_t> Δu_p. Both follow from the forces alone, so that the energy account checks them. The part of the friction that
+// works against cohesion above its residual value is fracture.
+//
+// A break is found at the end of a step, over which the face's forces have by the trapezoidal rule done half the work
+// of those that it has lost. This half, ½(F - F_left) Δδ of all that changes, is counted as lag, with the opposite
+// sign. Tested by tests/solver/faces/broken_face_test.cpp.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/faces/faces.hpp"
+
+namespace crackle {
+
+/// Half the lap of a broken face, m.
+inline double half_lap_of(const FaceSprings& s, const FaceMotion& m) {
+    return 0.5 * std::max(0.0, s.length - std::abs(m.sliding));
+}
+
+/// Contact of a broken face. @param pressure p̄, Pa @param held 1 - D
+inline BrokenContact contact_of(const FaceSprings& s, const FaceMotion& m, double pressure, double held) {
+    const double stiffness = s.normal / s.length, soft = s.length / s.normal;
+    const double a = half_lap_of(s, m), d = m.opening + pressure * soft;
+    BrokenContact contact{lap_pressure(stiffness, a, d, m.turn), 0.0, 0.0, 0.0};
+    LapPressure& lap = contact.lap;
+    if (held > 0.0) {
+        const LapPressure pull = lap_tension(stiffness, a, d, m.turn);
+        lap = {lap.force + held * pull.force, lap.moment + held * pull.moment, lap.energy + held * pull.energy,
+               lap.closed + held * pull.closed};
+        contact.pull = pull.energy;
+    }
+    contact.stretch = (lap.force - s.length * pressure) / s.normal;
+    contact.energy = lap.energy - soft * pressure * lap.force + 0.5 * soft * s.length * pressure * pressure;
+    return contact;
+}
+
+/// 1 - D of a broken face after its motion. @param held the value before @param pressure p̄, Pa
+inline double held_after(const FaceSprings& s, const FaceLaw& law, double share, const FaceMotion& m, double pressure,
+                         double held) {
+    const double stiffness = s.normal / s.length, a = half_lap_of(s, m);
+    if (held == 0.0 || a == 0.0) return 0.0;
+    const double d = m.opening + pressure / stiffness;
+    // σ of the undamaged face: k d and 6β M/(2a)², with M = k (2a)³/12 δ_φ.
+    const double stress = stiffness * (d + law.moment_share * a * std::abs(m.turn));
+    return tension_held(law, held, stiffness, stress, share);
+}
+
+/// ½ k w² where edges press or hold, mean of the two ends of the lap, N.
+inline double end_closure(const FaceSprings& s, const FaceMotion& m, double pressure, double held) {
+    const double a = half_lap_of(s, m), d = m.opening + pressure * s.length / s.normal;
+    const auto square = [&](double w) { return (w < 0.0 ? 1.0 : held) * w * w; };
+    return 0.25 * s.normal / s.length * (square(d - a * m.turn) + square(d + a * m.turn));
+}
+
+/// Tears a broken face that holds a tension, and finds its contact at the late pressure.
+inline BrokenContact late_contact(BrokenFace& face, const FaceSprings& s, const FaceLaw& law, double share,
+                                  const FaceMotion& m) {
+    const double before = face.held;
+    face.held = held_after(s, law, share, m, face.last.pressure, before);
+    BrokenContact contact = contact_of(s, m, face.last.pressure, face.held);
+    // A tension that ends in this step is part of its loss.
+    if (face.held == 0.0 && before > 0.0) contact.pull = contact_of(s, m, face.last.pressure, before).pull;
+    return contact;
+}
+
+/// Forces of a broken face after a step, and its losses.
+struct BrokenStep {
+    FaceForces forces;
+    FaceLosses losses;
+    double closed;  // m, length over which the edges press
+};
+
+/// Updates a broken face. @param late what late_contact() found for the dilation of its cells @param pressure p̄, Pa
+/// @param skewing τ, Pa
+inline BrokenStep step_broken(BrokenFace& face, const FaceSprings& s, const FaceLaw& law, double share,
+                              const FaceLag& lag, const FaceMotion& m, const BrokenContact& late, double pressure,
+                              double skewing) {
+    const BrokenContact now = contact_of(s, m, pressure, face.held);
+    BrokenState& last = face.last;
+    BrokenState state;
+    state.opening = m.opening, state.sliding = m.sliding, state.turn = m.turn;
+    state.half_lap = half_lap_of(s, m);
+    state.pressure = last.pressure + lag.pressure * (pressure - last.pressure);
+    state.skewing = skewing;
+    state.stretch = late.stretch;
+    state.late_pressure = pressure - last.pressure;
+    state.late_force = now.lap.force - late.lap.force;
+    state.late_moment = now.lap.moment - late.lap.moment;
+    state.end_closure = end_closure(s, m, last.pressure, face.held);
+    state.held = face.held;
+    state.pull = late.pull;
+    if (face.in_shear) face.glued = std::min(face.glued, now.lap.closed);
+
+    const double trial = s.shear * (m.sliding - face.slip) + s.length * skewing;
+    FaceSlip slid = slip_of_face(law, trial, s.shear, std::max(0.0, -now.lap.force), face.glued, face.slipped, share);
+    if (lag.slip < 1.0) {
+        slid.slip *= lag.slip;
+        slid.force = trial - s.shear * slid.slip;
+    }
+    state.slip = slid.slip;
+    state.shear = slid.force;
+    face.slip += slid.slip;
+    face.slipped += std::abs(slid.slip);
+
+    BrokenStep step;
+    step.forces = {now.lap.force, slid.force, now.lap.moment};
+    step.closed = now.lap.closed;
+    const double rubbed =
+        0.5 * ((last.shear + slid.force) * slid.slip + s.length * (last.skewing + skewing) * (last.slip - slid.slip));
+    const double cut = slid.of_fracture * std::abs(slid.slip);
+    step.losses.fracture = cut + 0.5 * (last.pull + late.pull) * (last.held - face.held);
+    step.losses.friction = rubbed - cut + (last.end_closure + state.end_closure) * (last.half_lap - state.half_lap);
+    const double opened = m.opening - last.opening, turned = m.turn - last.turn;
+    step.losses.lag =
+        0.5 * ((last.late_force + state.late_force) * opened + (last.late_moment + state.late_moment) * turned -
+               s.length * (last.late_pressure + state.late_pressure) * (state.stretch - last.stretch));
+    const double bent = m.sliding - face.slip;
+    face.energy = late.energy + 0.5 * s.shear * bent * bent;
+    last = state;
+    return step;
+}
+
+/// What a break leaves, after a new solution for the pressures of the two cells.
+struct BreakResult {
+    BrokenFace face;
+    FaceForces forces;              // left
+    double pressure_i, pressure_j;  // Pa
+    double energy;                  // J, released; never negative
+};
+
+/// Breaks an intact face. The energy descends in turns: over the contact and the cells' pressures, then by slip at a
+/// shear force beyond its limit. @param cell_i, cell_j pressures of its cells with the face intact
+inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceLaw& law, double share,
+                              const FaceMotion& m, const CellPressure& cell_i, const CellPressure& cell_j,
+                              bool in_shear) {
+    BreakResult result{{}, {}, cell_i.pressure, cell_j.pressure, 0.0};
+    BrokenFace& face = result.face;
+    face.face = index;
+    face.in_shear = in_shear;
+    // How much a sum of both pressures, with weights a, answers q_n or q_t, whose weights in the cells are b.
+    const auto answer = [&](double a_i, double a_j, double b_i, double b_j) {
+        return s.length * (cell_i.per_area * a_i * b_i + cell_j.per_area * a_j * b_j);
+    };
+    const double by_normal = answer(s.share_i, s.share_j, s.share_i, s.share_j),
+                 by_shear = answer(s.share_i, s.share_j, s.skew_i, -s.skew_j),
+                 of_skews = answer(s.skew_i, -s.skew_j, s.skew_i, -s.skew_j);
+    const double before = s.share_i * cell_i.pressure + s.share_j * cell_j.pressure,
+                 skewing_before = s.skew_i * cell_i.pressure - s.skew_j * cell_j.pressure;
+    if (in_shear) face.held = held_after(s, law, share, m, before, 1.0);
+    // p̄ = before + by_normal (q_n(p̄) - δ_n) - by_shear u_p. The difference of both sides is convex in p̄, so that
+    // Newton's method converges from any start.
+    constexpr int most_rounds = 1000;
+    constexpr double settled = 1e-15;
+    double pressure = before, skewing = skewing_before, slip = 0.0, shear = 0.0;
+    BrokenContact contact{};
+    for (int turn = 0; turn < most_rounds; ++turn) {
+        for (int round = 0; round < most_rounds; ++round) {
+            contact = contact_of(s, m, pressure, face.held);
+            const double rest = pressure - before - by_normal * (contact.stretch - m.opening) + by_shear * slip;
+            const double slope = 1.0 + by_normal * (s.length - contact.lap.closed) / s.normal;
+            pressure -= rest / slope;
+            if (std::abs(rest) <= settled * (std::abs(pressure) + std::abs(before))) break;
+        }
+        contact = contact_of(s, m, pressure, face.held);
+        skewing = skewing_before + by_shear * (contact.stretch - m.opening) - of_skews * slip;
+        shear = s.shear * (m.sliding - slip) + s.length * skewing;
+        face.glued = in_shear ? contact.lap.closed : 0.0;
+        // After a failure in tension no shear force is left. No slip is longer than the softer cells allow.
+        const double stiffness = s.shear + s.length * of_skews;
+        const double more = in_shear ? slip_of_face(law, shear, stiffness, std::max(0.0, -contact.lap.force),
+                                                    face.glued, std::abs(slip), share)
+                                           .slip
+                                     : shear / stiffness;
+        if (std::abs(more) <= settled * (std::abs(m.sliding) + std::abs(slip))) break;
+        slip += more;
+    }
+    const double normal = s.length * (contact.stretch - m.opening), skewed = -s.length * slip;
+    result.pressure_i += cell_i.per_area * (s.share_i * normal + s.skew_i * skewed);
+    result.pressure_j += cell_j.per_area * (s.share_j * normal - s.skew_j * skewed);
+    result.forces = {contact.lap.force, shear, contact.lap.moment};
+    face.slip = slip;
+    face.slipped = std::abs(slip);
+    const double bent = m.sliding - face.slip;
+    face.energy = contact.energy + 0.5 * s.shear * bent * bent;
+    BrokenState& last = face.last;
+    last.opening = m.opening, last.sliding = m.sliding, last.turn = m.turn;
+    last.half_lap = half_lap_of(s, m);
+    last.pressure = pressure;
+    last.skewing = skewing;
+    last.stretch = contact.stretch;
+    last.shear = shear;
+    last.end_closure = end_closure(s, m, pressure, face.held);
+    last.held = face.held;
+    last.pull = contact.pull;
+    const auto in_cell = [](const CellPressure& cell, double p) {
+        return cell.per_area > 0.0 ? 0.5 * p * p / cell.per_area : 0.0;
+    };
+    const double stored =
+        0.5 * (s.normal * m.opening * m.opening + s.shear * m.sliding * m.sliding + s.moment() * m.turn * m.turn) +
+        in_cell(cell_i, cell_i.pressure) + in_cell(cell_j, cell_j.pressure);
+    result.energy = stored - face.energy - in_cell(cell_i, result.pressure_i) - in_cell(cell_j, result.pressure_j);
+    return result;
+}
+
+}  // namespace crackle

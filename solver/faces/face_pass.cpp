@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/faces/face_pass.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "solver/faces/broken_face.hpp"
+#include "solver/faces/face_motion.hpp"
+
+namespace crackle {
+namespace {
+
+/// Number of faces or bodies in a block. It is fixed, so that sums over blocks do not depend on the number of threads.
+constexpr std::size_t block_size = 512;
+
+/// Calls visit(block, begin, end) for all blocks of a range.
+template <class Visit>
+void over_blocks(const World& world, std::size_t count, Visit visit) {
+    const std::size_t blocks = (count + block_size - 1) / block_size;
+    const auto block = [&](std::size_t n) { visit(n, n * block_size, std::min(count, (n + 1) * block_size)); };
+    if (world.workers.threads == 1 || blocks < 2) {  // a thread team would cost more
+        for (std::size_t n = 0; n < blocks; ++n) block(n);
+        return;
+    }
+#pragma omp parallel for num_threads(world.workers.threads) schedule(static)
+    for (std::size_t n = 0; n < blocks; ++n) block(n);
+}
+
+template <class Visit>
+void for_each(const World& world, std::size_t count, Visit visit) {
+    over_blocks(world, count, [&](std::size_t /*block*/, std::size_t begin, std::size_t end) {
+        for (std::size_t n = begin; n < end; ++n) visit(n);
+    });
+}
+
+class Pass {
+  public:
+    Pass(World& world, Faces& faces) : world_(world), faces_(faces), bodies_(world.bodies.state.data()) {}
+
+    void run() {
+        for_each(world_, faces_.size(), [&](std::size_t k) {
+            const BodyPair& pair = faces_.bodies[k];
+            faces_.motion[k] = motion_of(faces_.place[k], bodies_[pair.body_i], bodies_[pair.body_j]);
+        });
+        faces_.late.resize(faces_.broken.size());
+        for_each(world_, faces_.late.size(), [&](std::size_t n) {
+            const FaceIndex k = faces_.broken[n].face;
+            faces_.late[n] = late_contact(faces_.broken[n], faces_.springs[k], faces_.law_of(k),
+                                          faces_.strength_share[k], faces_.motion[k]);
+        });
+        if (faces_.has_pressure) for_each(world_, faces_.cells.size(), [&](std::size_t b) { press(b); });
+        FaceLosses losses =
+            sum_over(faces_.size(), [&](std::size_t k) { return force_intact(static_cast<FaceIndex>(k)); });
+        break_failing(losses);
+        losses.add(sum_over(faces_.late.size(), [&](std::size_t n) { return force_broken(n); }));
+        for_each(world_, world_.bodies.size(), [&](std::size_t b) { gather(b); });
+        world_.account.friction_loss += losses.friction;
+        world_.account.fracture_loss += losses.fracture;
+        world_.account.dashpot_loss += losses.dashpot;
+        world_.account.law_loss += losses.lag;
+        faces_.lag_loss += losses.lag;
+    }
+
+  private:
+    /// Sum of losses that visit(n) returns, block by block.
+    template <class Visit>
+    FaceLosses sum_over(std::size_t count, Visit visit) {
+        over_blocks(world_, count, [&](std::size_t block, std::size_t begin, std::size_t end) {
+            FaceLosses sum;
+            for (std::size_t n = begin; n < end; ++n) sum.add(visit(n));
+            faces_.losses[block] = sum;
+        });
+        FaceLosses sum;
+        for (std::size_t block = 0; block * block_size < count; ++block) sum.add(faces_.losses[block]);
+        return sum;
+    }
+
+    /// Pressure of a cell from the motion of its faces.
+    void press(std::size_t b) {
+        CellPressure& cell = faces_.cells[b];
+        if (cell.per_area == 0.0) return;
+        double sum = 0.0;
+        for (std::uint32_t n = faces_.first_face[b]; n < faces_.first_face[b + 1]; ++n) {
+            const std::uint32_t end = faces_.face_ends[n];
+            const FaceIndex k = end / 2;
+            const FaceSprings& s = faces_.springs[k];
+            double normal = faces_.motion[k].opening, shear = faces_.motion[k].sliding;
+            if (const FaceIndex at = faces_.broken_at[k]; at != no_face) {
+                normal = faces_.late[at].stretch;
+                shear -= faces_.broken[at].slip;
+            }
+            sum += s.length *
+                   ((end & 1) != 0 ? s.share_j * normal - s.skew_j * shear : s.share_i * normal + s.skew_i * shear);
+        }
+        const double pressure = cell.per_area * sum;
+        cell.rise = pressure - cell.pressure;
+        cell.pressure = pressure;
+    }
+
+    FaceForces elastic_forces(FaceIndex k) const {
+        return intact_forces(faces_.springs[k], faces_.motion[k], faces_.pressure_at(k), faces_.skewing_at(k));
+    }
+
+    /// Adds dashpots to the forces of a face. @param share the part of the length that is closed @return their loss
+    FaceLosses damp(FaceIndex k, FaceForces& forces, double share, bool slides) {
+        const BodyPair& pair = faces_.bodies[k];
+        const FaceRates rate = rates_of(faces_.place[k], faces_.motion[k], bodies_[pair.body_i], bodies_[pair.body_j]);
+        const FaceDashpots& c = faces_.dashpots[k];
+        const FaceDashpots now{share * c.normal * rate.opening, slides ? 0.0 : share * c.shear * rate.sliding,
+                               share * c.moment * rate.turn};
+        FaceDashpots& last = faces_.dashpot_force[k];
+        FaceLosses losses;
+        losses.dashpot = 0.5 * world_.stepping.drift *
+                         ((last.normal + now.normal) * rate.opening + (last.shear + now.shear) * rate.sliding +
+                          (last.moment + now.moment) * rate.turn);
+        last = now;
+        forces.normal += now.normal;
+        forces.shear += now.shear;
+        forces.moment += now.moment;
+        return losses;
+    }
+
+    void store(FaceIndex k, const FaceForces& forces) {
+        const BodyPair& pair = faces_.bodies[k];
+        faces_.force[k] =
+            forces_on_bodies(faces_.place[k], faces_.motion[k], bodies_[pair.body_i], bodies_[pair.body_j], forces);
+    }
+
+    FaceLosses force_intact(FaceIndex k) {
+        if (faces_.broken_at[k] != no_face) return {};
+        FaceForces forces = elastic_forces(k);
+        if (face_failure(faces_.law_of(k), faces_.springs[k].length, faces_.strength_share[k], forces) !=
+            FaceFailure::none) {
+#pragma omp atomic write
+            some_fail_ = true;
+        }
+        FaceLosses losses;
+        if (!faces_.dashpots.empty()) losses = damp(k, forces, 1.0, false);
+        store(k, forces);
+        return losses;
+    }
+
+    /// Breaks the faces whose forces are beyond their strength, in the order of their index.
+    void break_failing(FaceLosses& losses) {
+        if (!some_fail_) return;
+        std::vector<FaceIndex> failing;
+        std::vector<FaceForces> at;
+        for (FaceIndex k = 0; k < faces_.size(); ++k) {
+            if (faces_.broken_at[k] != no_face) continue;
+            const FaceForces forces = elastic_forces(k);
+            if (face_failure(faces_.law_of(k), faces_.springs[k].length, faces_.strength_share[k], forces) ==
+                FaceFailure::none)
+                continue;
+            failing.push_back(k);
+            at.push_back(forces);
+        }
+        for (std::size_t n = 0; n < failing.size(); ++n) losses.add(break_one(failing[n], at[n]));
+        // The pressures of their cells have changed.
+        for (const FaceIndex k : failing) {
+            for (const BodyIndex b : {faces_.bodies[k].body_i, faces_.bodies[k].body_j}) {
+                for (std::uint32_t e = faces_.first_face[b]; e < faces_.first_face[b + 1]; ++e)
+                    force_again(faces_.face_ends[e] / 2);
+            }
+        }
+    }
+
+    /// @param forces elastic forces at which the face fails
+    FaceLosses break_one(FaceIndex k, const FaceForces& forces) {
+        const BodyPair& pair = faces_.bodies[k];
+        CellPressure &cell_i = faces_.cells[pair.body_i], &cell_j = faces_.cells[pair.body_j];
+        const FaceSprings& s = faces_.springs[k];
+        const FaceLaw& law = faces_.law_of(k);
+        const double share = faces_.strength_share[k];
+        const bool in_shear = face_failure(law, s.length, share, forces) == FaceFailure::shear;
+        const FaceForces before = elastic_forces(k);
+        const BreakResult result = break_face(k, s, law, share, faces_.motion[k], cell_i, cell_j, in_shear);
+        const FaceRates rate = rates_of(faces_.place[k], faces_.motion[k], bodies_[pair.body_i], bodies_[pair.body_j]);
+        const double half_drift = 0.5 * world_.stepping.drift;
+        FaceLosses losses;
+        losses.fracture = result.energy;
+        losses.lag = -half_drift * ((before.normal - result.forces.normal) * rate.opening +
+                                    (before.shear - result.forces.shear) * rate.sliding +
+                                    (before.moment - result.forces.moment) * rate.turn);
+        // The other faces of the two cells lose the change of their pressures.
+        const auto others = [&](const CellPressure& cell, double left, double own_rise) {
+            if (cell.per_area == 0.0) return 0.0;
+            return 0.5 * (cell.pressure - left) * (cell.rise / cell.per_area - own_rise * world_.stepping.drift);
+        };
+        losses.lag -=
+            others(cell_i, result.pressure_i, s.length * (s.share_i * rate.opening + s.skew_i * rate.sliding)) +
+            others(cell_j, result.pressure_j, s.length * (s.share_j * rate.opening - s.skew_j * rate.sliding));
+        if (!faces_.dashpots.empty()) {
+            // Its dashpots end with it, and do half the work that was counted for this step.
+            FaceDashpots& damper = faces_.dashpot_force[k];
+            losses.dashpot =
+                -half_drift * (damper.normal * rate.opening + damper.shear * rate.sliding + damper.moment * rate.turn);
+            damper = {};
+        }
+        cell_i.pressure = result.pressure_i;
+        cell_j.pressure = result.pressure_j;
+        faces_.broken_at[k] = static_cast<FaceIndex>(faces_.broken.size());
+        faces_.broken.push_back(result.face);
+        faces_.breaks.push_back(
+            {world_.stepping.steps, k, in_shear, forces.normal, forces.shear, forces.moment, result.energy});
+        store(k, result.forces);
+        return losses;
+    }
+
+    /// Forces of an intact face at the present pressures. Its dashpots stay as they are.
+    void force_again(FaceIndex k) {
+        if (faces_.broken_at[k] != no_face) return;
+        FaceForces forces = elastic_forces(k);
+        if (!faces_.dashpots.empty()) {
+            const FaceDashpots& damper = faces_.dashpot_force[k];
+            forces = {forces.normal + damper.normal, forces.shear + damper.shear, forces.moment + damper.moment};
+        }
+        store(k, forces);
+    }
+
+    /// Forces of a face that was broken before this step.
+    FaceLosses force_broken(std::size_t n) {
+        BrokenFace& face = faces_.broken[n];
+        const FaceIndex k = face.face;
+        BrokenStep step =
+            step_broken(face, faces_.springs[k], faces_.law_of(k), faces_.strength_share[k], faces_.lag[k],
+                        faces_.motion[k], faces_.late[n], faces_.pressure_at(k), faces_.skewing_at(k));
+        if (!faces_.dashpots.empty())
+            step.losses.add(damp(k, step.forces, step.closed / faces_.springs[k].length, face.last.slip != 0.0));
+        store(k, step.forces);
+        return step.losses;
+    }
+
+    void gather(std::size_t b) {
+        BodyForce& sum = world_.bodies.force[b];
+        for (std::uint32_t n = faces_.first_face[b]; n < faces_.first_face[b + 1]; ++n) {
+            const PointForce& force = faces_.force[faces_.face_ends[n] / 2];
+            const bool is_j = (faces_.face_ends[n] & 1) != 0;
+            sum.fx += is_j ? -force.fx : force.fx;
+            sum.fy += is_j ? -force.fy : force.fy;
+            sum.torque += is_j ? force.torque_j : force.torque_i;
+        }
+    }
+
+    World& world_;
+    Faces& faces_;
+    const BodyState* bodies_;
+    bool some_fail_ = false;
+};
+
+}  // namespace
+
+void add_face_forces(World& world, Faces& faces) {
+    faces.losses.resize((faces.size() + block_size - 1) / block_size);
+    Pass(world, faces).run();
+}
+
+double face_energy(const Faces& faces) {
+    double sum = 0.0;
+    for (FaceIndex k = 0; k < faces.size(); ++k) {
+        if (faces.broken_at[k] != no_face) continue;
+        const FaceSprings& s = faces.springs[k];
+        const FaceMotion& m = faces.motion[k];
+        sum +=
+            0.5 * (s.normal * m.opening * m.opening + s.shear * m.sliding * m.sliding + s.moment() * m.turn * m.turn);
+    }
+    for (const BrokenFace& face : faces.broken) sum += face.energy;
+    for (const CellPressure& cell : faces.cells)
+        if (cell.per_area > 0.0) sum += 0.5 * cell.pressure * cell.pressure / cell.per_area;
+    return sum;
+}
+
+}  // namespace crackle

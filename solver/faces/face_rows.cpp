@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/faces/face_rows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "solver/faces/face_motion.hpp"
+
+namespace crackle {
+namespace {
+
+/// Gradients of the motion of a face: over x, y and rotation of i, then of j.
+struct MotionGradients {
+    std::array<double, 6> opening, sliding, turn;
+};
+
+MotionGradients gradients_of(const World& world, const Faces& faces, FaceIndex k) {
+    const BodyState &i = world.bodies.state[faces.bodies[k].body_i], &j = world.bodies.state[faces.bodies[k].body_j];
+    const FacePlace& place = faces.place[k];
+    const FaceMotion m = motion_of(place, i, j);
+    const Vec2 arm_i = turned_with(i, place.arm_i), arm_j = turned_with(j, place.arm_j);
+    const Vec2 n = m.normal, t = perpendicular(n);
+    // The normal turns by half the rotation of each body.
+    return {{-n.x, -n.y, -cross(arm_i, n) + 0.5 * m.sliding, n.x, n.y, cross(arm_j, n) + 0.5 * m.sliding},
+            {-t.x, -t.y, -cross(arm_i, t) - 0.5 * m.opening, t.x, t.y, cross(arm_j, t) - 0.5 * m.opening},
+            {0.0, 0.0, -1.0, 0.0, 0.0, 1.0}};
+}
+
+}  // namespace
+
+LinearRows face_rows(const World& world, const Faces& faces) {
+    LinearRows result;
+    std::vector<MotionGradients> gradients;
+    gradients.reserve(faces.size());
+    for (FaceIndex k = 0; k < faces.size(); ++k) gradients.push_back(gradients_of(world, faces, k));
+    const auto add_entries = [&](FaceIndex k, const std::array<double, 6>& row, double factor) {
+        for (std::size_t a = 0; a < 6; ++a)
+            if (row[a] != 0.0)
+                result.entries.push_back({a < 3 ? faces.bodies[k].body_i : faces.bodies[k].body_j,
+                                          static_cast<int>(a % 3), factor * row[a]});
+    };
+    const auto end_row = [&](std::size_t first, double stiffness, double damping) {
+        // One entry for each degree of freedom: a cell has several faces.
+        const auto begin = result.entries.begin() + static_cast<std::ptrdiff_t>(first);
+        std::stable_sort(begin, result.entries.end(), [](const RowEntry& a, const RowEntry& b) {
+            return std::pair(a.body, a.freedom) < std::pair(b.body, b.freedom);
+        });
+        auto last = begin;
+        for (auto entry = begin; entry != result.entries.end(); ++entry) {
+            if (entry != begin && entry->body == last->body && entry->freedom == last->freedom)
+                last->value += entry->value;
+            else if (entry != begin)
+                *++last = *entry;
+        }
+        result.entries.erase(last + 1, result.entries.end());
+        result.rows.push_back({stiffness, damping, static_cast<std::uint32_t>(first),
+                               static_cast<std::uint32_t>(result.entries.size() - first)});
+    };
+    for (FaceIndex k = 0; k < faces.size(); ++k) {
+        const FaceSprings& s = faces.springs[k];
+        const FaceDashpots c = faces.dashpots.empty() ? FaceDashpots{} : faces.dashpots[k];
+        const auto add = [&](const std::array<double, 6>& row, double stiffness, double damping) {
+            const std::size_t first = result.entries.size();
+            add_entries(k, row, 1.0);
+            end_row(first, stiffness, damping);
+        };
+        add(gradients[k].opening, s.normal, c.normal);
+        add(gradients[k].sliding, s.shear, c.shear);
+        add(gradients[k].turn, s.moment(), c.moment);
+    }
+    for (BodyIndex b = 0; b < faces.cells.size(); ++b) {
+        if (faces.cells[b].per_area == 0.0) continue;
+        const std::size_t first = result.entries.size();
+        for (std::uint32_t n = faces.first_face[b]; n < faces.first_face[b + 1]; ++n) {
+            const FaceIndex k = faces.face_ends[n] / 2;
+            const bool is_j = (faces.face_ends[n] & 1) != 0;
+            const FaceSprings& s = faces.springs[k];
+            add_entries(k, gradients[k].opening, s.length * (is_j ? s.share_j : s.share_i));
+            add_entries(k, gradients[k].sliding, s.length * (is_j ? -s.skew_j : s.skew_i));
+        }
+        end_row(first, faces.cells[b].per_area, 0.0);
+    }
+    return result;
+}
+
+}  // namespace crackle

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The faces of an intact world as rows of its stiffness matrix, linearised about the current positions. There are three
+// for the springs of each face, with their dashpots, and one for the pressure of each cell.
+//
+// The stable step of these rows bounds that of every later state of the same faces: breaks only soften. Pressures that
+// broken faces take from the step before add no stiffness.
+// Tested by tests/solver/faces/face_rows_test.cpp.
+#pragma once
+
+#include "solver/faces/faces.hpp"
+#include "solver/linear/linear_rows.hpp"
+#include "solver/world/world.hpp"
+
+namespace crackle {
+
+/// Rows of all faces as if none were broken, at the current positions of the bodies.
+LinearRows face_rows(const World& world, const Faces& faces);
+
+}  // namespace crackle

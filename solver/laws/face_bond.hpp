@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Law of a face between two bonded polygons: a rigid-body spring network with the pressure of the cells.
+//
+// Stiffness of a face of length L whose two reference points are h apart along its normal, κ = k_t/k_n, plane stress
+// (plane strain: E/(1-ν²) and ν/(1-ν) in place of E and ν):
+//     r = 1 - c_κ ((1-κ)/(1+κ))²     E_c = 2E/((1+ν)(1+κ) r)     λ = E/(2(1-ν)) - E_c/2
+//     k_n = E_c L/h     k_t = κ k_n     k_φ = k_n L²/12
+// E_c contact modulus, λ pressure modulus, Pa. A cell of area A and dilation e has the pressure p = λ e. The areal
+// modulus E_c/2 + λ is exact for every κ; c_κ corrects the shear modulus of irregular cells, which is low if κ ≠ 1.
+// λ >= 0 is required: otherwise irregular cells have negative modes. λ = 0 determines κ from ν.
+//
+// Failure of an intact face, with s = -F_n/L (compression) and one random factor on T and C:
+//     tension   F_n/L + 6β|M|/L² > T
+//     shear     |F_t|/L > C + s tan φ     up to s = s_b; beyond: C + s_b tan φ + (s - s_b) tan φ₂
+// If both hold, the mode is the one whose force is the larger multiple of its strength. Needed: T tan φ <= C, φ₂ <= φ,
+// s_b >= 0, φ_r <= φ₂; otherwise the residual strength passes the peak.
+//
+// Afterwards the two edges press on each other where they lap, linearly and without tension. 2a is the lap, d the
+// opening at its centre, δ_φ the relative rotation, φ = |δ_φ|, k the normal stiffness per length, k_n/L:
+//     d + aφ <= 0    F = 2a k d,  M = k (2a)³/12 δ_φ,           Ψ = ½(2a k d² + k (2a)³/12 δ_φ²)
+//     d - aφ >= 0    nothing
+//     otherwise      b = a - d/φ,  F = -½ k φ b²,  |M| = |F|(a - b/3),  Ψ = k φ² b³/6,  M with the sign of δ_φ
+// Tension is positive. The shear force is limited to c(u) b_c + max(0, -F) tan φ_r. b_c is the least closed length
+// since failure. The cohesion c(u) falls from C to c_r over the slip u_c, and equals c_r if u_c = 0.
+// After a failure in shear the edges hold a tension as well, where they do not press: (1 - D) times that of the intact
+// face. With σ = F/2a + 6β|M|/(2a)² without damage, D is the largest value so far of (1 - σ_r/σ)/(1 - σ_r/(k w_c)) for
+// σ > σ_r. The tension held thus falls from σ_r to 0 over the inelastic opening w_c, at once if w_c <= σ_r/k.
+// All forces are per metre of thickness. Sources: solver/MODEL.md 5.5. Tested by tests/solver/laws/face_bond_test.cpp.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/base/fields.hpp"
+
+namespace crackle {
+
+/// Stiffness of rock with faces, Pa.
+struct FaceModuli {
+    double contact = 0.0;      ///< E_c: normal traction per strain between the two reference points
+    double pressure = 0.0;     ///< λ: pressure of a cell per dilation; 0 if cells have none
+    double shear_ratio = 1.0;  ///< κ = k_t/k_n
+
+    CRACKLE_FIELDS(contact, pressure, shear_ratio);
+};
+
+/// Moduli for a given shear ratio; Poisson's ratio comes from the pressure of the cells. @param correction c_κ
+/// @throws InputError if the pressure modulus would be negative
+FaceModuli face_moduli(double youngs_modulus, double poissons_ratio, double shear_ratio, double correction);
+
+/// Moduli without a pressure of the cells; the shear ratio follows from Poisson's ratio. @param correction c_κ
+/// @throws InputError for a Poisson's ratio outside 0 to 1/3
+FaceModuli face_moduli_without_pressure(double youngs_modulus, double poissons_ratio, double correction);
+
+/// Strengths of the faces between two materials; without values a face never breaks.
+struct FaceLaw {
+    double tensile_strength = std::numeric_limits<double>::infinity();  // T, Pa
+    double cohesion = std::numeric_limits<double>::infinity();          // C, Pa
+    double friction = 0.0;                                              // tan φ
+    double knee = std::numeric_limits<double>::infinity();              // s_b, Pa
+    double friction_beyond = 0.0;                                       // tan φ₂
+    double moment_share = 0.0;                                          // β, 0 to 1
+    double residual_friction = 0.0;                                     // tan φ_r
+    double residual_cohesion = 0.0;                                     // c_r, Pa
+    double softening_slip = 0.0;                                        // u_c, m
+    double residual_tensile_strength = 0.0;                             // σ_r, Pa
+    double softening_opening = 0.0;                                     // w_c, m
+    double damping_ratio = 0.0;                                         // h of each spring of a face
+
+    CRACKLE_FIELDS(tensile_strength, cohesion, friction, knee, friction_beyond, moment_share, residual_friction,
+                   residual_cohesion, softening_slip, residual_tensile_strength, softening_opening, damping_ratio);
+};
+
+/// Checks a law. @throws InputError if a value is out of its range, or the residual strength could pass the peak
+void check_face_law(const FaceLaw& law);
+
+/// Forces of a face on body i: F_n along the normal (tension positive), F_t along the tangent, and the moment M.
+struct FaceForces {
+    double normal = 0.0, shear = 0.0;  // N
+    double moment = 0.0;               // N m
+};
+
+/// Whether a face fails, and how.
+enum class FaceFailure { none, tension, shear };
+
+/// Shear strength of an intact face, Pa. @param compression s, Pa @param share random factor on C
+inline double face_shear_strength(const FaceLaw& law, double compression, double share) {
+    return share * law.cohesion + law.friction * std::min(compression, law.knee) +
+           law.friction_beyond * std::max(0.0, compression - law.knee);
+}
+
+/// Failure of an intact face. @param length L, m @param share random factor on T and C
+inline FaceFailure face_failure(const FaceLaw& law, double length, double share, const FaceForces& f) {
+    const double tension = f.normal / length + 6.0 * law.moment_share * std::abs(f.moment) / (length * length);
+    const double shear = std::abs(f.shear) / length;
+    const double tensile = share * law.tensile_strength;
+    const double strength = face_shear_strength(law, -f.normal / length, share);
+    const bool parts = tension > tensile, slips = shear > strength;
+    if (!parts && !slips) return FaceFailure::none;
+    // The larger ratio of force to strength decides, written without a division by a strength of 0.
+    if (parts && (!slips || tension * std::max(0.0, strength) >= shear * tensile)) return FaceFailure::tension;
+    return FaceFailure::shear;
+}
+
+/// Pressure of two edges on each other.
+struct LapPressure {
+    double force = 0.0;   // F, N
+    double moment = 0.0;  // M about the centre of the lap, N m
+    double energy = 0.0;  // Ψ, J
+    double closed = 0.0;  // m, length over which the edges press; dF/dd over k
+
+    CRACKLE_FIELDS(force, moment, energy, closed);
+};
+
+/// Linear pressure without tension. @param stiffness k, N/m per metre of length @param half_lap a, m @param opening d,
+/// m @param turn δ_φ, rad
+inline LapPressure lap_pressure(double stiffness, double half_lap, double opening, double turn) {
+    const double a = half_lap, d = opening, phi = std::abs(turn);
+    if (a <= 0.0 || d - a * phi >= 0.0) return {};
+    if (d + a * phi <= 0.0) {
+        const double k_n = 2.0 * a * stiffness, k_phi = k_n * a * a / 3.0;
+        return {k_n * d, k_phi * turn, 0.5 * (k_n * d * d + k_phi * turn * turn), 2.0 * a};
+    }
+    const double b = a - d / phi, force = -0.5 * stiffness * phi * b * b;
+    return {force, std::copysign(-force * (a - b / 3.0), turn), stiffness * phi * phi * b * b * b / 6.0, b};
+}
+
+/// What edges pull at each other where they do not press, if nothing is damaged. Parameters as for lap_pressure().
+inline LapPressure lap_tension(double stiffness, double half_lap, double opening, double turn) {
+    const LapPressure push = lap_pressure(stiffness, half_lap, opening, turn);
+    const double k_n = 2.0 * half_lap * stiffness, k_phi = k_n * half_lap * half_lap / 3.0;
+    return {k_n * opening - push.force, k_phi * turn - push.moment,
+            0.5 * (k_n * opening * opening + k_phi * turn * turn) - push.energy, 2.0 * half_lap - push.closed};
+}
+
+/// 1 - D of a face that failed in shear. @param held 1 - D so far @param stiffness k, Pa/m @param stress σ, Pa
+/// @param share random factor on T
+inline double tension_held(const FaceLaw& law, double held, double stiffness, double stress, double share) {
+    const double residual = std::min(law.residual_tensile_strength, share * law.tensile_strength);
+    if (stress <= residual) return held;
+    const double steepness = 1.0 - residual / (stiffness * law.softening_opening);  // -infinity without an opening
+    if (!(steepness > 0.0)) return 0.0;
+    return std::min(held, std::max(0.0, 1.0 - (1.0 - residual / stress) / steepness));
+}
+
+/// Residual cohesion of a face, Pa. A weak face has at most its own cohesion. @param share random factor on C
+inline double residual_cohesion_of(const FaceLaw& law, double share) {
+    return std::min(law.residual_cohesion, share * law.cohesion);
+}
+
+/// What is left of the cohesion after a slip, Pa. @param slipped Σ|Δu_p|, m @param share random factor on C
+inline double cohesion_left(const FaceLaw& law, double slipped, double share) {
+    const double residual = residual_cohesion_of(law, share);
+    if (!(slipped < law.softening_slip)) return residual;
+    return residual + (share * law.cohesion - residual) * (1.0 - slipped / law.softening_slip);
+}
+
+/// Shear force of a broken face and its plastic slip in this step.
+struct FaceSlip {
+    double force = 0.0;        // N
+    double slip = 0.0;         // m, Δu_p
+    double of_fracture = 0.0;  // N, part of the force that works against cohesion above its residual value
+};
+
+/// Returns a trial shear force to the limit c(u) b_c + N tan φ_r. The limit falls with this step's own slip.
+/// @param trial k_t(δ_t - u_p) + L τ, N @param stiffness k_t, N/m @param pressing max(0, -F), N @param glued b_c, m
+inline FaceSlip slip_of_face(const FaceLaw& law, double trial, double stiffness, double pressing, double glued,
+                             double slipped, double share) {
+    const double rubbing = law.residual_friction * pressing, size = std::abs(trial);
+    const double before = cohesion_left(law, slipped, share), residual = residual_cohesion_of(law, share);
+    if (size <= rubbing + before * glued) return {trial, 0.0, 0.0};
+    double slip = (size - rubbing - before * glued) / stiffness;
+    if (slipped < law.softening_slip && glued > 0.0) {
+        const double slope = (share * law.cohesion - residual) / law.softening_slip * glued;
+        const double longer =
+            slope < stiffness ? slip * stiffness / (stiffness - slope) : std::numeric_limits<double>::infinity();
+        // Beyond the softening slip the cohesion is the residual one.
+        slip = slipped + longer < law.softening_slip ? longer : (size - rubbing - residual * glued) / stiffness;
+    }
+    const double after = cohesion_left(law, slipped + slip, share);
+    const double left = rubbing + after * glued;
+    return {std::copysign(left, trial), std::copysign(slip, trial), (0.5 * (before + after) - residual) * glued};
+}
+
+}  // namespace crackle
