@@ -243,8 +243,9 @@ class PlaceGrid {
     }
 
   private:
-    /// Nearest point within `rings` rings of squares; among equally near points, the one in the first square in order.
-    /// The point's own square is searched first, since the distance found there excludes most other squares.
+    /// Nearest point within `rings` rings of squares; among equally near points, the one in the first square in the
+    /// order of rows and columns. The square of `p` is searched first, since the distance found there excludes most
+    /// other squares.
     std::pair<int, double> nearest_of_squares(Point p, std::int64_t rings) const {
         int best = -1;
         double least = std::numeric_limits<double>::infinity();

@@ -20,8 +20,8 @@
 namespace crackle {
 namespace {
 
-// Points closer than this fraction of the largest coordinate count as the same. Crossings of three lines at one point
-// differ by a few rounding errors.
+// Two points are treated as one if they are closer together than this fraction of the largest coordinate. Where three
+// lines meet, their pairwise intersections differ by a few rounding errors.
 constexpr double same_place_share = 1e-13;
 constexpr std::size_t most_pairs = 5'000'000;
 

@@ -34,7 +34,7 @@ async function pictures(page, report, parts) {
 }
 try {
     const page = await browser.newPage({viewport: {width: 1280, height: 900}, colorScheme: 'light'});
-    page.setDefaultTimeout(240_000);  // ms, since software rendering of thousands of cells is slow on a busy machine
+    page.setDefaultTimeout(240_000);  // ms; long because software rendering of thousands of cells is slow on a busy machine
     await mkdir(gallery, {recursive: true});
     if (laboratory) await pictures(page, resolve(laboratory), [['#specimens', 'laboratory.png']]);
     await pictures(page, join(results, 'report.html'), [['#curves', 'curves.png'], ['#specimens', 'specimens.png']]);

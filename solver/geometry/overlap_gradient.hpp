@@ -21,7 +21,7 @@ inline OverlapGradient closing_gradient(Vec2 direction, Vec2 arm_i, Vec2 arm_j) 
 }
 
 /// Exact derivative of the overlap under the DEMseg guide's segment law at the current positions. Without contact, the
-/// derivative of minus the nearest disc's distance.
+/// derivative of the negative distance to the nearest disc.
 /// @param kind disc_segment or segment_segment
 OverlapGradient guide_gradient(const World& world, PointKind kind, const ContactPoint& point);
 

@@ -44,7 +44,7 @@ struct BondMemory {
 struct BrokenBond {
     bool in_shear, slid;
     double rest_overlap;          // m, overlap at which the force is zero
-    double normal, shear;         // N, remaining elastic forces
+    double normal, shear;         // N, elastic forces after the break
     double strength;              // N
     double energy;                // J
     BondForces<double> reported;  // forces of its event

@@ -325,7 +325,7 @@ Least least_of(const World& world, const std::vector<BodyBlocks>& blocks, const 
 
 // Largest number of rounds. For the three specimens of the DEMseg guide, more rounds raise the bound by less than 1 %.
 constexpr int weight_rounds = 12;
-// Rounds continue as long as three of them raise the bound by at least this fraction.
+// Rounds continue as long as the last three together raised the bound by at least this fraction.
 constexpr double worth_three_rounds = 5e-4;
 // A bound counts as unchanged if it differs from that of the last search by less than this fraction.
 constexpr double unchanged = 2e-3;

@@ -237,9 +237,9 @@ void validate_pieces(const Scene& scene) {
     const bool circles = std::ranges::any_of(scene.bodies, [](const Body& body) { return body.circle_count == 1; });
     const auto clump = std::ranges::find_if(scene.bodies, [](const Body& body) { return body.circle_count > 1; });
     if (clump != scene.bodies.end())
-        throw InputError(
-            fmt::format("joints: found body {}, a clump, expected single circles, since a clump has no face on a trace",
-                        clump->id));
+        throw InputError(fmt::format(
+            "joints: found body {}, a clump, expected single circles; only these get flat faces along traces",
+            clump->id));
     if (!circles) throw InputError("joints: found traces among circles but no circle, expected at least one circle");
 }
 

@@ -55,10 +55,11 @@ std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
                 target_name(rock, k), rock.targets[k].value, reached.fresh.mean, reached.fresh.standard_error);
         if (reached.verdict != TargetVerdict::out_of_reach) continue;
         const std::string bounds = keys_at_bounds(rock, outcome);
-        text +=
-            fmt::format("\n{} = {:.4g} is out of reach together with the other targets: nearest {:.4g} ± {:.2g}{}\n",
-                        target_name(rock, k), rock.targets[k].value, reached.fresh.mean, reached.fresh.standard_error,
-                        bounds.empty() ? "" : fmt::format(", with {} at the bounds", bounds));
+        text += fmt::format(
+            "\n{} = {:.4g} cannot be met together with the other targets; the nearest value reached is {:.4g} ± "
+            "{:.2g}{}\n",
+            target_name(rock, k), rock.targets[k].value, reached.fresh.mean, reached.fresh.standard_error,
+            bounds.empty() ? "" : fmt::format(", with {} at the bounds", bounds));
     }
     if (outcome.frontier.empty()) return text;
     text += fmt::format("\npossible compromises for {} (means of the fit packings ± standard error):\n",

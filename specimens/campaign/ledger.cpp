@@ -64,7 +64,7 @@ void run(SQLite::Statement& statement) {
 
 }  // namespace
 
-/// Calls work(). Exceptions of SQLite are translated into errors with the file name and a description.
+/// Calls work(). SQLite exceptions are translated into errors with the file name and a description.
 template <class Work>
 auto CampaignLedger::guarded(const Work& work) const {
     errno = 0;

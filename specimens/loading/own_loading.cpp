@@ -14,7 +14,7 @@
 namespace crackle {
 namespace {
 
-constexpr const char* own_speed = "the driving part's speed is the caller's from strain ";
+constexpr const char* own_speed = "the calling program has set the driving part's speed since strain ";
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void set_platen_speed(VirtualTest& test, double speed) {
     LoadingPath& path = test.state.path;
     const double strain = setup.apparatus.axial_strain(test.world);
     if (std::ranges::none_of(setup.origin.notices, [](const std::string& text) { return text.starts_with(own_speed); }))
-        setup.origin.notices.push_back(fmt::format("{}{:.6g} on", own_speed, strain));
+        setup.origin.notices.push_back(fmt::format("{}{:.6g}", own_speed, strain));
     setup.rate_rule.tolerance = 0.0;
     path.own_from = std::min(path.own_from, path.travel(strain));
     path.change_speed(speed / setup.apparatus.length, std::numeric_limits<double>::infinity(), strain);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The profile of a run as a table: time spent in each phase of the stepping loop, and the remaining time.
+// The profile of a run as a table: time spent in each phase of the stepping loop, and outside these phases.
 // Tested by tests/tools/commands/test_test.cpp.
 #pragma once
 

@@ -126,7 +126,7 @@ class DiscAssembly {
 inline constexpr std::size_t assembly_block = 256;
 
 /// Number of discs whose pairs are computed before their forces are summed. The intermediate data, about 10 kB, then
-/// fit into the L1 cache. It divides assembly_block.
+/// fit into the L1 cache. Must be a divisor of assembly_block.
 inline constexpr std::size_t assembly_chunk = 64;
 
 /// Smallest number of discs for which a parallel region is worthwhile.

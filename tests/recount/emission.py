@@ -85,7 +85,7 @@ def recount_b(r, magnitudes):
     if not distances:
         return
     least = min(distances)[0]
-    # If two magnitudes differ only by rounding, either is accepted.
+    # If the distances at two magnitudes differ only by rounding, either magnitude is accepted.
     best = min((m for d, m in distances if d <= least + 1e-12), key=lambda m: abs(m - other["completeness"]))
     r.key(names + "least_distance.completeness", best)
     above = tried[tried > best] - best

@@ -196,7 +196,7 @@ class Model:
             self.outline[k] = np.concatenate([corners, np.repeat(corners[-1:], most - len(corners), axis=0)])
             self.corner_count[k] = len(corners)
 
-    # laws of pairs, solver/MODEL.md 4
+    # laws of contacts between two bodies (solver/MODEL.md, section 4)
 
     def _pair(self, name, i, j):
         value = np.array([m[name] for m in self.materials])

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes a small specimen and its case as files. Discs lie on a slightly irregular triangular lattice between four
-// walls, with overlaps so that they can be bonded. Polygons are cells of the same centres.
+// walls, with overlaps so that they can be bonded. Polygons are the mesh cells of the same centres.
 #pragma once
 
 #include <fmt/format.h>

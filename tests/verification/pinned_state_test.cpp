@@ -35,7 +35,7 @@ Material damped_rock() {
     return material;
 }
 
-/// Gives every body a random velocity and spin.
+/// Gives the bodies different velocities and spins.
 Scene stirred(Scene scene, double speed) {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const auto k = static_cast<double>(b % 7), l = static_cast<double>(b % 5);

@@ -254,7 +254,7 @@ bool are_runs_of_decks(const Words& paths) {
     const auto other =
         std::ranges::find_if(paths, [&](const std::string& path) { return is_run_of_deck(path) != of_deck; });
     if (other == paths.end()) return of_deck;
-    throw InputError(fmt::format("plot: {}: found the run of a deck and {}, expected either runs of decks or tests",
+    throw InputError(fmt::format("plot: {}: found the run of a deck and {}, expected only runs of decks, or only tests",
                                  of_deck ? paths.front() : *other, of_deck ? *other : paths.front()));
 }
 

@@ -9,7 +9,7 @@ namespace crackle::tools {
 
 /// From now on, the first SIGINT, SIGTERM or SIGHUP (closed terminal) is only recorded, and a second one ends the
 /// program. If the program is still running two seconds after the first, for example in a library call, a message on
-/// stderr points out the second signal.
+/// stderr says that a second signal will end it.
 void watch_interrupts();
 
 /// From now on, if interrupted() is not called within five seconds of a signal, the program ends with exit code 130.

@@ -37,7 +37,7 @@ class Messages {
     void stage(const std::string& text);
     /// Prints a line in the same form, only with -v.
     void detail(const std::string& text);
-    /// Prints a notice for the user, one sentence, except with -q.
+    /// Prints a one-sentence notice for the user; prints nothing with -q.
     void notice(const std::string& text);
     /// Removes the progress line. Call this before printing results to stdout.
     void make_room() { progress_.clear(); }

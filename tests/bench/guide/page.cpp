@@ -65,7 +65,7 @@ std::optional<Effect> effect_of(const GuideRow& row, const GuidePage& page, cons
                   guide_experiment(experiment).sentence,
                   a.packings,
                   a.mean,
-                  b.mean,  // A change smaller than the scatter explains nothing, even if it crosses the limit.
+                  b.mean,  // A change smaller than the scatter is no effect, even if it crosses the limit.
                   reaches_guide(row, b.mean, shipped) && std::abs(b.mean - a.mean) >= shipped.deviation};
 }
 

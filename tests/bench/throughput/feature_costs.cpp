@@ -75,7 +75,7 @@ struct Features {
     bool area = false, coulomb = false, random_strengths = false;
 };
 
-/// Adds blocks as wide as the specimen below and above it, held and driven like the platens of a test.
+/// Adds a block below and a block above the specimen, each as wide as it, held and driven like the platens of a test.
 void put_between_platens(Scene& scene) {
     const Domain& domain = scene.domain;
     const double depth = 0.05 * (domain.y2 - domain.y1), outwards = scene.circles.empty() ? 0.5 * scene.thick : 0.0;

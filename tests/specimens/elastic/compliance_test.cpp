@@ -66,7 +66,7 @@ TEST(ComplianceOfASet, AgreesWithItsClosedFormAlongAnyLoad) {
     constexpr double spacing = 0.1, normal = 3e11, shear = 5e10;
     for (const double angle : {0.0, 25.0, 90.0, 140.0}) {
         const Compliance s = compliance_of_set(angle * std::numbers::pi / 180.0, spacing, normal, shear);
-        // Load along y: the angle t between the joints' normal and y equals the angle of the traces.
+        // Load along y. The joint normal is at `angle` to y; c and t are the cosine and sine of this angle.
         const double c = std::cos(angle * std::numbers::pi / 180.0), t = std::sin(angle * std::numbers::pi / 180.0);
         EXPECT_NEAR(s[1][1], c * c * c * c / (normal * spacing) + t * t * c * c / (shear * spacing), 1e-24) << angle;
         for (std::size_t a = 0; a < 3; ++a)

@@ -106,7 +106,7 @@ TEST_F(Frames, ContactsHaveTheForcesAndStatesOfTheirPoints) {
             bonded += view.bonded;
         }
         EXPECT_LT(bonded, bonds.size());
-        // The tolerance for positions is round-off of the specimen's size, and for rotations that of a full turn.
+        // Round-off of positions, about 1e-15 of the specimen's height, times a stiffness of 1e7 N/m.
         const double rounding = 1e7 * 1e-15 * test.setup.specimen.height;
         double largest = 0.0;
         std::array<int, 5> counts{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests a specimen in two half boxes, which is compressed before it is sheared, and loaded tests of kinds that are not
-// between platens.
+// Tests the direct shear test, in which a specimen in two half boxes is compressed and then sheared, and other kinds of
+// test without platens.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -82,7 +82,7 @@ TEST(Verdicts, DiscThatSplitsAlongItsLoadIsValid) {
 
 TEST(Verdicts, DiscThatIsCrushedAtBothJawsIsNot) {
     Cracked disc(LoadingKind::brazilian, 21, 21);
-    disc.split(10, 0, 2);  // its mean position is the centre
+    disc.split(10, 0, 2);  // the mean position of both splits is the centre
     disc.split(10, 18, 20);
     for (const Verdict& verdict : disc.verdicts())
         EXPECT_EQ(verdict.holds, false) << verdict.claim << ": " << verdict.found;

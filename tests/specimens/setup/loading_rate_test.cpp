@@ -166,8 +166,8 @@ TEST_F(ByTolerance, StartsAsTheElasticSolutionMovesWithoutAShock) {
             const double expected = first.axial_stress + modulus * (row.axial_strain - first.axial_strain);
             worst = std::max(worst, std::abs(row.axial_stress - expected) / last.axial_stress);
         }
-        // A sudden start at the platen's speed would cause an error of rate·transit/strain = sqrt(tolerance) = 0.1;
-        // with the rule, half of the tolerance remains.
+        // A sudden start at the platen's speed would cause an error of rate·transit/strain = sqrt(tolerance) = 0.1. The
+        // initial ramp of the rule reduces it to half the tolerance.
         EXPECT_TRUE(
             within(fmt::format("{}: stress off the line of slope E, over the last stress", mesh), worst, 0.0, 0.01));
     }

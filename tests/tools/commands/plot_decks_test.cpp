@@ -62,8 +62,8 @@ TEST_F(PlotDecks, DisplacementsOfWatchedBodiesAreThoseOfTheFile) {
     const std::vector<std::vector<Vec2>> frames = frames_of(svg), curves = curves_of(svg);
     ASSERT_EQ(frames.size(), 2U)
         << "energy, and displacement along the chain: nothing moves across it, nothing is driven";
-    // Bodies 11 and 13 are drawn last. The heights of their peaks above their starts must have the ratio of the values
-    // in the file.
+    // Bodies 11 and 13 are drawn last. The heights of their peaks above their starts must be in the same ratio as the
+    // values in the file.
     const auto rise_drawn = [&](std::size_t from_end) {
         const std::vector<Vec2>& curve = curves[curves.size() - from_end];
         double highest = curve.front().y;
@@ -116,7 +116,7 @@ TEST_F(PlotDecks, ForcesAreDrawnOverDisplacementsWhereABodyIsDriven) {
 TEST_F(PlotDecks, RefusesWhatARunHasNot) {
     write_sample_results(folder_ / "pulled", SampleTest{});
     expect_refused("wave pulled -o figure.pdf",
-                   "found the run of a deck and pulled, expected either runs of decks or tests");
+                   "found the run of a deck and pulled, expected only runs of decks, or only tests");
     expect_refused("wave -o figure.pdf --what strain",
                    "--what: found 'strain', expected energy, displacement, height, velocity, force, curve or all "
                    "for the run of a deck");

@@ -97,7 +97,7 @@ class Resume : public testing::ProgramCall, public ::testing::WithParamInterface
         _exit(127);
     }
 
-    /// Ends the process by the signal after `seconds`, unless it has ended before. @return its exit code or -signal
+    /// Sends `signal` to the process after `seconds`, unless it has already ended. @return its exit code or -signal
     static int stop(pid_t child, int signal, double seconds) {
         const auto until = Clock::now() + std::chrono::duration<double>(seconds);
         int status = 0;

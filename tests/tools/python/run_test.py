@@ -175,7 +175,7 @@ class Callbacks(InScratch):
         self.assertEqual(result.summary["ended_by"], "caller")
         top = int(numpy.argmax(strain[:len(strain) // 2]))
         self.assertLess(strain[top:].min(), 0.000025)
-        self.assertTrue(any("speed is the caller's from strain" in text for text in result.summary["notices"]))
+        self.assertTrue(any("has set the driving part's speed since strain" in text for text in result.summary["notices"]))
         modulus = result.summary["youngs_modulus"]
         # Loading at 0.02 1/s begins from rest: the jump of the platen's speed v sends a wave of stress sqrt(E ρ) v.
         wave = 2.0 * (modulus * CASE["material"]["density"]) ** 0.5 * 0.02 * result.summary["initial_height"]

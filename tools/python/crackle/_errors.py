@@ -28,7 +28,7 @@ _FORMS = (
     # where: key needs another key, or cannot be given here
     re.compile(r"(?:(?P<where>[^:\n]+(?::\d+)?): )?(?P<key>[\w.\[\]]+) (?P<found>(?:needs|cannot be given here)\b[^;]*)"
                + _END, re.DOTALL),
-    # message of the command line's parser
+    # message of the command-line parser
     re.compile(r"(?P<where>[^:\n]+): the argument \('(?P<found>.*)'\) for option '(?P<key>[^'\n]+)' is invalid"
                r"(?:, expected (?P<expected>.*))?(?: \((?P<remedy>see [^()]*)\))", re.DOTALL),
     # where: what is wrong

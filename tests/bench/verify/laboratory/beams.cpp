@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Beams on two supports by their linear solution: deflection, and the stress intensity at a notch from the energy
+// The linear solution of simply supported beams: deflection, and the stress intensity at a notch from the energy
 // release rate.
 // Tested by tests/verification/claims_test.cpp.
 

@@ -29,7 +29,7 @@ World free_specimen(Kind kind, double friction_angle, double step_share, IntactO
     scene.intact = intact;
     World world = build_world(std::move(scene));
     bond_all(world, 1.08e-3);
-    // Bonding increased the reach of the polygons, so the bound was computed again; all specimens use the same step.
+    // Bonding has changed the bound on the stable step. All specimens use the same fraction of it.
     world.stepping.automatic_step = false;
     world.stepping.time_step = step_share * world.stepping.step_bound;
     return world;
