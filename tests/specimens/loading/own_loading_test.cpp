@@ -126,7 +126,7 @@ TEST_F(OwnLoading, RowsFollowThePlatenBackAndForth) {
     const double down = static_cast<double>(rows.end() - top) / 1e-4;
     EXPECT_NEAR(down / up, 1.0, 0.02);
     EXPECT_TRUE(std::ranges::any_of(test.setup.origin.notices, [](const std::string& text) {
-        return text.find("caller's from strain 0.0002") != std::string::npos;
+        return text.find("since strain 0.0002") != std::string::npos;
     }));
 }
 
