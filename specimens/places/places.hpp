@@ -102,7 +102,7 @@ class Places {
 
     /// «file:line: table.key», or the key alone if no case was read.
     std::string at(CaseKey key) const { return named(name_of(key)); }
-    /// A place in the file, for a key of a table that may occur several times. @param entry  index of the table, from 0
+    /// Place of a key of a table that may occur several times. @param entry  index of the table, from 0
     std::string at(CaseKey key, std::size_t entry) const;
     /// Whether a file or a setting gives the key.
     bool gives(CaseKey key) const { return written_ && written_->position.contains(name_of(key)); }

@@ -28,11 +28,6 @@ TEST(TestKinds, TheCaseKnowsEveryKindByItsName) {
     for (const std::string& name : names_of<LoadingKind>()) {
         const LoadingKind value = *from_name<LoadingKind>(name);
         const TestKind& kind = test_kind(value);
-        ResolvedCase test;
-        test.loading.kind = value;
-        EXPECT_EQ(kind.kind, value) << name;
-        EXPECT_EQ(test.uniaxial(), kind.uniaxial) << name;
-        EXPECT_EQ(test.pressed(), kind.shear_box || test.confined()) << name;
         EXPECT_EQ(kind.apparatus == nullptr, kind.uniaxial) << name;
         for (const KindKey& one : kind.keys) {
             const std::string key = one.key, table = key.substr(0, key.find('.'));

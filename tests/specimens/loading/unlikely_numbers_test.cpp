@@ -32,8 +32,8 @@ TestedSpecimen core() {
     return specimen;
 }
 
-std::string notices_of(const ResolvedCase& test, const TestSetup& setup = core()) {
-    const std::string all = fmt::format("{}", fmt::join(unlikely_numbers(test, setup.specimen), "\n"));
+std::string notices_of(const ResolvedCase& test, const TestedSpecimen& specimen = core()) {
+    const std::string all = fmt::format("{}", fmt::join(unlikely_numbers(test, specimen), "\n"));
     if (!all.empty()) fmt::print("  {}\n", all);
     return all;
 }

@@ -261,7 +261,7 @@ TEST(StrengthsOverConfinement, MeansAndTensionsLieAtTheirStresses) {
 JointNetwork one_trace() {
     JointNetwork network;
     network.box = {0.0, 2.0, 0.0, 1.0, {}};
-    network.sources.push_back({"survey"});
+    network.sources.push_back({"survey", {}});
     network.traces.push_back({{{0.5, 0.25}, {1.5, 0.75}}, 0, 1.118, true});
     return network;
 }
