@@ -82,16 +82,27 @@ class Bonder {
             if (is_rigid(world_, face.i) && is_rigid(world_, face.j)) continue;
             add(face);
         }
+        faces_.springs.assign(faces_.size());
+        faces_.place.assign(faces_.size());
+        for (FaceIndex k = 0; k < faces_.size(); ++k) {
+            faces_.springs.set(k, springs_[k]);
+            faces_.place.set(k, places_[k]);
+        }
         set_pressures();
         list_faces();
         faces_.broken_at.assign(faces_.size(), no_face);
         for (FaceIndex k = 0; k < faces_.size(); ++k)
             if (starts_broken(k)) leave_broken(k);
-        faces_.motion.assign(faces_.size(), {});
+        faces_.motion.assign(faces_.size());
+        if (faces_.has_pressure) {
+            faces_.dilation_i.assign(faces_.size(), 0.0);
+            faces_.dilation_j.assign(faces_.size(), 0.0);
+        }
         faces_.force.assign(faces_.size(), {});
         if (std::ranges::any_of(faces_.laws, [](const FaceLaw& law) { return law.damping_ratio > 0.0; })) {
-            for (FaceIndex k = 0; k < faces_.size(); ++k) faces_.dashpots.push_back(dashpots_of(k));
-            faces_.dashpot_force.assign(faces_.size(), {});
+            faces_.dashpots.assign(faces_.size());
+            for (FaceIndex k = 0; k < faces_.size(); ++k) faces_.dashpots.set(k, dashpots_of(k));
+            faces_.dashpot_force.assign(faces_.size());
         }
         set_lags();
         return std::move(faces_);
@@ -169,9 +180,8 @@ class Bonder {
         const bool rigid_i = is_rigid(world_, face.i), rigid_j = is_rigid(world_, face.j);
         const auto material = [&](BodyIndex b) -> std::size_t { return world_.bodies.names[b].material; };
         faces_.bodies.push_back({face.i, face.j});
-        faces_.springs.push_back(rigid_j ? springs_with_rigid(face.i, face.middle, face.normal, face.length, true)
-                                 : rigid_i
-                                     ? springs_with_rigid(face.j, face.middle, -1.0 * face.normal, face.length, false)
+        springs_.push_back(rigid_j   ? springs_with_rigid(face.i, face.middle, face.normal, face.length, true)
+                           : rigid_i ? springs_with_rigid(face.j, face.middle, -1.0 * face.normal, face.length, false)
                                      : springs_between(face));
         const std::size_t law = rigid_i || rigid_j ? world_.settings.pair_count() + material(rigid_i ? face.j : face.i)
                                                    : pair_number(material(face.i), material(face.j));
@@ -183,9 +193,9 @@ class Bonder {
         const auto in_frame = [](const BodyState& body, Vec2 v) {
             return Vec2{body.shape[0] * v.x + body.shape[1] * v.y, body.shape[0] * v.y - body.shape[1] * v.x};
         };
-        faces_.place.push_back({in_frame(i, face.normal), in_frame(j, face.normal),
-                                in_frame(i, face.middle - Vec2{i.x, i.y}), in_frame(j, face.middle - Vec2{j.x, j.y}),
-                                j.angle - i.angle});
+        places_.push_back({in_frame(i, face.normal), in_frame(j, face.normal),
+                           in_frame(i, face.middle - Vec2{i.x, i.y}), in_frame(j, face.middle - Vec2{j.x, j.y}),
+                           j.angle - i.angle});
     }
 
     void set_pressures() {
@@ -285,6 +295,8 @@ class Bonder {
     FaceNet net_;
     std::vector<Vec2> centres_;
     double least_distance_ = 0.0;
+    std::vector<FaceSprings> springs_;
+    std::vector<FacePlace> places_;
     Faces faces_;
     FaceQuality quality_;
 };

@@ -1,57 +1,169 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Motion of a face and its forces on the two bodies (faces.hpp).
+// Motion of a face and its forces on the two bodies (faces.hpp), written once for one face (Number is double) and for
+// several (Number is Lanes), with bit-identical results.
 // Tested by tests/solver/faces/face_pass_test.cpp.
 #pragma once
 
 #include <cmath>
 
+#include "solver/base/lanes.hpp"
 #include "solver/faces/faces.hpp"
 
 namespace crackle {
 
-/// A vector of a body's frame in world axes.
-inline Vec2 turned_with(const BodyState& body, Vec2 v) {
-    return {body.shape[0] * v.x - body.shape[1] * v.y, body.shape[1] * v.x + body.shape[0] * v.y};
+/// A vector, or one in each lane.
+template <class Number>
+struct VecOf {
+    Number x, y;
+};
+template <class Number>
+CRACKLE_INLINE VecOf<Number> operator+(const VecOf<Number>& a, const VecOf<Number>& b) {
+    return {a.x + b.x, a.y + b.y};
+}
+template <class Number>
+CRACKLE_INLINE VecOf<Number> operator-(const VecOf<Number>& a, const VecOf<Number>& b) {
+    return {a.x - b.x, a.y - b.y};
+}
+template <class Number>
+CRACKLE_INLINE VecOf<Number> operator*(const Number& s, const VecOf<Number>& a) {
+    return {s * a.x, s * a.y};
+}
+template <class Number>
+CRACKLE_INLINE Number dot(const VecOf<Number>& a, const VecOf<Number>& b) {
+    return a.x * b.x + a.y * b.y;
+}
+template <class Number>
+CRACKLE_INLINE Number cross(const VecOf<Number>& a, const VecOf<Number>& b) {
+    return a.x * b.y - a.y * b.x;
+}
+template <class Number>
+CRACKLE_INLINE VecOf<Number> perpendicular(const VecOf<Number>& a) {
+    return {-a.y, a.x};
 }
 
+/// What the motion of a face reads of a body.
+template <class Number>
+struct FaceBody {
+    VecOf<Number> place;  // m
+    Number cosine, sine;  // of the rotation from the body's frame
+    Number angle;         // rad
+
+    /// A vector of the body's frame in world axes.
+    CRACKLE_INLINE VecOf<Number> turned(const VecOf<Number>& v) const {
+        return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y};
+    }
+};
+/// Velocities of a body.
+template <class Number>
+struct FaceBodyRates {
+    VecOf<Number> velocity;  // m/s
+    Number spin;             // rad/s
+};
+inline FaceBody<double> face_body(const BodyState& body) {
+    return {{body.x, body.y}, body.shape[0], body.shape[1], body.angle};
+}
+inline FaceBodyRates<double> face_body_rates(const BodyState& body) { return {{body.vx, body.vy}, body.omega}; }
+
+/// FacePlace, or one in each lane.
+template <class Number>
+struct PlaceOf {
+    VecOf<Number> normal_i, normal_j, arm_i, arm_j;
+    Number rest_turn;
+};
+inline PlaceOf<double> place_of(const FacePlace& place) {
+    const auto of = [](Vec2 v) { return VecOf<double>{v.x, v.y}; };
+    return {of(place.normal_i), of(place.normal_j), of(place.arm_i), of(place.arm_j), place.rest_turn};
+}
+
+/// FaceMotion, or one in each lane.
+template <class Number>
+struct MotionOf {
+    VecOf<Number> normal;
+    Number opening, sliding, turn;
+};
+
 /// Motion of a face at the current positions.
-inline FaceMotion motion_of(const FacePlace& place, const BodyState& i, const BodyState& j) {
+template <class Number>
+CRACKLE_INLINE MotionOf<Number> motion_of(const PlaceOf<Number>& place, const FaceBody<Number>& i,
+                                          const FaceBody<Number>& j) {
     // The sum of the two turned normals bisects their angle.
-    const Vec2 sum = turned_with(i, place.normal_i) + turned_with(j, place.normal_j);
-    const Vec2 normal = (1.0 / norm(sum)) * sum;
-    const Vec2 apart = Vec2{j.x - i.x, j.y - i.y} + (turned_with(j, place.arm_j) - turned_with(i, place.arm_i));
+    const VecOf<Number> sum = i.turned(place.normal_i) + j.turned(place.normal_j);
+    const Number inverse = 1.0 / root(dot(sum, sum));
+    const VecOf<Number> normal = inverse * sum;
+    const VecOf<Number> apart = (j.place - i.place) + (j.turned(place.arm_j) - i.turned(place.arm_i));
     return {normal, dot(apart, normal), dot(apart, perpendicular(normal)), (j.angle - i.angle) - place.rest_turn};
+}
+inline FaceMotion motion_of(const FacePlace& place, const BodyState& i, const BodyState& j) {
+    const MotionOf<double> m = motion_of(place_of(place), face_body(i), face_body(j));
+    return {{m.normal.x, m.normal.y}, m.opening, m.sliding, m.turn};
 }
 
 /// Rates of the motion of a face, m/s and rad/s.
+template <class Number>
 struct FaceRates {
-    double opening, sliding, turn;
+    Number opening, sliding, turn;
 };
 
 /// Rates of a face's motion at the current velocities.
-inline FaceRates rates_of(const FacePlace& place, const FaceMotion& motion, const BodyState& i, const BodyState& j) {
-    const auto velocity = [](const BodyState& body, Vec2 arm) {
-        return Vec2{body.vx, body.vy} + body.omega * perpendicular(turned_with(body, arm));
-    };
-    const Vec2 apart = velocity(j, place.arm_j) - velocity(i, place.arm_i);
-    const double spin = 0.5 * (i.omega + j.omega);
+template <class Number>
+CRACKLE_INLINE FaceRates<Number> rates_of(const PlaceOf<Number>& place, const MotionOf<Number>& motion,
+                                          const FaceBody<Number>& i, const FaceBody<Number>& j,
+                                          const FaceBodyRates<Number>& of_i, const FaceBodyRates<Number>& of_j) {
+    const VecOf<Number> apart = (of_j.velocity + of_j.spin * perpendicular(j.turned(place.arm_j))) -
+                                (of_i.velocity + of_i.spin * perpendicular(i.turned(place.arm_i)));
+    const Number spin = 0.5 * (of_i.spin + of_j.spin);
     return {dot(apart, motion.normal) + spin * motion.sliding,
-            dot(apart, perpendicular(motion.normal)) - spin * motion.opening, j.omega - i.omega};
+            dot(apart, perpendicular(motion.normal)) - spin * motion.opening, of_j.spin - of_i.spin};
+}
+inline FaceRates<double> rates_of(const FacePlace& place, const FaceMotion& m, const BodyState& i, const BodyState& j) {
+    return rates_of<double>(place_of(place), {{m.normal.x, m.normal.y}, m.opening, m.sliding, m.turn}, face_body(i),
+                            face_body(j), face_body_rates(i), face_body_rates(j));
 }
 
-/// Forces of a face on its bodies: on i, and torques on both. They act midway between the two images of the midpoint.
-inline PointForce forces_on_bodies(const FacePlace& place, const FaceMotion& motion, const BodyState& i,
-                                   const BodyState& j, const FaceForces& f) {
-    const Vec2 along = perpendicular(motion.normal);
-    const Vec2 force = f.normal * motion.normal + f.shear * along;
-    const Vec2 half = 0.5 * (motion.opening * motion.normal + motion.sliding * along);
-    return {force.x, force.y, cross(turned_with(i, place.arm_i) + half, force) + f.moment,
-            -cross(turned_with(j, place.arm_j) - half, force) - f.moment};
+/// Forces of a face along its normal and tangent, and its moment.
+template <class Number>
+struct ForcesOf {
+    Number normal, shear, moment;  // N, N, N m
+};
+
+/// Force of a face on body i, N, and its moments on both, N m.
+template <class Number>
+struct FaceOnBodies {
+    VecOf<Number> force;
+    Number torque_i, torque_j;
+};
+
+/// Forces of a face on its bodies. They act midway between the two images of the midpoint.
+template <class Number>
+CRACKLE_INLINE FaceOnBodies<Number> forces_on_bodies(const PlaceOf<Number>& place, const MotionOf<Number>& motion,
+                                                     const FaceBody<Number>& i, const FaceBody<Number>& j,
+                                                     const ForcesOf<Number>& f) {
+    const VecOf<Number> along = perpendicular(motion.normal);
+    const VecOf<Number> force = f.normal * motion.normal + f.shear * along;
+    const VecOf<Number> half = (0.5 * motion.opening) * motion.normal + (0.5 * motion.sliding) * along;
+    return {force, cross(i.turned(place.arm_i) + half, force) + f.moment,
+            -cross(j.turned(place.arm_j) - half, force) - f.moment};
+}
+inline PointForce forces_on_bodies(const FacePlace& place, const FaceMotion& m, const BodyState& i, const BodyState& j,
+                                   const FaceForces& f) {
+    const FaceOnBodies<double> on =
+        forces_on_bodies<double>(place_of(place), {{m.normal.x, m.normal.y}, m.opening, m.sliding, m.turn},
+                                 face_body(i), face_body(j), {f.normal, f.shear, f.moment});
+    return {on.force.x, on.force.y, on.torque_i, on.torque_j};
 }
 
-/// Elastic forces of an intact face. @param pressure p̄, Pa @param skewing τ, Pa
+/// Elastic forces of an intact face. @param length L, m @param pressure p̄, Pa @param skewing τ, Pa
+template <class Number>
+CRACKLE_INLINE ForcesOf<Number> intact_forces(const Number& normal_stiffness, const Number& shear_stiffness,
+                                              const Number& length, const MotionOf<Number>& m, const Number& pressure,
+                                              const Number& skewing) {
+    return {normal_stiffness * m.opening + length * pressure, shear_stiffness * m.sliding + length * skewing,
+            normal_stiffness * length * length / 12.0 * m.turn};
+}
 inline FaceForces intact_forces(const FaceSprings& s, const FaceMotion& m, double pressure, double skewing) {
-    return {s.normal * m.opening + s.length * pressure, s.shear * m.sliding + s.length * skewing, s.moment() * m.turn};
+    const ForcesOf<double> f = intact_forces<double>(
+        s.normal, s.shear, s.length, {{m.normal.x, m.normal.y}, m.opening, m.sliding, m.turn}, pressure, skewing);
+    return {f.normal, f.shear, f.moment};
 }
 
 }  // namespace crackle

@@ -7,7 +7,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "solver/base/chosen_set.hpp"
 #include "solver/faces/broken_face.hpp"
+#include "solver/faces/face_kernels.hpp"
 #include "solver/faces/face_motion.hpp"
 
 namespace crackle {
@@ -41,21 +43,31 @@ class Pass {
     Pass(World& world, Faces& faces) : world_(world), faces_(faces), bodies_(world.bodies.state.data()) {}
 
     void run() {
-        for_each(world_, faces_.size(), [&](std::size_t k) {
-            const BodyPair& pair = faces_.bodies[k];
-            faces_.motion[k] = motion_of(faces_.place[k], bodies_[pair.body_i], bodies_[pair.body_j]);
+        const MoveFaces move = of_chosen_set([]<InstructionSet S>() -> MoveFaces { return &move_faces<S>; });
+        const ForceFaces force = of_chosen_set([]<InstructionSet S>() -> ForceFaces { return &force_faces<S>; });
+        over_blocks(world_, faces_.size(), [&](std::size_t /*block*/, std::size_t begin, std::size_t end) {
+            move(faces_, bodies_, static_cast<FaceIndex>(begin), static_cast<FaceIndex>(end));
         });
         faces_.late.resize(faces_.broken.size());
-        for_each(world_, faces_.late.size(), [&](std::size_t n) {
-            const FaceIndex k = faces_.broken[n].face;
-            faces_.late[n] = late_contact(faces_.broken[n], faces_.springs[k], faces_.law_of(k),
-                                          faces_.strength_share[k], faces_.motion[k]);
-        });
+        for_each(world_, faces_.late.size(), [&](std::size_t n) { move_broken(n); });
         if (faces_.has_pressure) for_each(world_, faces_.cells.size(), [&](std::size_t b) { press(b); });
-        FaceLosses losses =
-            sum_over(faces_.size(), [&](std::size_t k) { return force_intact(static_cast<FaceIndex>(k)); });
+        over_blocks(world_, faces_.size(), [&](std::size_t block, std::size_t begin, std::size_t end) {
+            const IntactForces found = force(faces_, bodies_, world_.stepping.drift, static_cast<FaceIndex>(begin),
+                                             static_cast<FaceIndex>(end));
+            faces_.losses[block] = {};
+            faces_.losses[block].dashpot = found.dashpot_loss;
+            if (found.some_fail) {
+#pragma omp atomic write
+                some_fail_ = true;
+            }
+        });
+        FaceLosses losses = sum_of_blocks(faces_.size());
         break_failing(losses);
-        losses.add(sum_over(faces_.late.size(), [&](std::size_t n) { return force_broken(n); }));
+        over_blocks(world_, faces_.late.size(), [&](std::size_t block, std::size_t begin, std::size_t end) {
+            faces_.losses[block] = {};
+            for (std::size_t n = begin; n < end; ++n) faces_.losses[block].add(force_broken(n));
+        });
+        losses.add(sum_of_blocks(faces_.late.size()));
         for_each(world_, world_.bodies.size(), [&](std::size_t b) { gather(b); });
         world_.account.friction_loss += losses.friction;
         world_.account.fracture_loss += losses.fracture;
@@ -65,17 +77,23 @@ class Pass {
     }
 
   private:
-    /// Sum of losses that visit(n) returns, block by block.
-    template <class Visit>
-    FaceLosses sum_over(std::size_t count, Visit visit) {
-        over_blocks(world_, count, [&](std::size_t block, std::size_t begin, std::size_t end) {
-            FaceLosses sum;
-            for (std::size_t n = begin; n < end; ++n) sum.add(visit(n));
-            faces_.losses[block] = sum;
-        });
+    FaceLosses sum_of_blocks(std::size_t count) const {
         FaceLosses sum;
         for (std::size_t block = 0; block * block_size < count; ++block) sum.add(faces_.losses[block]);
         return sum;
+    }
+
+    /// Contact of a broken face at its late pressure, and its part in the dilation of its cells.
+    void move_broken(std::size_t n) {
+        BrokenFace& face = faces_.broken[n];
+        const FaceIndex k = face.face;
+        const FaceSprings s = faces_.springs[k];
+        const FaceMotion m = faces_.motion[k];
+        faces_.late[n] = late_contact(face, s, faces_.law_of(k), faces_.strength_share[k], m);
+        if (!faces_.has_pressure) return;
+        const double normal = faces_.late[n].stretch, shear = m.sliding - face.slip;
+        faces_.dilation_i[k] = s.length * (s.share_i * normal + s.skew_i * shear);
+        faces_.dilation_j[k] = s.length * (s.share_j * normal - s.skew_j * shear);
     }
 
     /// Pressure of a cell from the motion of its faces.
@@ -85,15 +103,7 @@ class Pass {
         double sum = 0.0;
         for (std::uint32_t n = faces_.first_face[b]; n < faces_.first_face[b + 1]; ++n) {
             const std::uint32_t end = faces_.face_ends[n];
-            const FaceIndex k = end / 2;
-            const FaceSprings& s = faces_.springs[k];
-            double normal = faces_.motion[k].opening, shear = faces_.motion[k].sliding;
-            if (const FaceIndex at = faces_.broken_at[k]; at != no_face) {
-                normal = faces_.late[at].stretch;
-                shear -= faces_.broken[at].slip;
-            }
-            sum += s.length *
-                   ((end & 1) != 0 ? s.share_j * normal - s.skew_j * shear : s.share_i * normal + s.skew_i * shear);
+            sum += (end & 1) != 0 ? faces_.dilation_j[end / 2] : faces_.dilation_i[end / 2];
         }
         const double pressure = cell.per_area * sum;
         cell.rise = pressure - cell.pressure;
@@ -107,16 +117,17 @@ class Pass {
     /// Adds dashpots to the forces of a face. @param share the part of the length that is closed @return their loss
     FaceLosses damp(FaceIndex k, FaceForces& forces, double share, bool slides) {
         const BodyPair& pair = faces_.bodies[k];
-        const FaceRates rate = rates_of(faces_.place[k], faces_.motion[k], bodies_[pair.body_i], bodies_[pair.body_j]);
-        const FaceDashpots& c = faces_.dashpots[k];
+        const FaceRates<double> rate =
+            rates_of(faces_.place[k], faces_.motion[k], bodies_[pair.body_i], bodies_[pair.body_j]);
+        const FaceDashpots c = faces_.dashpots[k];
         const FaceDashpots now{share * c.normal * rate.opening, slides ? 0.0 : share * c.shear * rate.sliding,
                                share * c.moment * rate.turn};
-        FaceDashpots& last = faces_.dashpot_force[k];
+        const FaceDashpots last = faces_.dashpot_force[k];
         FaceLosses losses;
         losses.dashpot = 0.5 * world_.stepping.drift *
                          ((last.normal + now.normal) * rate.opening + (last.shear + now.shear) * rate.sliding +
                           (last.moment + now.moment) * rate.turn);
-        last = now;
+        faces_.dashpot_force.set(k, now);
         forces.normal += now.normal;
         forces.shear += now.shear;
         forces.moment += now.moment;
@@ -127,20 +138,6 @@ class Pass {
         const BodyPair& pair = faces_.bodies[k];
         faces_.force[k] =
             forces_on_bodies(faces_.place[k], faces_.motion[k], bodies_[pair.body_i], bodies_[pair.body_j], forces);
-    }
-
-    FaceLosses force_intact(FaceIndex k) {
-        if (faces_.broken_at[k] != no_face) return {};
-        FaceForces forces = elastic_forces(k);
-        if (face_failure(faces_.law_of(k), faces_.springs[k].length, faces_.strength_share[k], forces) !=
-            FaceFailure::none) {
-#pragma omp atomic write
-            some_fail_ = true;
-        }
-        FaceLosses losses;
-        if (!faces_.dashpots.empty()) losses = damp(k, forces, 1.0, false);
-        store(k, forces);
-        return losses;
     }
 
     /// Breaks the faces whose forces are beyond their strength, in the order of their index.
@@ -177,7 +174,8 @@ class Pass {
         const bool in_shear = face_failure(law, s.length, share, forces) == FaceFailure::shear;
         const FaceForces before = elastic_forces(k);
         const BreakResult result = break_face(k, s, law, share, faces_.motion[k], cell_i, cell_j, in_shear);
-        const FaceRates rate = rates_of(faces_.place[k], faces_.motion[k], bodies_[pair.body_i], bodies_[pair.body_j]);
+        const FaceRates<double> rate =
+            rates_of(faces_.place[k], faces_.motion[k], bodies_[pair.body_i], bodies_[pair.body_j]);
         const double half_drift = 0.5 * world_.stepping.drift;
         FaceLosses losses;
         losses.fracture = result.energy;
@@ -192,12 +190,12 @@ class Pass {
         losses.lag -=
             others(cell_i, result.pressure_i, s.length * (s.share_i * rate.opening + s.skew_i * rate.sliding)) +
             others(cell_j, result.pressure_j, s.length * (s.share_j * rate.opening - s.skew_j * rate.sliding));
-        if (!faces_.dashpots.empty()) {
+        if (faces_.damped()) {
             // Its dashpots end with it, and do half the work that was counted for this step.
-            FaceDashpots& damper = faces_.dashpot_force[k];
+            FaceDashpots damper = faces_.dashpot_force[k];
             losses.dashpot =
                 -half_drift * (damper.normal * rate.opening + damper.shear * rate.sliding + damper.moment * rate.turn);
-            damper = {};
+            faces_.dashpot_force.set(k, {});
         }
         cell_i.pressure = result.pressure_i;
         cell_j.pressure = result.pressure_j;
@@ -213,8 +211,8 @@ class Pass {
     void force_again(FaceIndex k) {
         if (faces_.broken_at[k] != no_face) return;
         FaceForces forces = elastic_forces(k);
-        if (!faces_.dashpots.empty()) {
-            const FaceDashpots& damper = faces_.dashpot_force[k];
+        if (faces_.damped()) {
+            const FaceDashpots damper = faces_.dashpot_force[k];
             forces = {forces.normal + damper.normal, forces.shear + damper.shear, forces.moment + damper.moment};
         }
         store(k, forces);
@@ -227,7 +225,7 @@ class Pass {
         BrokenStep step =
             step_broken(face, faces_.springs[k], faces_.law_of(k), faces_.strength_share[k], faces_.lag[k],
                         faces_.motion[k], faces_.late[n], faces_.pressure_at(k), faces_.skewing_at(k));
-        if (!faces_.dashpots.empty())
+        if (faces_.damped())
             step.losses.add(damp(k, step.forces, step.closed / faces_.springs[k].length, face.last.slip != 0.0));
         store(k, step.forces);
         return step.losses;

@@ -19,7 +19,10 @@ MotionGradients gradients_of(const World& world, const Faces& faces, FaceIndex k
     const BodyState &i = world.bodies.state[faces.bodies[k].body_i], &j = world.bodies.state[faces.bodies[k].body_j];
     const FacePlace& place = faces.place[k];
     const FaceMotion m = motion_of(place, i, j);
-    const Vec2 arm_i = turned_with(i, place.arm_i), arm_j = turned_with(j, place.arm_j);
+    const auto turned = [](const BodyState& body, Vec2 v) {
+        return Vec2{body.shape[0] * v.x - body.shape[1] * v.y, body.shape[1] * v.x + body.shape[0] * v.y};
+    };
+    const Vec2 arm_i = turned(i, place.arm_i), arm_j = turned(j, place.arm_j);
     const Vec2 n = m.normal, t = perpendicular(n);
     // The normal turns by half the rotation of each body.
     return {{-n.x, -n.y, -cross(arm_i, n) + 0.5 * m.sliding, n.x, n.y, cross(arm_j, n) + 0.5 * m.sliding},
@@ -59,7 +62,7 @@ LinearRows face_rows(const World& world, const Faces& faces) {
     };
     for (FaceIndex k = 0; k < faces.size(); ++k) {
         const FaceSprings& s = faces.springs[k];
-        const FaceDashpots c = faces.dashpots.empty() ? FaceDashpots{} : faces.dashpots[k];
+        const FaceDashpots c = faces.damped() ? faces.dashpots[k] : FaceDashpots{};
         const auto add = [&](const std::array<double, 6>& row, double stiffness, double damping) {
             const std::size_t first = result.entries.size();
             add_entries(k, row, 1.0);

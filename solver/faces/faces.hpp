@@ -31,6 +31,7 @@
 
 #include "solver/base/array.hpp"
 #include "solver/base/fields.hpp"
+#include "solver/faces/columns.hpp"
 #include "solver/laws/face_bond.hpp"
 #include "solver/world/bodies.hpp"
 #include "solver/world/points.hpp"
@@ -164,8 +165,8 @@ struct FaceBreak {
 /// All faces of a world.
 struct Faces {
     Array<BodyPair> bodies;
-    Array<FacePlace> place;
-    Array<FaceSprings> springs;
+    Columns<FacePlace> place;
+    Columns<FaceSprings> springs;
     Array<std::uint16_t> law;      // index into `laws`
     Array<double> strength_share;  // random factor on T and C
     Array<FaceLag> lag;
@@ -177,32 +178,36 @@ struct Faces {
     bool has_pressure = false;  // whether any cell has a pressure
     std::vector<BrokenFace> broken;
     std::vector<FaceBreak> breaks;
-    Array<FaceDashpots> dashpots, dashpot_force;  // coefficients, and forces of the last pass; empty without damping
+    Columns<FaceDashpots> dashpots, dashpot_force;  // coefficients, and forces of the last pass; empty without damping
     double lag_loss = 0.0;  // J, lost because q_n takes the pressures of the step before, and breaks are found late
 
     // The rest is what the last force pass found.
-    Array<FaceMotion> motion;
-    Array<PointForce> force;    // on body i, and torques on both
-    Array<BrokenContact> late;  // for each broken face, at its late pressure
-    Array<FaceLosses> losses;   // of each block of faces
+    Columns<FaceMotion> motion;
+    Array<double> dilation_i, dilation_j;  // m², of both cells by each face; empty without a pressure
+    Array<PointForce> force;               // on body i, and torques on both
+    Array<BrokenContact> late;             // for each broken face, at its late pressure
+    Array<FaceLosses> losses;              // of each block of faces
 
     /// Number of faces.
     std::size_t size() const { return bodies.size(); }
+    /// Whether faces have dashpots.
+    bool damped() const { return dashpots.size() > 0; }
     /// The law of a face.
     const FaceLaw& law_of(FaceIndex k) const { return laws[law[k]]; }
     /// p̄ of a face, Pa.
     double pressure_at(FaceIndex k) const {
-        return springs[k].share_i * cells[bodies[k].body_i].pressure +
-               springs[k].share_j * cells[bodies[k].body_j].pressure;
+        const FaceSprings s = springs[k];
+        return s.share_i * cells[bodies[k].body_i].pressure + s.share_j * cells[bodies[k].body_j].pressure;
     }
     /// τ of a face, Pa.
     double skewing_at(FaceIndex k) const {
-        return springs[k].skew_i * cells[bodies[k].body_i].pressure -
-               springs[k].skew_j * cells[bodies[k].body_j].pressure;
+        const FaceSprings s = springs[k];
+        return s.skew_i * cells[bodies[k].body_i].pressure - s.skew_j * cells[bodies[k].body_j].pressure;
     }
 
     CRACKLE_FIELDS(bodies, place, springs, law, strength_share, lag, broken_at, laws, first_face, face_ends, cells,
-                   has_pressure, broken, breaks, dashpots, dashpot_force, lag_loss, motion, force, late, losses);
+                   has_pressure, broken, breaks, dashpots, dashpot_force, lag_loss, motion, dilation_i, dilation_j,
+                   force, late, losses);
 };
 
 }  // namespace crackle

@@ -33,6 +33,7 @@
 #include <limits>
 
 #include "solver/base/fields.hpp"
+#include "solver/base/lanes.hpp"
 
 namespace crackle {
 
@@ -84,22 +85,46 @@ struct FaceForces {
 /// Whether a face fails, and how.
 enum class FaceFailure { none, tension, shear };
 
-/// Shear strength of an intact face, Pa. @param compression s, Pa @param share random factor on C
-inline double face_shear_strength(const FaceLaw& law, double compression, double share) {
-    return share * law.cohesion + law.friction * std::min(compression, law.knee) +
-           law.friction_beyond * std::max(0.0, compression - law.knee);
-}
+/// Strengths of an intact face, or of several in lanes.
+template <class Number>
+struct FaceStrength {
+    FaceStrength() = default;
+    /// @param share random factor on T and C
+    CRACKLE_INLINE FaceStrength(const FaceLaw& law, const Number& share)
+        : tensile(share * law.tensile_strength),
+          cohesion(share * law.cohesion),
+          friction(all_of<Number>(law.friction)),
+          knee(all_of<Number>(law.knee)),
+          friction_beyond(all_of<Number>(law.friction_beyond)),
+          moment_share(all_of<Number>(law.moment_share)) {}
+
+    Number tensile, cohesion, friction, knee, friction_beyond, moment_share;
+};
+
+/// Stresses of an intact face that its strengths limit, Pa, and its shear strength at the present compression.
+template <class Number>
+struct FaceStress {
+    CRACKLE_INLINE FaceStress(const FaceStrength<Number>& strength, const Number& length, const Number& normal,
+                              const Number& tangential, const Number& moment)
+        : tension(normal / length + 6.0 * strength.moment_share * magnitude(moment) / (length * length)),
+          shear(magnitude(tangential) / length) {
+        const Number compression = -normal / length, beyond = compression - strength.knee;
+        shear_strength = strength.cohesion + strength.friction * select(beyond < 0.0, compression, strength.knee) +
+                         strength.friction_beyond * select(beyond < 0.0, Number{}, beyond);
+    }
+
+    Number tension, shear, shear_strength;
+};
 
 /// Failure of an intact face. @param length L, m @param share random factor on T and C
 inline FaceFailure face_failure(const FaceLaw& law, double length, double share, const FaceForces& f) {
-    const double tension = f.normal / length + 6.0 * law.moment_share * std::abs(f.moment) / (length * length);
-    const double shear = std::abs(f.shear) / length;
-    const double tensile = share * law.tensile_strength;
-    const double strength = face_shear_strength(law, -f.normal / length, share);
-    const bool parts = tension > tensile, slips = shear > strength;
+    const FaceStrength<double> strength(law, share);
+    const FaceStress<double> stress(strength, length, f.normal, f.shear, f.moment);
+    const bool parts = stress.tension > strength.tensile, slips = stress.shear > stress.shear_strength;
     if (!parts && !slips) return FaceFailure::none;
     // The larger ratio of force to strength decides, written without a division by a strength of 0.
-    if (parts && (!slips || tension * std::max(0.0, strength) >= shear * tensile)) return FaceFailure::tension;
+    if (parts && (!slips || stress.tension * std::max(0.0, stress.shear_strength) >= stress.shear * strength.tensile))
+        return FaceFailure::tension;
     return FaceFailure::shear;
 }
 

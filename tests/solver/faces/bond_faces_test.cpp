@@ -24,7 +24,8 @@ TEST(BondFaces, FindNoOffsetBetweenSeedsOfVoronoiCells) {
     EXPECT_TRUE(within("largest offset over distance", quality.largest_offset, 0.0, 1e-11));
     EXPECT_EQ(quality.raised, 0);
     double error = 0.0;
-    for (const FaceSprings& s : faces.springs) error = std::max(error, std::abs(s.share_i + s.share_j - 1.0));
+    for (FaceIndex k = 0; k < faces.size(); ++k)
+        error = std::max(error, std::abs(faces.springs[k].share_i + faces.springs[k].share_j - 1.0));
     EXPECT_TRUE(within("sum of both shares", 1.0 + error, 1.0, 1e-14));
     EXPECT_GT(quality.slowest_lag, 0.7);
 }

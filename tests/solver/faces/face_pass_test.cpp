@@ -10,6 +10,7 @@
 #include <cmath>
 #include <random>
 
+#include "solver/faces/face_motion.hpp"
 #include "tests/solver/faces/cell_worlds.hpp"
 #include "tests/support/claim.hpp"
 
@@ -195,6 +196,46 @@ TEST(FaceForces, AreTheGradientOfTheEnergyForAnyRotation) {
         }
         EXPECT_TRUE(within("force less the slope of the energy, of the largest force", error / scale, 0.0, 1e-8));
         EXPECT_TRUE(within("moment less the slope, of that force, m", turning / scale, 0.0, 1e-8));
+    }
+}
+
+TEST(FaceForces, OfLanesHaveTheBytesOfSingleFaces) {
+    for (const double damping : {0.0, 0.2}) {
+        CellBox box{.columns = 7, .rows = 7, .platens = true};
+        CellWorld cells = build_box(box, 3);
+        FaceBonding bonding = elastic_rock(cells, box.gap, nu, 1.0 / 1.6);
+        bonding.materials[1].moduli.contact *= 2.0;
+        bonding.platens = PlatenFaces::bonded;
+        for (FaceMaterial& material : bonding.materials) material.law.damping_ratio = damping;
+        Faces faces = bond_faces(cells.world, bonding);
+        std::mt19937 random(7);
+        const auto number = [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; };
+        for (BodyState& body : cells.world.bodies.state) {
+            body.x += 0.01 * number(), body.y += 0.01 * number(), body.angle += 0.1;
+            body.shape[0] = std::cos(0.1), body.shape[1] = std::sin(0.1);
+            body.vx = number(), body.vy = number(), body.omega = number();
+        }
+        force(cells.world, faces);
+        int unlike = 0;
+        for (FaceIndex k = 0; k < faces.size(); ++k) {
+            const BodyState &i = cells.world.bodies.state[faces.bodies[k].body_i],
+                            &j = cells.world.bodies.state[faces.bodies[k].body_j];
+            const FaceMotion m = motion_of(faces.place[k], i, j), got = faces.motion[k];
+            FaceForces f = intact_forces(faces.springs[k], m, faces.pressure_at(k), faces.skewing_at(k));
+            if (faces.damped()) {
+                const FaceRates<double> rate = rates_of(faces.place[k], m, i, j);
+                const FaceDashpots c = faces.dashpots[k];
+                f.normal += c.normal * rate.opening;
+                f.shear += c.shear * rate.sliding;
+                f.moment += c.moment * rate.turn;
+            }
+            const PointForce expected = forces_on_bodies(faces.place[k], m, i, j, f), force_got = faces.force[k];
+            if (m.opening != got.opening || m.sliding != got.sliding || m.normal != got.normal || m.turn != got.turn ||
+                expected.fx != force_got.fx || expected.fy != force_got.fy || expected.torque_i != force_got.torque_i ||
+                expected.torque_j != force_got.torque_j)
+                ++unlike;
+        }
+        EXPECT_EQ(unlike, 0) << "of " << faces.size() << " faces";
     }
 }
 

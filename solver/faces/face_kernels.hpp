@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Motions and forces of intact faces in lanes, compiled for an instruction set. Results are bit-identical for any
+// number of lanes. Broken faces get the values of intact ones, which the pass replaces.
+// Tested by tests/solver/faces/face_pass_test.cpp.
+#pragma once
+
+#include "solver/base/instruction_set.hpp"
+#include "solver/faces/faces.hpp"
+#include "solver/world/bodies.hpp"
+
+namespace crackle {
+
+/// Computes Faces::motion of the faces from `begin` up to, but not including, `end`, and with a pressure of the cells
+/// Faces::dilation.
+using MoveFaces = void (*)(Faces& faces, const BodyState* bodies, FaceIndex begin, FaceIndex end);
+template <InstructionSet>
+void move_faces(Faces& faces, const BodyState* bodies, FaceIndex begin, FaceIndex end);
+
+/// What force_faces() finds.
+struct IntactForces {
+    double dashpot_loss = 0.0;  // J
+    bool some_fail = false;     // whether an intact face is beyond its strength
+};
+
+/// Computes Faces::force of the faces from `begin` up to, but not including, `end`, which share a block. @param drift
+/// length of the last drift, s
+using ForceFaces = IntactForces (*)(Faces& faces, const BodyState* bodies, double drift, FaceIndex begin,
+                                    FaceIndex end);
+template <InstructionSet>
+IntactForces force_faces(Faces& faces, const BodyState* bodies, double drift, FaceIndex begin, FaceIndex end);
+
+}  // namespace crackle
