@@ -167,7 +167,7 @@ TEST(GuideRock, APlateOfOneSegmentLetsACornerThrough) {
     const std::string printed = read_file(err);
     fmt::print("  {}", printed);
     EXPECT_NE(printed.find("it went through segment 1 of body"), std::string::npos);
-    EXPECT_NE(printed.find("a plate of four segments that close to a box"), std::string::npos);
+    EXPECT_NE(printed.find("four segments that form a closed box"), std::string::npos);
 }
 
 constexpr Stages kinds[] = {{"circles", "rounded"}, {"delaunay", "rounded"}, {"voronoi", "rounded"}};

@@ -176,7 +176,7 @@ TEST_F(BenchCommand, WritesAPageThatNamesItsCommandAndIsTheSameAgain) {
                              "\n### bond_squeezed_to_ten_times_its_strength_holds\n",
                              "| row | expected | got | error | tolerance | order (expected) | verdict |",
                              "| squeezing force over strength | 10 | 10 |", "| holds |", "| not offered |",
-                             "2 claims; 4 rows hold, 0 fail, 0 are only shown, 4 are of options"})
+                             "2 claims; 4 rows hold, 0 fail, 0 are only reported, 4 belong to options"})
         EXPECT_NE(page.find(part), std::string::npos) << part << '\n' << page;
     EXPECT_EQ(page.find("FAILS"), std::string::npos) << page;
     // Every row of a table has as many columns as its heading.

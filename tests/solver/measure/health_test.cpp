@@ -137,7 +137,7 @@ TEST(Health, ACircleThroughASegmentStopsTheRun) {
     EXPECT_EQ(stopped_by(shot(10.0), false), "rebound");
     const std::string stopped = stopped_by(shot(60.0), false);
     EXPECT_NE(stopped.find("it went through segment 2 of body 2"), std::string::npos);
-    EXPECT_NE(stopped.find("four segments that close to a box"), std::string::npos);
+    EXPECT_NE(stopped.find("four segments that form a closed box"), std::string::npos);
     EXPECT_EQ(stopped_by(shot(60.0), true), "nothing") << "requested with --allow-unstable";
 }
 

@@ -185,7 +185,8 @@ class Stubs(unittest.TestCase):
         for name, stub in classes.items():
             own = {part: value for part, value in vars(there[name]).items()
                    if not part.startswith("_") or part == "__len__"}
-            told = {part.target.id if isinstance(part, ast.AnnAssign) else part.name: part for part in stub.body}
+            told = {part.target.id if isinstance(part, ast.AnnAssign) else part.name: part for part in stub.body
+                    if not isinstance(part, ast.Expr)}
             told.pop("__init__", None)
             if name == "World":
                 own["stop"] = None  # NoReturn in the stub, which the engine's signature cannot state
