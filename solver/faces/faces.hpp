@@ -46,8 +46,6 @@ struct FacePlace {
     Vec2 normal_i, normal_j;  // unit vector from i to j when bonded
     Vec2 arm_i, arm_j;        // m, from the centroids to the face's midpoint
     double rest_turn;         // rad, difference of the bodies' angles when bonded
-
-    CRACKLE_FIELDS(normal_i, normal_j, arm_i, arm_j, rest_turn);
 };
 
 /// Springs of a face and its part in the dilation of its two cells.
@@ -59,16 +57,12 @@ struct FaceSprings {
 
     /// k_φ, N m/rad.
     double moment() const { return normal * length * length / 12.0; }
-
-    CRACKLE_FIELDS(normal, shear, length, share_i, share_j, skew_i, skew_j);
 };
 
 /// Motion of a face since it was bonded.
 struct FaceMotion {
     Vec2 normal;                    // n
     double opening, sliding, turn;  // δ_n, δ_t, m; δ_φ, rad
-
-    CRACKLE_FIELDS(normal, opening, sliding, turn);
 };
 
 /// Pressure of a cell, positive in tension.
@@ -83,8 +77,6 @@ struct CellPressure {
 /// Dashpots of a face along its normal and tangent and against its turn: coefficients, or forces.
 struct FaceDashpots {
     double normal = 0.0, shear = 0.0, moment = 0.0;  // N s/m and N m s, or N and N m
-
-    CRACKLE_FIELDS(normal, shear, moment);
 };
 
 /// Shares by which a broken face catches up with its cells in one step.

@@ -42,8 +42,6 @@ struct FaceModuli {
     double contact = 0.0;      ///< E_c: normal traction per strain between the two reference points
     double pressure = 0.0;     ///< λ: pressure of a cell per dilation; 0 if cells have none
     double shear_ratio = 1.0;  ///< κ = k_t/k_n
-
-    CRACKLE_FIELDS(contact, pressure, shear_ratio);
 };
 
 /// Moduli for a given shear ratio; Poisson's ratio comes from the pressure of the cells. @param correction c_κ

@@ -14,8 +14,8 @@ namespace crackle {
 class MassScaled;
 
 /// A stable time step, s; infinite without stiffness. @param rounds number of products with |A|
-double absolute_step_bound(const MassScaled& pencil, int rounds = 5);
+double absolute_step_bound(const MassScaled& pencil, int rounds = 10);
 /// Likewise of a world, whose points `which` and `rows` are its springs.
-double absolute_step_bound(const World& world, ClosedPoints which, const LinearRows& rows, int rounds = 5);
+double absolute_step_bound(const World& world, ClosedPoints which, const LinearRows& rows, int rounds = 10);
 
 }  // namespace crackle

@@ -125,18 +125,21 @@ TEST(BeamOfFaces, BendsALittleTooStifflyForUnequalOnes) {
 }
 
 TEST(FacesInTheSolve, HaveAStableStepWithAGuaranteedBoundCloseToIt) {
-    for (const double damping : {0.0, 0.1}) {
-        CellBox box{.columns = 12, .rows = 12};
-        const CellWorld cells = build_box(box);
-        FaceBonding bonding = elastic_rock(cells, box.gap, 0.26, 1.0);
-        bonding.materials[0].law.damping_ratio = damping;
-        const Faces faces = bond_faces(cells.world, bonding);
-        const LinearRows rows = face_rows(cells.world, faces);
-        const CriticalStep exact = critical_step(cells.world, ClosedPoints::touching, rows);
-        EXPECT_TRUE(exact.proved);
-        const double bound = absolute_step_bound(cells.world, ClosedPoints::touching, rows);
-        EXPECT_TRUE(within("guaranteed bound over the exact step", bound / exact.root, 0.95, 0.0501));
-        EXPECT_LE(bound, exact.root);
+    for (const int lloyd : {0, 2, 20}) {
+        for (const double damping : {0.0, 0.1}) {
+            const CellBox box{.columns = 12, .rows = 12, .lloyd = lloyd};
+            const CellWorld cells = build_box(box);
+            FaceBonding bonding = elastic_rock(cells, box.gap, 0.26, 1.0 / 1.6);
+            bonding.materials[0].law.damping_ratio = damping;
+            const LinearRows rows = face_rows(cells.world, bond_faces(cells.world, bonding));
+            const CriticalStep exact = critical_step(cells.world, ClosedPoints::touching, rows);
+            EXPECT_TRUE(exact.proved);
+            const double bound = absolute_step_bound(cells.world, ClosedPoints::touching, rows);
+            // It is lowest for even cells, and with dashpots, whose largest forces are elsewhere.
+            const double least = damping > 0.0 ? 0.88 : 0.9;
+            EXPECT_TRUE(within("guaranteed bound over the exact step", bound / exact.root, 0.5 * (1.0 + least),
+                               0.5 * (1.0 - least)));
+        }
     }
 }
 
