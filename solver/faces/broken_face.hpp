@@ -24,12 +24,12 @@
 namespace crackle {
 
 /// Half the lap of a broken face, m.
-inline double half_lap_of(const FaceSprings& s, const FaceMotion& m) {
+inline double half_lap_of(const FaceSprings& s, const BondFaceMotion& m) {
     return 0.5 * std::max(0.0, s.length - std::abs(m.sliding));
 }
 
 /// Contact of a broken face. @param pressure p̄, Pa @param held 1 - D
-inline BrokenContact contact_of(const FaceSprings& s, const FaceMotion& m, double pressure, double held) {
+inline BrokenContact contact_of(const FaceSprings& s, const BondFaceMotion& m, double pressure, double held) {
     const double stiffness = s.normal / s.length, soft = s.length / s.normal;
     const double a = half_lap_of(s, m), d = m.opening + pressure * soft;
     BrokenContact contact{lap_pressure(stiffness, a, d, m.turn), 0.0, 0.0, 0.0};
@@ -46,8 +46,8 @@ inline BrokenContact contact_of(const FaceSprings& s, const FaceMotion& m, doubl
 }
 
 /// 1 - D of a broken face after its motion. @param held the value before @param pressure p̄, Pa
-inline double held_after(const FaceSprings& s, const FaceLaw& law, double share, const FaceMotion& m, double pressure,
-                         double held) {
+inline double held_after(const FaceSprings& s, const FaceLaw& law, double share, const BondFaceMotion& m,
+                         double pressure, double held) {
     const double stiffness = s.normal / s.length, a = half_lap_of(s, m);
     if (held == 0.0 || a == 0.0) return 0.0;
     const double d = m.opening + pressure / stiffness;
@@ -57,7 +57,7 @@ inline double held_after(const FaceSprings& s, const FaceLaw& law, double share,
 }
 
 /// ½ k w² where edges press or hold, mean of the two ends of the lap, N.
-inline double end_closure(const FaceSprings& s, const FaceMotion& m, double pressure, double held) {
+inline double end_closure(const FaceSprings& s, const BondFaceMotion& m, double pressure, double held) {
     const double a = half_lap_of(s, m), d = m.opening + pressure * s.length / s.normal;
     const auto square = [&](double w) { return (w < 0.0 ? 1.0 : held) * w * w; };
     return 0.25 * s.normal / s.length * (square(d - a * m.turn) + square(d + a * m.turn));
@@ -65,7 +65,7 @@ inline double end_closure(const FaceSprings& s, const FaceMotion& m, double pres
 
 /// Tears a broken face that holds a tension, and finds its contact at the late pressure.
 inline BrokenContact late_contact(BrokenFace& face, const FaceSprings& s, const FaceLaw& law, double share,
-                                  const FaceMotion& m) {
+                                  const BondFaceMotion& m) {
     const double before = face.held;
     face.held = held_after(s, law, share, m, face.last.pressure, before);
     BrokenContact contact = contact_of(s, m, face.last.pressure, face.held);
@@ -84,7 +84,7 @@ struct BrokenStep {
 /// Updates a broken face. @param late what late_contact() found for the dilation of its cells @param pressure p̄, Pa
 /// @param skewing τ, Pa
 inline BrokenStep step_broken(BrokenFace& face, const FaceSprings& s, const FaceLaw& law, double share,
-                              const FaceLag& lag, const FaceMotion& m, const BrokenContact& late, double pressure,
+                              const FaceLag& lag, const BondFaceMotion& m, const BrokenContact& late, double pressure,
                               double skewing) {
     const BrokenContact now = contact_of(s, m, pressure, face.held);
     BrokenState& last = face.last;
@@ -142,7 +142,7 @@ struct BreakResult {
 /// Breaks an intact face. The energy descends in turns: over the contact and the cells' pressures, then by slip at a
 /// shear force beyond its limit. @param cell_i, cell_j pressures of its cells with the face intact
 inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceLaw& law, double share,
-                              const FaceMotion& m, const CellPressure& cell_i, const CellPressure& cell_j,
+                              const BondFaceMotion& m, const CellPressure& cell_i, const CellPressure& cell_j,
                               bool in_shear) {
     BreakResult result{{}, {}, cell_i.pressure, cell_j.pressure, 0.0};
     BrokenFace& face = result.face;

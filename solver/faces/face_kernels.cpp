@@ -81,7 +81,7 @@ CRACKLE_INLINE void move_some(Faces& faces, const BodyState* bodies, FaceIndex k
                            j = load_body<Number>(bodies, [&](FaceIndex l) { return pairs[l].body_j; });
     const MotionOf<Number> m = motion_of(load_place<Number>(faces.place, k), i, j);
     const Number members[] = {m.normal.x, m.normal.y, m.opening, m.sliding, m.turn};
-    static_assert(Columns<FaceMotion>::width == 5);
+    static_assert(Columns<BondFaceMotion>::width == 5);
     for (std::size_t c = 0; c < 5; ++c) store_as(faces.motion.column(c) + k, members[c]);
     if (!faces.has_pressure) return;
     const auto spring = [&](SpringColumn c) { return column<Number>(faces.springs, c, k); };

@@ -75,7 +75,7 @@ inline PlaceOf<double> place_of(const FacePlace& place) {
     return {of(place.normal_i), of(place.normal_j), of(place.arm_i), of(place.arm_j), place.rest_turn};
 }
 
-/// FaceMotion, or one in each lane.
+/// BondFaceMotion, or one in each lane.
 template <class Number>
 struct MotionOf {
     VecOf<Number> normal;
@@ -93,7 +93,7 @@ CRACKLE_INLINE MotionOf<Number> motion_of(const PlaceOf<Number>& place, const Fa
     const VecOf<Number> apart = (j.place - i.place) + (j.turned(place.arm_j) - i.turned(place.arm_i));
     return {normal, dot(apart, normal), dot(apart, perpendicular(normal)), (j.angle - i.angle) - place.rest_turn};
 }
-inline FaceMotion motion_of(const FacePlace& place, const BodyState& i, const BodyState& j) {
+inline BondFaceMotion motion_of(const FacePlace& place, const BodyState& i, const BodyState& j) {
     const MotionOf<double> m = motion_of(place_of(place), face_body(i), face_body(j));
     return {{m.normal.x, m.normal.y}, m.opening, m.sliding, m.turn};
 }
@@ -115,7 +115,8 @@ CRACKLE_INLINE FaceRates<Number> rates_of(const PlaceOf<Number>& place, const Mo
     return {dot(apart, motion.normal) + spin * motion.sliding,
             dot(apart, perpendicular(motion.normal)) - spin * motion.opening, of_j.spin - of_i.spin};
 }
-inline FaceRates<double> rates_of(const FacePlace& place, const FaceMotion& m, const BodyState& i, const BodyState& j) {
+inline FaceRates<double> rates_of(const FacePlace& place, const BondFaceMotion& m, const BodyState& i,
+                                  const BodyState& j) {
     return rates_of<double>(place_of(place), {{m.normal.x, m.normal.y}, m.opening, m.sliding, m.turn}, face_body(i),
                             face_body(j), face_body_rates(i), face_body_rates(j));
 }
@@ -144,8 +145,8 @@ CRACKLE_INLINE FaceOnBodies<Number> forces_on_bodies(const PlaceOf<Number>& plac
     return {force, cross(i.turned(place.arm_i) + half, force) + f.moment,
             -cross(j.turned(place.arm_j) - half, force) - f.moment};
 }
-inline PointForce forces_on_bodies(const FacePlace& place, const FaceMotion& m, const BodyState& i, const BodyState& j,
-                                   const FaceForces& f) {
+inline PointForce forces_on_bodies(const FacePlace& place, const BondFaceMotion& m, const BodyState& i,
+                                   const BodyState& j, const FaceForces& f) {
     const FaceOnBodies<double> on =
         forces_on_bodies<double>(place_of(place), {{m.normal.x, m.normal.y}, m.opening, m.sliding, m.turn},
                                  face_body(i), face_body(j), {f.normal, f.shear, f.moment});
@@ -160,7 +161,7 @@ CRACKLE_INLINE ForcesOf<Number> intact_forces(const Number& normal_stiffness, co
     return {normal_stiffness * m.opening + length * pressure, shear_stiffness * m.sliding + length * skewing,
             normal_stiffness * length * length / 12.0 * m.turn};
 }
-inline FaceForces intact_forces(const FaceSprings& s, const FaceMotion& m, double pressure, double skewing) {
+inline FaceForces intact_forces(const FaceSprings& s, const BondFaceMotion& m, double pressure, double skewing) {
     const ForcesOf<double> f = intact_forces<double>(
         s.normal, s.shear, s.length, {{m.normal.x, m.normal.y}, m.opening, m.sliding, m.turn}, pressure, skewing);
     return {f.normal, f.shear, f.moment};

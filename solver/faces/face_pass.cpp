@@ -88,7 +88,7 @@ class Pass {
         BrokenFace& face = faces_.broken[n];
         const FaceIndex k = face.face;
         const FaceSprings s = faces_.springs[k];
-        const FaceMotion m = faces_.motion[k];
+        const BondFaceMotion m = faces_.motion[k];
         faces_.late[n] = late_contact(face, s, faces_.law_of(k), faces_.strength_share[k], m);
         if (!faces_.has_pressure) return;
         const double normal = faces_.late[n].stretch, shear = m.sliding - face.slip;
@@ -260,7 +260,7 @@ double face_energy(const Faces& faces) {
     for (FaceIndex k = 0; k < faces.size(); ++k) {
         if (faces.broken_at[k] != no_face) continue;
         const FaceSprings& s = faces.springs[k];
-        const FaceMotion& m = faces.motion[k];
+        const BondFaceMotion& m = faces.motion[k];
         sum +=
             0.5 * (s.normal * m.opening * m.opening + s.shear * m.sliding * m.sliding + s.moment() * m.turn * m.turn);
     }

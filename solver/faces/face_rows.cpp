@@ -18,7 +18,7 @@ struct MotionGradients {
 MotionGradients gradients_of(const World& world, const Faces& faces, FaceIndex k) {
     const BodyState &i = world.bodies.state[faces.bodies[k].body_i], &j = world.bodies.state[faces.bodies[k].body_j];
     const FacePlace& place = faces.place[k];
-    const FaceMotion m = motion_of(place, i, j);
+    const BondFaceMotion m = motion_of(place, i, j);
     const auto turned = [](const BodyState& body, Vec2 v) {
         return Vec2{body.shape[0] * v.x - body.shape[1] * v.y, body.shape[1] * v.x + body.shape[0] * v.y};
     };

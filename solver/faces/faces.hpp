@@ -60,7 +60,7 @@ struct FaceSprings {
 };
 
 /// Motion of a face since it was bonded.
-struct FaceMotion {
+struct BondFaceMotion {
     Vec2 normal;                    // n
     double opening, sliding, turn;  // δ_n, δ_t, m; δ_φ, rad
 };
@@ -174,7 +174,7 @@ struct Faces {
     double lag_loss = 0.0;  // J, lost because q_n takes the pressures of the step before, and breaks are found late
 
     // The rest is what the last force pass found.
-    Columns<FaceMotion> motion;
+    Columns<BondFaceMotion> motion;
     Array<double> dilation_i, dilation_j;  // m², of both cells by each face; empty without a pressure
     Array<PointForce> force;               // on body i, and torques on both
     Array<BrokenContact> late;             // for each broken face, at its late pressure

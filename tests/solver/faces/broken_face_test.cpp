@@ -35,7 +35,7 @@ TEST(BrokenFace, ABreakNeverSetsEnergyFree) {
     const auto number = [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };
     double least = 0.0;
     for (int n = 0; n < 20'000; ++n) {
-        FaceMotion m{{1.0, 0.0}, 0.1 * number(), 0.1 * number(), 0.3 * number()};
+        BondFaceMotion m{{1.0, 0.0}, 0.1 * number(), 0.1 * number(), 0.3 * number()};
         // Stiff cells: λ/A L² s² is up to a hundred times k_n, as of slender triangles.
         const double stiff = n % 2 == 0 ? 60.0 : 2e4;
         const CellPressure i{stiff * std::abs(number()), 20.0 * number()},
@@ -57,20 +57,20 @@ double unaccounted(int steps, double turn) {
     const FaceLaw law = rubbing();
     const auto motion_at = [&](double phase) {
         const double p = 2.0 * 3.14159265358979323846 * phase;
-        return FaceMotion{{1.0, 0.0},
-                          -0.02 + 0.04 * std::sin(p) - 0.01 * std::sin(2.0 * p),
-                          0.15 * std::sin(p + 0.3),
-                          turn * std::sin(3.0 * p)};
+        return BondFaceMotion{{1.0, 0.0},
+                              -0.02 + 0.04 * std::sin(p) - 0.01 * std::sin(2.0 * p),
+                              0.15 * std::sin(p + 0.3),
+                              turn * std::sin(3.0 * p)};
     };
-    const FaceMotion first = motion_at(0.0);
+    const BondFaceMotion first = motion_at(0.0);
     const BreakResult broken = break_face(0, s, law, 1.0, first, {}, {}, true);
     BrokenFace face = broken.face;
     const double before = face.energy;
     FaceForces last = broken.forces;
-    FaceMotion from = first;
+    BondFaceMotion from = first;
     double work = 0.0, lost = 0.0;
     for (int n = 1; n <= steps; ++n) {
-        const FaceMotion to = motion_at(static_cast<double>(n) / steps);
+        const BondFaceMotion to = motion_at(static_cast<double>(n) / steps);
         const BrokenStep step = step_broken(face, s, law, 1.0, {}, to, late_contact(face, s, law, 1.0, to), 0.0, 0.0);
         work += 0.5 * ((last.normal + step.forces.normal) * (to.opening - from.opening) +
                        (last.shear + step.forces.shear) * (to.sliding - from.sliding) +
@@ -95,7 +95,7 @@ TEST(BrokenFace, TearsOverItsSofteningOpening) {
     const FaceSprings s = springs();
     FaceLaw law = rubbing();
     law.residual_friction = 0.0;
-    FaceMotion m{{1.0, 0.0}, 0.0, 0.0, 0.0};
+    BondFaceMotion m{{1.0, 0.0}, 0.0, 0.0, 0.0};
     BrokenFace face = break_face(0, s, law, 1.0, m, {}, {}, true).face;
     EXPECT_EQ(face.held, 1.0);
     const double stiffness = s.normal / s.length, lap = s.length - m.sliding;
@@ -125,7 +125,7 @@ TEST(BrokenFace, LosesNothingToTheLagWhileItIsClosed) {
     BrokenFace face = break_face(0, s, law, 1.0, {{1.0, 0.0}, -0.1, 0.0, 0.01}, {}, {}, true).face;
     double lag = 0.0, scale = 0.0;
     for (int n = 1; n < 100; ++n) {
-        const FaceMotion m{{1.0, 0.0}, -0.1 + 0.02 * std::sin(0.3 * n), 0.0, 0.01};
+        const BondFaceMotion m{{1.0, 0.0}, -0.1 + 0.02 * std::sin(0.3 * n), 0.0, 0.01};
         const double pressure = 0.3 * std::sin(0.5 * n);
         const BrokenStep step =
             step_broken(face, s, law, 1.0, {}, m, late_contact(face, s, law, 1.0, m), pressure, 0.0);
@@ -138,7 +138,7 @@ TEST(BrokenFace, LosesNothingToTheLagWhileItIsClosed) {
 TEST(BrokenFace, KeepsItsResidualCohesionOnceItHasSlidFarEnough) {
     const FaceSprings s = springs();
     const FaceLaw law = rubbing();
-    FaceMotion m{{1.0, 0.0}, -0.05, 0.05, 0.0};
+    BondFaceMotion m{{1.0, 0.0}, -0.05, 0.05, 0.0};
     BrokenFace face = break_face(0, s, law, 1.0, m, {}, {}, true).face;
     double shear = 0.0, normal = 0.0;
     for (int n = 0; n < 300; ++n) {

@@ -220,7 +220,7 @@ TEST(FaceForces, OfLanesHaveTheBytesOfSingleFaces) {
         for (FaceIndex k = 0; k < faces.size(); ++k) {
             const BodyState &i = cells.world.bodies.state[faces.bodies[k].body_i],
                             &j = cells.world.bodies.state[faces.bodies[k].body_j];
-            const FaceMotion m = motion_of(faces.place[k], i, j), got = faces.motion[k];
+            const BondFaceMotion m = motion_of(faces.place[k], i, j), got = faces.motion[k];
             FaceForces f = intact_forces(faces.springs[k], m, faces.pressure_at(k), faces.skewing_at(k));
             if (faces.damped()) {
                 const FaceRates<double> rate = rates_of(faces.place[k], m, i, j);
