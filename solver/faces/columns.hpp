@@ -14,7 +14,7 @@
 namespace crackle {
 
 template <class Record>
-struct Columns {
+struct FaceColumns {
     static_assert(std::is_trivially_copyable_v<Record>);
     static constexpr std::size_t width = sizeof(Record) / sizeof(double);
     using Row = std::array<double, width>;

@@ -39,13 +39,13 @@ CRACKLE_INLINE void load_pairs(Of of, Number& first, Number& second) {
 
 /// A member of consecutive records. @param c its place in the record
 template <class Number, class Record>
-CRACKLE_INLINE Number column(const Columns<Record>& records, std::size_t c, FaceIndex k) {
+CRACKLE_INLINE Number column(const FaceColumns<Record>& records, std::size_t c, FaceIndex k) {
     return load_as<Number>(records.column(c) + k);
 }
 
 template <class Number>
-CRACKLE_INLINE PlaceOf<Number> load_place(const Columns<FacePlace>& places, FaceIndex k) {
-    static_assert(Columns<FacePlace>::width == 9);
+CRACKLE_INLINE PlaceOf<Number> load_place(const FaceColumns<FacePlace>& places, FaceIndex k) {
+    static_assert(FaceColumns<FacePlace>::width == 9);
     const auto of = [&](std::size_t c) { return column<Number>(places, c, k); };
     return {{of(0), of(1)}, {of(2), of(3)}, {of(4), of(5)}, {of(6), of(7)}, of(8)};
 }
@@ -72,7 +72,7 @@ CRACKLE_INLINE FaceBodyRates<Number> load_rates(const BodyState* bodies, Of of) 
 
 /// Places of the members of FaceSprings.
 enum SpringColumn : std::size_t { k_normal, k_shear, k_length, k_share_i, k_share_j, k_skew_i, k_skew_j };
-static_assert(Columns<FaceSprings>::width == 7);
+static_assert(FaceColumns<FaceSprings>::width == 7);
 
 template <class Number>
 CRACKLE_INLINE void move_some(Faces& faces, const BodyState* bodies, FaceIndex k) {
@@ -81,7 +81,7 @@ CRACKLE_INLINE void move_some(Faces& faces, const BodyState* bodies, FaceIndex k
                            j = load_body<Number>(bodies, [&](FaceIndex l) { return pairs[l].body_j; });
     const MotionOf<Number> m = motion_of(load_place<Number>(faces.place, k), i, j);
     const Number members[] = {m.normal.x, m.normal.y, m.opening, m.sliding, m.turn};
-    static_assert(Columns<BondFaceMotion>::width == 5);
+    static_assert(FaceColumns<BondFaceMotion>::width == 5);
     for (std::size_t c = 0; c < 5; ++c) store_as(faces.motion.column(c) + k, members[c]);
     if (!faces.has_pressure) return;
     const auto spring = [&](SpringColumn c) { return column<Number>(faces.springs, c, k); };

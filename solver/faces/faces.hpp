@@ -157,8 +157,8 @@ struct FaceBreak {
 /// All faces of a world.
 struct Faces {
     Array<BodyPair> bodies;
-    Columns<FacePlace> place;
-    Columns<FaceSprings> springs;
+    FaceColumns<FacePlace> place;
+    FaceColumns<FaceSprings> springs;
     Array<std::uint16_t> law;      // index into `laws`
     Array<double> strength_share;  // random factor on T and C
     Array<FaceLag> lag;
@@ -170,11 +170,12 @@ struct Faces {
     bool has_pressure = false;  // whether any cell has a pressure
     std::vector<BrokenFace> broken;
     std::vector<FaceBreak> breaks;
-    Columns<FaceDashpots> dashpots, dashpot_force;  // coefficients, and forces of the last pass; empty without damping
+    FaceColumns<FaceDashpots> dashpots,
+        dashpot_force;      // coefficients, and forces of the last pass; empty without damping
     double lag_loss = 0.0;  // J, lost because q_n takes the pressures of the step before, and breaks are found late
 
     // The rest is what the last force pass found.
-    Columns<BondFaceMotion> motion;
+    FaceColumns<BondFaceMotion> motion;
     Array<double> dilation_i, dilation_j;  // m², of both cells by each face; empty without a pressure
     Array<PointForce> force;               // on body i, and torques on both
     Array<BrokenContact> late;             // for each broken face, at its late pressure
