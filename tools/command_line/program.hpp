@@ -47,7 +47,8 @@ struct ExitCode {
 };
 const std::vector<ExitCode>& exit_codes();
 
-/// The command that a command line selects. Where it selects none, for example with --help, everything has been printed.
+/// The command that a command line selects. Where it selects none, for example with --help, everything has been
+/// printed.
 struct SelectedCommand {
     SelectedCommand();
     SelectedCommand(SelectedCommand&& other) noexcept;
