@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Makes a specimen from a case: a packing or particle file becomes circles or polygons, and the bodies at the side
-// faces are identified.
-
 #include "specimens/making/specimen.hpp"
 
 #include <fmt/format.h>
@@ -9,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <span>
 
 #include "mesher/mesher.hpp"
 #include "solver/base/errors.hpp"
@@ -24,6 +19,7 @@
 #include "specimens/making/cell_sizes.hpp"
 #include "specimens/making/cut_shape.hpp"
 #include "specimens/making/misplaced_bodies.hpp"
+#include "specimens/making/side_bodies.hpp"
 #include "specimens/packing/packing.hpp"
 
 namespace crackle {
@@ -209,33 +205,6 @@ void bring_to_rest(Scene& scene, std::vector<std::string>& notices) {
     }
 }
 
-double distance_to_side(const Domain& domain, Wall side, Vec2 at) {
-    return side == Wall::left ? at.x - domain.x1 : domain.x2 - at.x;
-}
-
-bool circle_overlaps_side(const Scene& scene, const Body& body, Wall side) {
-    const auto circles = std::span(scene.circles).subspan(body.first_circle, body.circle_count);
-    return std::any_of(circles.begin(), circles.end(), [&](const CircleElement& circle) {
-        return distance_to_side(scene.domain, side, circle.centre) < circle.radius;
-    });
-}
-
-/// Finds the polygons on a side of the domain, which the file does not mark. An edge lies on the side if both its ends
-/// are as close to the side as the closest corner of any polygon.
-std::vector<int> polygons_on_side(const Scene& scene, Wall side) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Vec2 v : scene.vertices) nearest = std::min(nearest, distance_to_side(scene.domain, side, v));
-    // Much smaller than an edge, much larger than round-off in the file.
-    const double tolerance = 1e-6 * (scene.domain.x2 - scene.domain.x1);
-    std::vector<int> ids;
-    for (const Body& body : scene.bodies) {
-        const auto corners = std::span(scene.vertices).subspan(body.first_vertex, body.vertex_count);
-        const auto on_face = [&](Vec2 v) { return distance_to_side(scene.domain, side, v) <= nearest + tolerance; };
-        if (std::count_if(corners.begin(), corners.end(), on_face) >= 2) ids.push_back(body.id);
-    }
-    return ids;
-}
-
 /// Checks that the bodies are all circles (or clumps) or all polygons, because the two kinds are bonded to platens
 /// differently.
 void classify(Specimen& specimen, const ResolvedCase& test) {
@@ -273,14 +242,6 @@ void measure_circles(Specimen& specimen) {
         if (circle_overlaps_side(specimen.scene, body, Wall::left)) specimen.left_ids.push_back(body.id);
         if (circle_overlaps_side(specimen.scene, body, Wall::right)) specimen.right_ids.push_back(body.id);
     }
-}
-
-/// Whether a cell is at a side. Triangles between seeds have no edge on the domain; they count if two of their circles
-/// touched the wall.
-bool cell_on_side(const Cell& cell, Wall side, bool domain_boundary, const std::vector<char>& centre_touches) {
-    if (domain_boundary) return side == Wall::left ? cell.on_left() : cell.on_right();
-    const auto touches = [&](int seed) { return seed >= 0 && centre_touches[static_cast<std::size_t>(seed)] != 0; };
-    return std::count_if(cell.centres.begin(), cell.centres.end(), touches) >= 2;
 }
 
 /// Area of the tested part, m2.
