@@ -34,7 +34,8 @@ double tgamma(double x);
 /// Logarithm of the absolute value of the gamma function.
 double lgamma(double x);
 
-/// Normal distribution function Φ(z) = ½ erfc(-z/√2), evaluated at the argument rounded to a double.
+/// Normal distribution function Φ(z) = ½ erfc(-z/√2), evaluated after the argument of erfc has been rounded to a
+/// double.
 double normal_share_below(double z);
 /// Normal quantile: the z with Φ(z) = ½ erfc(-z/√2) = p, 0 < p < 1.
 double normal_quantile(double p);

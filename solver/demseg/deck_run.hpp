@@ -127,7 +127,7 @@ class DeckRun {
     bool drawn_ = false;        // whether the bodies were generated at random from the seed
     DeckGeometry base_;         // bodies at the very beginning of the run, before its first part
     BoundaryConditions
-        boundary_;  // conditions at the very beginning of the run; ramps are counted from its steps_before
+        boundary_;  // conditions at the very beginning of the run; ramps are counted from boundary_.steps_before
     World world_;
     std::vector<BodyIndex> order_;     // bodies in deck order
     std::vector<BodyIndex> watched_;   // bodies written to f-d_curve.dat

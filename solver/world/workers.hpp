@@ -40,7 +40,7 @@ struct SweepPlan {
     // must add its contributions first.
     std::vector<std::uint16_t> owner;  // for each body: thread that adds forces to it
     std::vector<std::uint8_t>
-        defers;  // for each block of the largest kind: whether it has points on bodies owned by other threads
+        defers;  // for each block of the largest kind of point: whether it has points on bodies of other threads
     std::vector<BodyForce> deferred;            // force contributions to bodies owned by other threads
     std::vector<std::uint32_t> deferred_begin;  // for each thread: index of its first entry in `deferred`
     std::vector<std::uint32_t> sources;  // indices into `deferred`, grouped by body in `order` from late_begin on

@@ -32,7 +32,8 @@ struct ReachedTarget {
     MeanFigure fresh;   ///< over fresh packings, not used for fitting, that have results for all targets
     MeanFigure polish;  ///< over the packings of the last correction, measured before that correction
     double off = 0.0;   ///< mean over fresh packings divided by the target value, minus 1
-    /// Tolerance, or half-width of the 95 % interval of the difference between the two means if that is larger.
+    /// Tolerance, or half the width of the 95 % confidence interval of the difference between the two means if that is
+    /// larger.
     double limit = 0.0;
     TargetVerdict verdict = TargetVerdict::missed;
 

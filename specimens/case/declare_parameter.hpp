@@ -90,7 +90,7 @@ Parameter declare(std::string table, std::string key, std::string unit, Member m
     return p;
 }
 
-/// Requirements of a key, chained after its declaration.
+/// Constraints on the value of a key, chained after its declaration.
 struct With {
     Parameter p;
     With above(double low) && { return p.lowest = low, p.lowest_allowed = false, std::move(*this); }

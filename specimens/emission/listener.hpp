@@ -116,7 +116,7 @@ class EmissionListener {
         bool of_i;           ///< whether body_i belongs to the source
         std::size_t before;  ///< index into OpenEvent::before; npos if the point carried no force then
     };
-    /// Surface of an open event; searched again after the contact list was rebuilt or a body joined.
+    /// Surface of an open event; found again when the contact list has been rebuilt or a body has joined the event.
     struct Surface {
         bool found = false;
         std::vector<SurfacePoint> points;

@@ -42,7 +42,7 @@ struct TestHooks {
     std::function<void(const std::string&)>
         working;  ///< called frequently, before loading starts, with a description of the current work
     std::function<void(const TestProgress&)> progress;  ///< called a few times a second
-    /// May be called by any thread; once it returns true, it must always do so.
+    /// May be called by any thread; once it has returned true, it must keep doing so.
     std::function<bool()> interrupted;
     std::function<void(const std::string& name, const Scene&)>
         made;  ///< called with the circles, then with the polygons, as they are tested

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests which combinations of keys the targets leave undetermined, and the errors of the others.
+// Tests the search for combinations of keys that the targets leave undetermined, and the uncertainties of the other
+// combinations.
 
 #include "specimens/calibration/determination.hpp"
 

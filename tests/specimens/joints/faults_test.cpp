@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests that rows which are segments of one fault are joined, in any order and direction, and no others.
+// Tests that rows of a file are joined if, and only if, they are segments of the same fault, in any order and
+// direction.
 
 #include "specimens/joints/faults.hpp"
 

@@ -40,7 +40,7 @@ export function saveSvg(viewer: Viewer): void {
     saveFile(`${nameOf(viewer)}.svg`, 'image/svg+xml', svgText(viewer.picture.asSvg()));
 }
 
-/// Shows at most `most` moments and calls `record` for each, then resets the clock.
+/// Shows at most `most` frames and calls `record` for each, then resets the clock.
 async function film(viewer: Viewer, most: number, report: Report, record: () => Promise<void>): Promise<void> {
     const {clock} = viewer, start = clock.index;
     clock.pause();
