@@ -208,7 +208,7 @@ void judge_laws(const Rock& rock) {
         std::set<double> pressures;
         for (const std::size_t test : target.tests) {
             const ResolvedCase of = rock.case_of(test, start);
-            if (of.loading.kind == LoadingKind::tension) {
+            if (test_kind(of.loading.kind).pulls()) {
                 throw InputError(fmt::format("{}: [[target]] tests: found {}, a tension, expected compressions",
                                              target.where, rock.tests[test].name));
             }
