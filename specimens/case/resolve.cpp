@@ -266,7 +266,7 @@ void add_files(std::vector<std::filesystem::path>& files, const JointRequest& jo
 
 }  // namespace
 
-ResolvedCase resolve(std::shared_ptr<const TestCase> written) {
+ResolvedCase resolve(const std::shared_ptr<const TestCase>& written) {
     const TestCase& test = *written;
     ResolvedCase resolved;
     resolved.places = Places(written);

@@ -12,7 +12,7 @@ namespace crackle {
 
 /// The parts of a case. @param written  a case with its defaults, after check_consistency()
 /// @throws InputError if planes of joints do not intersect the section, or if an aperture exceeds the gap of the mesh
-ResolvedCase resolve(std::shared_ptr<const TestCase> written);
+ResolvedCase resolve(const std::shared_ptr<const TestCase>& written);
 
 /// The joints of a case. @param written  a case after check_joints(); other keys may be missing
 /// @throws InputError if planes of joints do not intersect the section

@@ -150,6 +150,7 @@ std::vector<MineralShare> assign_minerals(Scene& scene, const parts::Minerals& a
     }
     const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
     std::vector<double> asked_areas;
+    asked_areas.reserve(asked.list.size());
     for (const parts::Mineral& m : asked.list) asked_areas.push_back(all * m.share);
     const Minerals minerals = minerals_of(scene, asked, places, areas, asked_areas, notices);
 

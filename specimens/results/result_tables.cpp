@@ -11,6 +11,7 @@ namespace {
 template <class Column>
 std::vector<Quantity> meanings(const std::vector<Column>& columns) {
     std::vector<Quantity> all;
+    all.reserve(columns.size());
     for (const Column& column : columns) all.push_back(column.what);
     return all;
 }
