@@ -51,6 +51,9 @@ class CheckedInput : public cereal::InputArchive<CheckedInput, cereal::AllowEmpt
         left_ -= count;
     }
 
+    /// Number of bytes up to the end.
+    std::streamoff left() const { return left_; }
+
     /// Checks that `count` items of at least one byte fit into the rest of the stream. @throws InputError
     void expect(std::uint64_t count) const {
         errno = 0;

@@ -308,6 +308,8 @@ ForceKernel force_kernel_of<InstructionSet::CRACKLE_SET>(const ContactFeatures& 
             return kernel_of<PointKind::segment_segment>(features);
         case PointKind::element_wall:
             return kernel_of<PointKind::element_wall>(features);
+        case PointKind::bonded_face:
+            break;  // not a point
     }
     return nullptr;
 }

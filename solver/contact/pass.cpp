@@ -17,7 +17,7 @@ T* start_of(Array<T>& values) {
 }  // namespace
 
 ContactFeatures features_of(const World& world) {
-    ContactFeatures features{.bonds = world.bonds.made,
+    ContactFeatures features{.bonds = world.bonds.made && !facts_of(world.settings.bond_law).by_faces,
                              .consistent = !world.points.opening.empty(),
                              .own_shares = world.settings.own_shares(),
                              .own_shear = !world.points.shear_root.empty()};

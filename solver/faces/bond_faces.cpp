@@ -78,6 +78,12 @@ class Bonder {
             platen.damping_ratio = material.law.damping_ratio;
             faces_.laws.push_back(platen);
         }
+        first_held_law_ = faces_.laws.size();
+        for (std::size_t n = 0; n < first_held_law_; ++n) {
+            FaceLaw held;
+            held.damping_ratio = faces_.laws[n].damping_ratio;
+            if (bonding_.holds) faces_.laws.push_back(held);
+        }
         for (SharedFace face : net_.faces) {
             if (is_rigid(world_, face.i) && is_rigid(world_, face.j)) continue;
             add(face);
@@ -183,8 +189,9 @@ class Bonder {
         springs_.push_back(rigid_j   ? springs_with_rigid(face.i, face.middle, face.normal, face.length, true)
                            : rigid_i ? springs_with_rigid(face.j, face.middle, -1.0 * face.normal, face.length, false)
                                      : springs_between(face));
-        const std::size_t law = rigid_i || rigid_j ? world_.settings.pair_count() + material(rigid_i ? face.j : face.i)
+        std::size_t law = rigid_i || rigid_j ? world_.settings.pair_count() + material(rigid_i ? face.j : face.i)
                                                    : pair_number(material(face.i), material(face.j));
+        if (bonding_.holds && bonding_.holds(face.middle, face.i, face.j)) law += first_held_law_;
         faces_.law.push_back(static_cast<std::uint16_t>(law));
         faces_.strength_share.push_back(
             bonding_.factors.between(world_.bodies.names[face.i].id, world_.bodies.names[face.j].id));
@@ -295,6 +302,7 @@ class Bonder {
     FaceNet net_;
     std::vector<Vec2> centres_;
     double least_distance_ = 0.0;
+    std::size_t first_held_law_ = 0;  // from here on, for each law one that never breaks
     std::vector<FaceSprings> springs_;
     std::vector<FacePlace> places_;
     Faces faces_;

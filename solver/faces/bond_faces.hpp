@@ -17,7 +17,7 @@
 #include <functional>
 #include <vector>
 
-#include "solver/faces/faces.hpp"
+#include "solver/world/faces.hpp"
 #include "solver/faces/find_faces.hpp"
 #include "solver/scene/bond_strength.hpp"
 #include "solver/world/world.hpp"
@@ -48,6 +48,8 @@ struct FaceBonding {
     double platen_friction = 0.0;  ///< tan φ of PlatenFaces::rubbing
     /// Whether the faces between two bodies start broken, without cohesion. If not set, all are intact.
     std::function<bool(BodyIndex i, BodyIndex j)> leaves;
+    /// Whether the face at a position between two bodies never breaks. If not set, all can break.
+    std::function<bool(Vec2 position, BodyIndex i, BodyIndex j)> holds;
     double least_distance_share = 0.2;  ///< least distance of two reference points, relative to the mean
     StrengthFactors factors;
 };

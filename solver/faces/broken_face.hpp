@@ -5,6 +5,7 @@
 //     U = Ψ - (L/k_n) p̄' F + ½ (L²/k_n) p̄'² + ½ k_t (δ_t - u_p)²
 // Losses over a step, with a mean of the values before and after it marked by <>:
 //     friction   k_t <q_t> Δu_p + L <τ> Δu_p', q_t after the slip Δu_p;  <½ k w²> |Δlap| at the ends of the lap
+//     friction   <Ψ> Δ(1 - q) where contact points take over (hand_over.hpp), Ψ without the share q
 //     tearing    <Ψ_pull> ΔD, with Ψ_pull the energy of an undamaged tension
 //     lag        <F(p̄) - F(p̄')> Δδ_n + <M(p̄) - M(p̄')> Δδ_φ - L <p̄ - p̄'> Δq_n
 // Δu_p' is the slip of the step before, with which the cells' pressures were found: as slips get small, the friction is
@@ -19,27 +20,33 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/faces/faces.hpp"
+#include "solver/world/faces.hpp"
 
 namespace crackle {
 
-/// Half the lap of a broken face, m.
+/// Half the lap of a broken face, m. A rigid body extends beyond its faces, so that a cell slides on it with all of the
+/// face.
 inline double half_lap_of(const FaceSprings& s, const BondFaceMotion& m) {
+    if (s.at_rigid()) return 0.5 * s.length;
     return 0.5 * std::max(0.0, s.length - std::abs(m.sliding));
 }
 
-/// Contact of a broken face. @param pressure p̄, Pa @param held 1 - D
-inline BrokenContact contact_of(const FaceSprings& s, const BondFaceMotion& m, double pressure, double held) {
+/// Contact of a broken face. @param pressure p̄, Pa @param held 1 - D @param taken 1 - q, which contact points have
+inline BrokenContact contact_of(const FaceSprings& s, const BondFaceMotion& m, double pressure, double held,
+                                double taken) {
     const double stiffness = s.normal / s.length, soft = s.length / s.normal;
     const double a = half_lap_of(s, m), d = m.opening + pressure * soft;
-    BrokenContact contact{lap_pressure(stiffness, a, d, m.turn), 0.0, 0.0, 0.0};
+    BrokenContact contact{lap_pressure(stiffness, a, d, m.turn), 0.0, 0.0, 0.0, 0.0};
     LapPressure& lap = contact.lap;
+    const double left = 1.0 - taken;
     if (held > 0.0) {
         const LapPressure pull = lap_tension(stiffness, a, d, m.turn);
         lap = {lap.force + held * pull.force, lap.moment + held * pull.moment, lap.energy + held * pull.energy,
                lap.closed + held * pull.closed};
-        contact.pull = pull.energy;
+        contact.pull = left * pull.energy;
     }
+    contact.whole = lap.energy;
+    lap = {left * lap.force, left * lap.moment, left * lap.energy, left * lap.closed};
     contact.stretch = (lap.force - s.length * pressure) / s.normal;
     contact.energy = lap.energy - soft * pressure * lap.force + 0.5 * soft * s.length * pressure * pressure;
     return contact;
@@ -57,10 +64,10 @@ inline double held_after(const FaceSprings& s, const FaceLaw& law, double share,
 }
 
 /// ½ k w² where edges press or hold, mean of the two ends of the lap, N.
-inline double end_closure(const FaceSprings& s, const BondFaceMotion& m, double pressure, double held) {
+inline double end_closure(const FaceSprings& s, const BondFaceMotion& m, double pressure, double held, double taken) {
     const double a = half_lap_of(s, m), d = m.opening + pressure * s.length / s.normal;
     const auto square = [&](double w) { return (w < 0.0 ? 1.0 : held) * w * w; };
-    return 0.25 * s.normal / s.length * (square(d - a * m.turn) + square(d + a * m.turn));
+    return (1.0 - taken) * 0.25 * s.normal / s.length * (square(d - a * m.turn) + square(d + a * m.turn));
 }
 
 /// Tears a broken face that holds a tension, and finds its contact at the late pressure.
@@ -68,9 +75,9 @@ inline BrokenContact late_contact(BrokenFace& face, const FaceSprings& s, const 
                                   const BondFaceMotion& m) {
     const double before = face.held;
     face.held = held_after(s, law, share, m, face.last.pressure, before);
-    BrokenContact contact = contact_of(s, m, face.last.pressure, face.held);
+    BrokenContact contact = contact_of(s, m, face.last.pressure, face.held, face.taken);
     // A tension that ends in this step is part of its loss.
-    if (face.held == 0.0 && before > 0.0) contact.pull = contact_of(s, m, face.last.pressure, before).pull;
+    if (face.held == 0.0 && before > 0.0) contact.pull = contact_of(s, m, face.last.pressure, before, face.taken).pull;
     return contact;
 }
 
@@ -86,7 +93,7 @@ struct BrokenStep {
 inline BrokenStep step_broken(BrokenFace& face, const FaceSprings& s, const FaceLaw& law, double share,
                               const FaceLag& lag, const BondFaceMotion& m, const BrokenContact& late, double pressure,
                               double skewing) {
-    const BrokenContact now = contact_of(s, m, pressure, face.held);
+    const BrokenContact now = contact_of(s, m, pressure, face.held, face.taken);
     BrokenState& last = face.last;
     BrokenState state;
     state.opening = m.opening, state.sliding = m.sliding, state.turn = m.turn;
@@ -97,7 +104,9 @@ inline BrokenStep step_broken(BrokenFace& face, const FaceSprings& s, const Face
     state.late_pressure = pressure - last.pressure;
     state.late_force = now.lap.force - late.lap.force;
     state.late_moment = now.lap.moment - late.lap.moment;
-    state.end_closure = end_closure(s, m, last.pressure, face.held);
+    state.end_closure = end_closure(s, m, last.pressure, face.held, face.taken);
+    state.taken = face.taken;
+    state.whole = late.whole;
     state.held = face.held;
     state.pull = late.pull;
     if (face.in_shear) face.glued = std::min(face.glued, now.lap.closed);
@@ -120,7 +129,8 @@ inline BrokenStep step_broken(BrokenFace& face, const FaceSprings& s, const Face
         0.5 * ((last.shear + slid.force) * slid.slip + s.length * (last.skewing + skewing) * (last.slip - slid.slip));
     const double cut = slid.of_fracture * std::abs(slid.slip);
     step.losses.fracture = cut + 0.5 * (last.pull + late.pull) * (last.held - face.held);
-    step.losses.friction = rubbed - cut + (last.end_closure + state.end_closure) * (last.half_lap - state.half_lap);
+    step.losses.friction = rubbed - cut + (last.end_closure + state.end_closure) * (last.half_lap - state.half_lap) +
+                           0.5 * (last.whole + state.whole) * (state.taken - last.taken);
     const double opened = m.opening - last.opening, turned = m.turn - last.turn;
     step.losses.lag =
         0.5 * ((last.late_force + state.late_force) * opened + (last.late_moment + state.late_moment) * turned -
@@ -140,14 +150,15 @@ struct BreakResult {
 };
 
 /// Breaks an intact face. The energy descends in turns: over the contact and the cells' pressures, then by slip at a
-/// shear force beyond its limit. @param cell_i, cell_j pressures of its cells with the face intact
+/// shear force beyond its limit. @param cell_i, cell_j pressures of its cells with the face intact @param taken 1 - q
 inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceLaw& law, double share,
                               const BondFaceMotion& m, const CellPressure& cell_i, const CellPressure& cell_j,
-                              bool in_shear) {
+                              bool in_shear, double taken = 0.0) {
     BreakResult result{{}, {}, cell_i.pressure, cell_j.pressure, 0.0};
     BrokenFace& face = result.face;
     face.face = index;
     face.in_shear = in_shear;
+    face.taken = taken;
     // How much a sum of both pressures, with weights a, answers q_n or q_t, whose weights in the cells are b.
     const auto answer = [&](double a_i, double a_j, double b_i, double b_j) {
         return s.length * (cell_i.per_area * a_i * b_i + cell_j.per_area * a_j * b_j);
@@ -166,13 +177,13 @@ inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceL
     BrokenContact contact{};
     for (int turn = 0; turn < most_rounds; ++turn) {
         for (int round = 0; round < most_rounds; ++round) {
-            contact = contact_of(s, m, pressure, face.held);
+            contact = contact_of(s, m, pressure, face.held, taken);
             const double rest = pressure - before - by_normal * (contact.stretch - m.opening) + by_shear * slip;
             const double slope = 1.0 + by_normal * (s.length - contact.lap.closed) / s.normal;
             pressure -= rest / slope;
             if (std::abs(rest) <= settled * (std::abs(pressure) + std::abs(before))) break;
         }
-        contact = contact_of(s, m, pressure, face.held);
+        contact = contact_of(s, m, pressure, face.held, taken);
         skewing = skewing_before + by_shear * (contact.stretch - m.opening) - of_skews * slip;
         shear = s.shear * (m.sliding - slip) + s.length * skewing;
         face.glued = in_shear ? contact.lap.closed : 0.0;
@@ -200,7 +211,9 @@ inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceL
     last.skewing = skewing;
     last.stretch = contact.stretch;
     last.shear = shear;
-    last.end_closure = end_closure(s, m, pressure, face.held);
+    last.end_closure = end_closure(s, m, pressure, face.held, taken);
+    last.taken = taken;
+    last.whole = contact.whole;
     last.held = face.held;
     last.pull = contact.pull;
     const auto in_cell = [](const CellPressure& cell, double p) {

@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "solver/base/lanes.hpp"
-#include "solver/faces/face_motion.hpp"
+#include "solver/geometry/face_motion.hpp"
 
 namespace crackle {
 namespace {

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "solver/base/instruction_set.hpp"
-#include "solver/faces/faces.hpp"
+#include "solver/world/faces.hpp"
 #include "solver/world/bodies.hpp"
 
 namespace crackle {

@@ -10,7 +10,9 @@
 #include "solver/base/chosen_set.hpp"
 #include "solver/faces/broken_face.hpp"
 #include "solver/faces/face_kernels.hpp"
-#include "solver/faces/face_motion.hpp"
+#include "solver/faces/hand_over.hpp"
+#include "solver/geometry/event_place.hpp"
+#include "solver/geometry/face_motion.hpp"
 
 namespace crackle {
 namespace {
@@ -40,7 +42,7 @@ void for_each(const World& world, std::size_t count, Visit visit) {
 
 class Pass {
   public:
-    Pass(World& world, Faces& faces) : world_(world), faces_(faces), bodies_(world.bodies.state.data()) {}
+    explicit Pass(World& world) : world_(world), faces_(world.faces), bodies_(world.bodies.state.data()) {}
 
     void run() {
         const MoveFaces move = of_chosen_set([]<InstructionSet S>() -> MoveFaces { return &move_faces<S>; });
@@ -48,6 +50,7 @@ class Pass {
         over_blocks(world_, faces_.size(), [&](std::size_t /*block*/, std::size_t begin, std::size_t end) {
             move(faces_, bodies_, static_cast<FaceIndex>(begin), static_cast<FaceIndex>(end));
         });
+        hand_over(world_);
         faces_.late.resize(faces_.broken.size());
         for_each(world_, faces_.late.size(), [&](std::size_t n) { move_broken(n); });
         if (faces_.has_pressure) for_each(world_, faces_.cells.size(), [&](std::size_t b) { press(b); });
@@ -173,7 +176,8 @@ class Pass {
         const double share = faces_.strength_share[k];
         const bool in_shear = face_failure(law, s.length, share, forces) == FaceFailure::shear;
         const FaceForces before = elastic_forces(k);
-        const BreakResult result = break_face(k, s, law, share, faces_.motion[k], cell_i, cell_j, in_shear);
+        const BreakResult result = break_face(k, s, law, share, faces_.motion[k], cell_i, cell_j, in_shear,
+                                              share_of_points(s, faces_.motion[k], world_.settings.thick));
         const FaceRates<double> rate =
             rates_of(faces_.place[k], faces_.motion[k], bodies_[pair.body_i], bodies_[pair.body_j]);
         const double half_drift = 0.5 * world_.stepping.drift;
@@ -201,10 +205,33 @@ class Pass {
         cell_j.pressure = result.pressure_j;
         faces_.broken_at[k] = static_cast<FaceIndex>(faces_.broken.size());
         faces_.broken.push_back(result.face);
-        faces_.breaks.push_back(
-            {world_.stepping.steps, k, in_shear, forces.normal, forces.shear, forces.moment, result.energy});
+        record(k, in_shear, forces, result.energy);
         store(k, result.forces);
+        if (!face_replaces_points(world_, pair.body_i, pair.body_j)) world_.list.valid = false;
         return losses;
+    }
+
+    /// Records the break of a face. @param forces the elastic forces at which it failed @param energy released, J
+    void record(FaceIndex k, bool in_shear, const FaceForces& forces, double energy) {
+        const auto [i, j] = faces_.bodies[k];
+        const BondFaceMotion m = faces_.motion[k];
+        const Vec2 arm = rotated_by(bodies_[i], faces_.place[k].arm_i) + (0.5 * m.opening) * m.normal +
+                         (0.5 * m.sliding) * perpendicular(m.normal);
+        auto event = event_at<BreakEvent>(world_, i, j, Vec2{bodies_[i].x, bodies_[i].y} + arm, m.normal);
+        const FaceStrength<double> strength(faces_.law_of(k), faces_.strength_share[k]);
+        const double length = faces_.springs[k].length;
+        const FaceStress<double> stress(strength, length, forces.normal, forces.shear, forces.moment);
+        event.energy = energy;
+        event.strength = length * (in_shear ? stress.shear_strength : strength.tensile);
+        event.normal_force = -forces.normal;
+        event.shear_force = forces.shear;
+        event.shear_mode = in_shear;
+        event.last_of_interface = true;  // convex cells share one face at most
+        event.kind = PointKind::bonded_face;
+        event.point = {i, j, k, k};
+        world_.bonds.broken += 1;
+        world_.bonds.interfaces_lost += 1;
+        world_.bonds.events.push_back(event);
     }
 
     /// Forces of an intact face at the present pressures. Its dashpots stay as they are.
@@ -226,7 +253,8 @@ class Pass {
             step_broken(face, faces_.springs[k], faces_.law_of(k), faces_.strength_share[k], faces_.lag[k],
                         faces_.motion[k], faces_.late[n], faces_.pressure_at(k), faces_.skewing_at(k));
         if (faces_.damped())
-            step.losses.add(damp(k, step.forces, step.closed / faces_.springs[k].length, face.last.slip != 0.0));
+            step.losses.add(damp(k, step.forces, step.closed / faces_.springs[k].length,
+                                 face.last.slip != 0.0));
         store(k, step.forces);
         return step.losses;
     }
@@ -250,9 +278,9 @@ class Pass {
 
 }  // namespace
 
-void add_face_forces(World& world, Faces& faces) {
-    faces.losses.resize((faces.size() + block_size - 1) / block_size);
-    Pass(world, faces).run();
+void add_face_forces(World& world) {
+    world.faces.losses.resize((world.faces.size() + block_size - 1) / block_size);
+    Pass(world).run();
 }
 
 double face_energy(const Faces& faces) {

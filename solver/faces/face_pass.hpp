@@ -5,14 +5,14 @@
 // Tested by tests/solver/faces/face_pass_test.cpp.
 #pragma once
 
-#include "solver/faces/faces.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
 
 /// Computes the forces of all faces at the current positions and the velocities of half a step before. Adds them to
-/// Bodies::force and their losses to the world's energy account, and records faces that break.
-void add_face_forces(World& world, Faces& faces);
+/// Bodies::force and their losses to the world's energy account, and records faces that break. Sets the stiffness of
+/// the contact points that take over from broken faces (hand_over.hpp).
+void add_face_forces(World& world);
 
 /// Energy stored in faces and in the pressures of cells after a force pass, J.
 double face_energy(const Faces& faces);

@@ -15,6 +15,7 @@
 #include <cstdint>
 
 #include "solver/geometry/circle_geometry.hpp"
+#include "solver/geometry/face_motion.hpp"
 #include "solver/geometry/flat_faces.hpp"
 #include "solver/geometry/guide_segments.hpp"
 #include "solver/geometry/outline_geometry.hpp"
@@ -92,6 +93,12 @@ inline ContactGeometry contact_geometry(const BodyView& bodies, const ContactPoi
         return outline_contact<double>({oi.x, oi.y, wx, wy, a.radius, a.radius + a.target_reach, cosine, sine}, facing);
     } else if constexpr (K == PointKind::face_face) {
         return flat_face_contact(bodies.flat_faces[point.element_i], bodies.flat_faces[point.feature_j], i, j);
+    } else if constexpr (K == PointKind::bonded_face) {
+        const FacePlace place = bodies.bond_faces->place[point.element_i];
+        const BondFaceMotion m = motion_of(place, i, j);
+        const Vec2 half = (0.5 * m.opening) * m.normal + (0.5 * m.sliding) * perpendicular(m.normal);
+        const Vec2 arm_i = rotated_by(i, place.arm_i) + half, arm_j = rotated_by(j, place.arm_j) - half;
+        return {-m.opening, m.normal.x, m.normal.y, arm_i.x, arm_i.y, arm_j.x, arm_j.y};
     } else if constexpr (by_guide(K)) {
         DiscResultant resultant;
         const auto visit = [&](auto&& add) { visit_discs<K>(bodies, point, i, j, add); };
@@ -156,9 +163,9 @@ inline double overlap_at(const BodyView& bodies, const ContactPoint& point) {
 }
 
 /// Calls `visit.operator()<K>(begin, end)` with the range of points of each kind K. @param kind_begin index of the
-/// first point of each kind, as in Points
-template <class Visit>
-inline void visit_kinds(const std::array<PointIndex, point_kinds + 1>& kind_begin, Visit&& visit) {
+/// first point of each kind, as in Points, or of each kind of bond
+template <std::size_t N, class Visit>
+inline void visit_kinds(const std::array<PointIndex, N>& kind_begin, Visit&& visit) {
     const auto of_kind = [&]<PointKind K>() {
         constexpr auto number = static_cast<std::size_t>(K);
         visit.template operator()<K>(kind_begin[number], kind_begin[number + 1]);
@@ -170,7 +177,8 @@ inline void visit_kinds(const std::array<PointIndex, point_kinds + 1>& kind_begi
     of_kind.template operator()<PointKind::disc_segment>();
     of_kind.template operator()<PointKind::segment_segment>();
     of_kind.template operator()<PointKind::element_wall>();
-    static_assert(point_kinds == 7);
+    if constexpr (N == bond_kinds + 1) of_kind.template operator()<PointKind::bonded_face>();
+    static_assert(point_kinds == 7 && bond_kinds == 8);
 }
 
 }  // namespace crackle

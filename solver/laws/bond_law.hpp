@@ -19,10 +19,11 @@ namespace crackle {
 enum class BondLaw : std::uint8_t {
     back_tension,  ///< the guide's law: the overlap at bonding determines the strength, and a bond may slide at its
                    ///< Coulomb limit (laws/back_tension_bond.hpp)
-    coulomb        ///< tension cut-off, cohesion and friction; no sliding before failure (laws/coulomb_bond.hpp)
+    coulomb,       ///< tension cut-off, cohesion and friction; no sliding before failure (laws/coulomb_bond.hpp)
+    face           ///< one set of springs for a whole face between two polygons (laws/face_bond.hpp)
 };
 
-constexpr auto list_names(BondLaw) { return in_order("back_tension", "coulomb"); }
+constexpr auto list_names(BondLaw) { return in_order("back_tension", "coulomb", "face"); }
 
 /// Properties in which bond laws differ.
 struct BondLawFacts {
@@ -44,6 +45,7 @@ struct BondLawFacts {
                                        ///< StiffnessUnits
     bool across_joints = false;        ///< whether joints can have bonds of this law
     bool with_guide_segments = false;  ///< whether it can be combined with the guide's segment law
+    bool by_faces = false;             ///< whether whole faces are bonded (world/faces.hpp), and no points
     /// Whether a point remembers its forces in the last step in which it carried at least half its strength.
     bool remembers_strong_forces = false;
 

@@ -15,13 +15,13 @@ const BondConstant* BondLawFacts::constant(std::string_view key) const {
 }
 
 const BondLawFacts& facts_of(BondLaw law) {
-    return with_law(law, []<class Bond>() -> const BondLawFacts& { return Bond::facts; });
+    return known_facts(law);
 }
 
 const std::vector<BondConstant>& all_bond_constants() {
     static const std::vector<BondConstant> all = [] {
         std::vector<BondConstant> found;
-        for (std::size_t law = 0; law < bond_laws; ++law)
+        for (std::size_t law = 0; law < table_of_names<BondLaw>.size(); ++law)
             for (const BondConstant& one : facts_of(static_cast<BondLaw>(law)).constants)
                 if (std::ranges::count(found, std::string_view(one.key), &BondConstant::key) == 0) found.push_back(one);
         return found;
@@ -31,7 +31,7 @@ const std::vector<BondConstant>& all_bond_constants() {
 
 std::string laws_with(bool BondLawFacts::*fact) {
     std::string names;
-    for (std::size_t law = 0; law < bond_laws; ++law)
+    for (std::size_t law = 0; law < table_of_names<BondLaw>.size(); ++law)
         if (facts_of(static_cast<BondLaw>(law)).*fact)
             names += fmt::format("{}\"{}\"", names.empty() ? "" : " or ", name_of(static_cast<BondLaw>(law)));
     return names;

@@ -15,9 +15,8 @@
 // A new law needs a value and a name in BondLaw, a header, and an entry in BondLaws. Kernels are compiled for every
 // law.
 //
-// The law of faces between polygons (face_bond.hpp) is not in the list, since it has no contact points and kernels of
-// points need no instance for it. It becomes a value of BondLaw when cases have keys for it. Until then bond_faces()
-// (faces/bond_faces.hpp) bonds worlds by it.
+// The law of faces between polygons (face_bond.hpp) is not in the list, since no point is bonded by it and kernels of
+// points need no instance for it.
 #pragma once
 
 #include <cstddef>
@@ -26,13 +25,14 @@
 #include "solver/laws/back_tension_bond.hpp"
 #include "solver/laws/bond_law.hpp"
 #include "solver/laws/coulomb_bond.hpp"
+#include "solver/laws/face_bond.hpp"
 
 namespace crackle {
 
-/// The types of all bond laws, in the order of the enumerators of BondLaw.
+/// The types of all laws that bond points, in the order of the first enumerators of BondLaw.
 using BondLaws = std::tuple<BackTensionBond, CoulombBond>;
 inline constexpr std::size_t bond_laws = std::tuple_size_v<BondLaws>;
-static_assert(bond_laws == table_of_names<BondLaw>.size());
+static_assert(bond_laws == static_cast<std::size_t>(BondLaw::face));
 
 template <class... Bonds>
 constexpr bool points_have_what_facts_need(const std::tuple<Bonds...>&) {
@@ -45,7 +45,7 @@ static_assert(points_have_what_facts_need(BondLaws{}),
 template <BondLaw law>
 using BondLawType = std::tuple_element_t<static_cast<std::size_t>(law), BondLaws>;
 
-/// Returns visit.operator()<Type>() for the type of a law. @tparam N number of the first law to try
+/// Returns visit.operator()<Type>() for the type of a law that bonds points. @tparam N number of the first law to try
 template <std::size_t N = 0, class Visit>
 constexpr decltype(auto) with_law(BondLaw law, const Visit& visit) {
     using Bond = std::tuple_element_t<N, BondLaws>;
@@ -58,6 +58,7 @@ constexpr decltype(auto) with_law(BondLaw law, const Visit& visit) {
 
 /// facts_of() for constant expressions.
 constexpr const BondLawFacts& known_facts(BondLaw law) {
+    if (law == BondLaw::face) return FaceBond::facts;
     return with_law(law, []<class Bond>() -> const BondLawFacts& { return Bond::facts; });
 }
 

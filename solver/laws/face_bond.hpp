@@ -34,8 +34,26 @@
 
 #include "solver/base/fields.hpp"
 #include "solver/base/lanes.hpp"
+#include "solver/laws/bond_law.hpp"
+#include "solver/laws/coulomb_bond.hpp"
 
 namespace crackle {
+
+/// The law as one of the bond laws of scenes and cases. Its strengths are those of coulomb bonds, and more (FaceLaw).
+struct FaceBond {
+    static constexpr BondLaw law = BondLaw::face;
+    static constexpr BondLawFacts facts{
+        .meaning = "each face between two polygons has normal, shear and moment springs and breaks as a whole",
+        .constants = CoulombBond::constants,
+        .friction = &ContactLaw::bond_friction,
+        .strengths_are_given = true,
+        .bonds_across_gaps = true,
+        .sticks = true,
+        .from_rest_overlap = true,
+        .own_shares = true,
+        .across_joints = true,
+        .by_faces = true};
+};
 
 /// Stiffness of rock with faces, Pa.
 struct FaceModuli {
@@ -66,6 +84,9 @@ struct FaceLaw {
     double residual_tensile_strength = 0.0;                             // σ_r, Pa
     double softening_opening = 0.0;                                     // w_c, m
     double damping_ratio = 0.0;                                         // h of each spring of a face
+
+    /// Whether a face of this law can break.
+    bool can_break() const { return std::isfinite(tensile_strength) || std::isfinite(cohesion); }
 
     CRACKLE_FIELDS(tensile_strength, cohesion, friction, knee, friction_beyond, moment_share, residual_friction,
                    residual_cohesion, softening_slip, residual_tensile_strength, softening_opening, damping_ratio);

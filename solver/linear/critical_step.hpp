@@ -37,8 +37,8 @@ inline constexpr std::int64_t most_exact_unknowns = 300'000;
 inline constexpr double critical_step_margin = 1e-6;
 
 /// Computes the largest stable time step. @param which points that count as closed; for ClosedPoints::listed, the
-/// result holds until the neighbour list is rebuilt @param rows springs in addition to those of the points
-CriticalStep critical_step(const World& world, ClosedPoints which, const LinearRows& rows = {});
+/// result holds until the neighbour list is rebuilt Faces count as if none were broken.
+CriticalStep critical_step(const World& world, ClosedPoints which);
 
 /// Whether the time step `dt` (s) is at or below critical_step(); needs a single factorisation.
 bool stable_at(const World& world, ClosedPoints which, double dt);

@@ -12,6 +12,7 @@
 #include <random>
 
 #include "solver/base/errors.hpp"
+#include "solver/linear/face_rows.hpp"
 
 namespace crackle {
 namespace {
@@ -183,7 +184,7 @@ Refined solve(const Workers& workers, const ScaledSystem& system, const Vector& 
 }  // namespace
 
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
-                              const std::vector<BodyMotion>& loads, ClosedPoints closed, const LinearRows& rows) {
+                              const std::vector<BodyMotion>& loads, ClosedPoints closed) {
     if (prescribed.empty()) throw InputError("elastic solve: found no prescribed body, expected at least one platen");
     ElasticSolution solution;
     solution.displacement.assign(world.bodies.size(), BodyMotion{});
@@ -196,6 +197,7 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
             if (held[3 * std::size_t{p.body} + static_cast<std::size_t>(d)])
                 component(solution.displacement[p.body], d) = component(p.motion, d);
     const std::vector<Spring> springs = springs_between_bodies(world, closed);
+    const LinearRows rows = face_rows(world);
     const ScaledSystem system(world, springs, rows, held);
     solution.unknowns = system.stiffness().rows();
     if (solution.unknowns > 0) {
@@ -254,7 +256,8 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
 
 FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& held_bodies, ClosedPoints closed) {
     const std::vector<bool> held = held_freedoms(world, held_bodies);
-    const ScaledSystem system(world, symmetric_majorant(world, springs_between_bodies(world, closed)), {}, held);
+    const ScaledSystem system(world, symmetric_majorant(world, springs_between_bodies(world, closed)), face_rows(world),
+                              held);
     FreeMotions free;
     if (system.stiffness().rows() == 0) return free;
     world.workers.hear();

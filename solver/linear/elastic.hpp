@@ -21,7 +21,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/linear/linear_rows.hpp"
 #include "solver/linear/springs.hpp"
 #include "solver/world/world.hpp"
 
@@ -47,12 +46,11 @@ struct ElasticSolution {
 };
 
 /// Computes displacements and reactions. @param loads force (N) and torque (N m) on every body in addition to the
-/// prescribed motions; may be empty @param rows springs in addition to those of the contact points
+/// prescribed motions; may be empty
 /// @throws InputError if nothing is prescribed, or if refinement does not reach a residual of 1e-9, for example
 /// because a load acts on an unsupported body
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
-                              const std::vector<BodyMotion>& loads = {}, ClosedPoints closed = ClosedPoints::bonded,
-                              const LinearRows& rows = {});
+                              const std::vector<BodyMotion>& loads = {}, ClosedPoints closed = ClosedPoints::bonded);
 
 /// Motions that store no energy while some bodies are held in the degrees of freedom that Prescribed would prescribe.
 struct FreeMotions {

@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "solver/linear/face_rows.hpp"
 
 namespace crackle {
 
-MassScaled::MassScaled(const World& world, ClosedPoints which, LinearRows rows)
+MassScaled::MassScaled(const World& world, ClosedPoints which)
     : while_solving_(world.workers.while_solving),
       springs_(symmetric_majorant(world, springs_of(world, which))),
-      rows_(std::move(rows)) {
+      rows_(face_rows(world)) {
     number_.resize(3 * world.bodies.size(), -1);
     const auto take = [&](std::size_t dof, double inverse) {
         if (inverse == 0.0) return;

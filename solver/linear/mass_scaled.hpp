@@ -21,8 +21,8 @@ class MassScaled {
     using Matrix = Eigen::SparseMatrix<double>;
     using Vector = Eigen::VectorXd;
 
-    /// Assembles the matrices. @param which points that count as springs @param rows further springs
-    MassScaled(const World& world, ClosedPoints which, LinearRows rows = {});
+    /// Assembles the matrices from the faces of a world and its points. @param which points that count as springs
+    MassScaled(const World& world, ClosedPoints which);
 
     /// Number of free degrees of freedom.
     Eigen::Index size() const { return static_cast<Eigen::Index>(root_.size()); }

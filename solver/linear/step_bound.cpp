@@ -98,6 +98,12 @@ struct BodyBlocks {
     Block stiffness, damping;
 };
 
+/// Bounds all faces of a world at once: each body gets the largest eigenvalue of their matrices on its diagonal.
+BodyBlocks block_of_faces(const World& world) {
+    const auto diagonal = [](double value) { return Block{value, value, value}; };
+    return {diagonal(world.faces.stiffness_bound), diagonal(world.faces.damping_bound)};
+}
+
 /// Square roots of a body's inverse masses and inverse moment of inertia.
 struct Roots {
     double x, y, r;
@@ -196,15 +202,19 @@ void add_row(Block& block, const Roots& roots, const Spring& row, bool second, d
     block.add(share * row.stiffness, roots.x * row.push[d], roots.y * row.push[d + 1], roots.r * row.push[d + 2]);
 }
 
-/// Law and root mass of a contact point between sliding flat faces, for the largest lap (shared length) that they can
-/// reach before the neighbour list is rebuilt.
-struct LongestLap {
+/// Law and root mass of a contact point at its stiffest before the neighbour list is rebuilt: between sliding flat faces
+/// for their largest lap (shared length), and where a broken face hands over to points, for all of its share.
+struct StiffestPoint {
     ContactLaw law;
     double root_mass;  // sqrt(kg)
 };
 
-LongestLap longest_lap(const World& world, PointIndex k) {
+StiffestPoint stiffest(const World& world, PointIndex k) {
     constexpr auto kind = static_cast<std::size_t>(PointKind::face_face);
+    if (const Array<float>& whole = world.faces.whole_share; !whole.empty() && whole[k] > 0.0F) {
+        const double grown = static_cast<double>(whole[k]) / static_cast<double>(world.points.stiffness_share[k]);
+        return {law_with(world, k, whole[k]), world.points.root_mass[k] * std::sqrt(grown)};
+    }
     const bool faces = k >= world.points.kind_begin[kind] && k < world.points.kind_begin[kind + 1];
     if (!faces || (world.points.state[k].flags & point_bonded) != 0) return {law_of(world, k), root_mass_of(world, k)};
     const ContactPoint point = world.points.contact[k];
@@ -221,7 +231,7 @@ void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>
     const BodyPair& point = world.points.contact.pairs[k];
     const bool first = b == point.body_i;
     const double partner = first && with_wall(world, k) ? 0.0 : weights[first ? point.body_j : point.body_i];
-    const LongestLap most = longest_lap(world, k);
+    const StiffestPoint most = stiffest(world, k);
     add_side(blocks, side_of(roots, arms.normal, first ? arms.arm_i : arms.arm_j), most.law, most.root_mass,
              share_of(weights[b], partner), !has_rows(world, k));
 }
@@ -264,6 +274,7 @@ Surroundings surroundings_of(const World& world) {
         all.met[world.points.contact.pairs[k].body_i] = true;
         if (!with_wall(world, k)) all.met[world.points.contact.pairs[k].body_j] = true;
     }
+    for (const BodyPair& face : world.faces.bodies) all.met[face.body_i] = all.met[face.body_j] = true;
     return all;
 }
 
@@ -273,7 +284,7 @@ Surroundings surroundings_of(const World& world) {
 template <class Counts>
 std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>& weights,
                                   const std::vector<Spring>& rows, Counts counts) {
-    std::vector<BodyBlocks> blocks(world.bodies.size());
+    std::vector<BodyBlocks> blocks(world.bodies.size(), block_of_faces(world));
     const BodyView bodies(world);
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
@@ -473,6 +484,7 @@ bool lower_step_bound(World& world) {
 
     // Blocks of the bodies that gained points, from all their counted points.
     std::array<BodyBlocks, most> blocks{};
+    blocks.fill(block_of_faces(world));
     const auto add = [&](PointIndex k, BodyIndex b) {
         if (world.workers.marks[b] == 0) return;
         add_point(blocks[world.workers.marks[b] - std::size_t{1}], world, world.stepping.step_weights, k, b,

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "solver/contact/opening.hpp"
+#include "solver/faces/face_pass.hpp"
 #include "solver/geometry/geometry.hpp"
 #include "solver/laws/law.hpp"
 #include "solver/measure/ledger.hpp"
@@ -99,6 +100,7 @@ Ledger measure_ledger(const World& world) {
     ledger.potential = potential_energy(world);
     ledger.kinetic = kinetic_energy(world);
     ledger.strain = strain_of_points(world);
+    if (world.faces.size() > 0) ledger.strain += face_energy(world.faces);
     ledger.dashpot_loss = world.account.dashpot_loss;
     ledger.friction_loss = world.account.friction_loss;
     ledger.fracture_loss = world.account.fracture_loss;

@@ -35,6 +35,8 @@ ContactGeometry geometry_of(const BodyView& bodies, PointKind kind, const Contac
             return contact_geometry<PointKind::disc_segment>(bodies, point, feature);
         case PointKind::segment_segment:
             return contact_geometry<PointKind::segment_segment>(bodies, point, feature);
+        case PointKind::bonded_face:
+            return contact_geometry<PointKind::bonded_face>(bodies, point, feature);
         case PointKind::element_wall:
             break;
     }

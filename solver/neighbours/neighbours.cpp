@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "solver/faces/hand_over.hpp"
 #include "solver/neighbours/exchange.hpp"
 #include "solver/neighbours/near_pairs.hpp"
 #include "solver/neighbours/pierced.hpp"
@@ -102,6 +103,7 @@ void rebuild(World& world) {
         PointLists lists = list_points(world, pairs);
         std::vector<std::uint64_t>().swap(pairs);  // frees memory for the new points
         exchange_points(world, lists);
+        if (world.faces.size() > 0) list_hand_over(world);
         world.workers.plan.valid = false;
         world.workers.marks.resize(world.bodies.size());
     }

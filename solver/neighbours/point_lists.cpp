@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "solver/faces/hand_over.hpp"
 #include "solver/geometry/across_joint.hpp"
 #include "solver/geometry/geometry.hpp"
 #include "solver/neighbours/near_pairs.hpp"
@@ -218,7 +219,7 @@ PointLists list_points(const World& world, const std::vector<std::uint64_t>& pai
     }
     for (const std::uint64_t pair : pairs) {
         const auto i = static_cast<BodyIndex>(pair >> 32), j = static_cast<BodyIndex>(pair & 0xffffffffu);
-        if (left_out(world, i, j)) continue;
+        if (left_out(world, i, j) || face_replaces_points(world, i, j)) continue;
         if (world.bodies.names[i].shape == no_shape && world.bodies.names[j].shape == no_shape) {
             add_single_circles(world, i, j, lists);
             continue;

@@ -18,6 +18,7 @@
 #include "solver/contact/joint_law.hpp"
 #include "solver/contact/pass.hpp"
 #include "solver/geometry/across_joint.hpp"
+#include "solver/linear/absolute_bound.hpp"
 #include "solver/linear/critical_step.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/neighbours/exchange.hpp"
@@ -41,6 +42,16 @@ std::int64_t count_interfaces(const World& world) {
     }
     std::sort(pairs.begin(), pairs.end());
     return std::distance(pairs.begin(), std::unique(pairs.begin(), pairs.end()));
+}
+
+/// Adds the faces of a world to its bonds.
+void count_faces(World& world) {
+    const Faces& faces = world.faces;
+    const auto intact = static_cast<std::int64_t>(faces.size() - faces.broken.size());
+    world.bonds.initial += intact;
+    world.bonds.interfaces_initial += intact;
+    for (FaceIndex k = 0; k < faces.size(); ++k)
+        if (faces.broken_at[k] == no_face && !faces.law_of(k).can_break()) ++world.bonds.held;
 }
 
 /// Limits for bonding the flat faces of two circles. flush_share is the largest gap between the faces, relative to the
@@ -305,6 +316,19 @@ std::int64_t bond_all(World& world, const Bonding& bonding) {
     return bonds;
 }
 
+std::int64_t bond_by_faces(World& world, const FaceBonding& bonding, FaceQuality* quality) {
+    if (bonding.gap != world.settings.thick) set_thickness(world, bonding.gap);
+    world.settings.bond_law = BondLaw::face;
+    world.faces = bond_faces(world, bonding, quality);
+    for (PointState& point : world.points.state) point.flags = 0;
+    world.bonds.made = true;
+    bound_faces(world);
+    world.list.valid = false;
+    refresh_neighbours(world);
+    finish_bonding(world);
+    return world.bonds.initial;
+}
+
 std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double gap) {
     if (gap > 0.0 && !facts_of(world.settings.bond_law).bonds_across_gaps)
         throw InputError(
@@ -385,6 +409,7 @@ void finish_bonding(World& world) {
         return (p.flags & point_held) != 0 && (p.flags & point_bonded) != 0;
     });
     world.bonds.interfaces_initial = count_interfaces(world);
+    count_faces(world);
     find_exact_step(world);
     evaluate_step_bound(world);
     world.bonds.broken = world.bonds.broken_after_sliding = 0;

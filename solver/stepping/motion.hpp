@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "solver/base/instruction_set.hpp"
-#include "solver/world/speeds.hpp"
+#include "solver/world/workers.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {

@@ -12,7 +12,7 @@
 #include "solver/geometry/geometry.hpp"
 #include "solver/laws/bond_laws.hpp"
 #include "solver/measure/point_view.hpp"
-#include "solver/stepping/event_place.hpp"
+#include "solver/geometry/event_place.hpp"
 
 namespace crackle {
 namespace {
@@ -65,7 +65,7 @@ void record_breaks(World& world) {
         for (PointIndex k = begin; k < end && K != PointKind::element_wall; ++k) {
             if ((world.points.state[k].flags & point_just_broken) == 0) continue;
             const PointView view = view_point(world, k);
-            auto event = event_at<BreakEvent>(world, view);
+            auto event = event_at<BreakEvent>(world, view.body_i, view.body_j, view.position, view.normal);
             part<K>(world, pass, k, event);
             if (!world.points.spring_work.empty()) world.points.spring_work[k] = {};
             if (!world.points.opening.empty()) {

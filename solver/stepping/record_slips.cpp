@@ -4,7 +4,7 @@
 #include "solver/stepping/record_slips.hpp"
 
 #include "solver/measure/point_view.hpp"
-#include "solver/stepping/event_place.hpp"
+#include "solver/geometry/event_place.hpp"
 
 namespace crackle {
 
@@ -16,7 +16,7 @@ void record_slips(World& world) {
         if ((state.flags & (first_time | point_slip_noted)) != first_time) continue;
         state.flags |= point_slip_noted;
         const PointView view = view_point(world, k);
-        auto event = event_at<SlipEvent>(world, view);
+        auto event = event_at<SlipEvent>(world, view.body_i, view.body_j, view.position, view.normal);
         event.shear_force = world.points.shear_force[k];
         event.normal_force = view.normal_force;
         world.bonds.slips.push_back(event);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/faces/face_pass.hpp"
 #include "solver/measure/health.hpp"
 #include "solver/measure/ledger.hpp"
 #include "solver/membrane/press.hpp"
@@ -81,11 +82,16 @@ void update_neighbours(World& world) {
     refresh_neighbours(world);
 }
 
-/// Divides the points among threads, clears the summed forces, opens joints that slide, and adds the membrane's forces.
+/// Divides the points among threads, clears the summed forces, opens joints that slide, and adds the forces of faces and
+/// of the membrane.
 void prepare_forces(World& world) {
     plan_sweep(world);
     clear_forces(world);
     if (world.settings.dilates()) dilate_joints(world);
+    if (world.faces.size() > 0) {
+        const PhaseTimer timer(world.workers.profile, Phase::force);
+        add_face_forces(world);
+    }
     if (world.membrane.present()) {
         update_membrane(world);
         press_membrane(world);

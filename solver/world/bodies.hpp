@@ -19,6 +19,7 @@
 namespace crackle {
 
 struct World;
+struct Faces;
 
 using BodyIndex = std::uint32_t;  // index into the arrays of Bodies (internal numbering)
 inline constexpr BodyIndex no_body = 0xffffffff;
@@ -254,6 +255,7 @@ struct BodyView {
     const Edge* edges = nullptr;
     const Edge* segments = nullptr;
     const FlatFace* flat_faces = nullptr;
+    const Faces* bond_faces = nullptr;
     bool convex_outlines = true;
     bool mean_of_discs = false;  // SegmentLaw::demseg_mean
     double thick = 0.0;          // m, segment thickness

@@ -35,6 +35,12 @@ constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 template <class Archive>
 void serialize(Archive& archive, World& world) {
     World::groups(world, [&](const char* /*name*/, auto& group) { archive(group); });
+    // At the end, so that worlds without faces have nothing of them.
+    if constexpr (Archive::is_saving::value) {
+        if (world.faces.size() > 0) archive(world.faces);
+    } else {
+        if (archive.left() > 0) archive(world.faces);
+    }
 }
 
 void save_world(const World& world, std::ostream& out) {
@@ -198,7 +204,8 @@ bool is_point_of(const World& world, PointKind kind, const ContactPoint& point) 
     const auto is_element = [&](BodyIndex body, std::uint32_t element) {
         return bodies.names[body].shape == no_shape ? element == own_circle : element < bodies.elements.size();
     };
-    if (static_cast<int>(kind) >= point_kinds || point.body_i >= n) return false;
+    if (static_cast<int>(kind) >= bond_kinds || point.body_i >= n) return false;
+    if (kind == PointKind::bonded_face) return point.body_j < n && point.element_i < world.faces.size();
     if (kind == PointKind::face_face)
         return is_face(point.body_i, point.element_i) && is_face(point.body_j, point.feature_j);
     if (!is_element(point.body_i, point.element_i)) return false;

@@ -29,8 +29,13 @@ enum class PointKind : std::uint8_t {
     segment_segment = 5,  // segments element_i of body_i and feature_j of body_j
     // Circle or vertex of body_i against a domain wall (body_j is a Wall); feature_j is 1 for a bare vertex.
     element_wall = 6,
+    /// A face between two bonded polygons (world/faces.hpp), element_i and feature_j its index. Events and records have
+    /// it, worlds keep no points of it.
+    bonded_face = 7,
 };
 inline constexpr int point_kinds = 7;
+/// Kinds of bonds in records of a test: those of points, and PointKind::bonded_face.
+inline constexpr int bond_kinds = 8;
 
 /// Whether points of this kind follow the DEMseg guide's segment law, whose force has no potential that depends on the
 /// overlap.
@@ -40,7 +45,7 @@ constexpr bool by_guide(PointKind kind) {
 
 /// Whether the consistent integrator applies contact/opening.hpp to points of this kind. This requires a force with a
 /// potential that depends on the overlap alone.
-constexpr bool has_opening(PointKind kind) { return !by_guide(kind) && kind != PointKind::face_face; }
+constexpr bool has_opening(PointKind kind) { return !by_guide(kind) && kind != PointKind::face_face && kind != PointKind::bonded_face; }
 
 /// State of a contact point, as bits.
 enum PointFlag : std::uint16_t {

@@ -12,6 +12,7 @@
 #include "solver/world/bodies.hpp"
 #include "solver/world/bonds.hpp"
 #include "solver/world/energy_account.hpp"
+#include "solver/world/faces.hpp"
 #include "solver/world/membrane.hpp"
 #include "solver/world/neighbour_list.hpp"
 #include "solver/world/points.hpp"
@@ -31,9 +32,10 @@ struct World {
     Bonds bonds;
     EnergyAccount account;
     Membrane membrane;
+    Faces faces;  // empty unless its bonds are faces
     Workers workers;  // not part of the saved state
 
-    /// Groups of the state that a checkpoint saves and a state hash covers.
+    /// Groups of the state that a checkpoint saves and a state hash covers; also `faces`, if there are any.
     CRACKLE_MEMBERS(groups, settings, bodies, points, list, stepping, bonds, account, membrane);
 };
 
@@ -46,6 +48,7 @@ inline BodyView::BodyView(const World& world)
       edges(world.bodies.edges.data()),
       segments(world.bodies.segments.data()),
       flat_faces(world.bodies.flat_faces.data()),
+      bond_faces(&world.faces),
       convex_outlines(world.bodies.convex_outlines),
       mean_of_discs(world.settings.segment_law == SegmentLaw::demseg_mean),
       thick(world.settings.thick),

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <random>
 
-#include "solver/faces/face_motion.hpp"
+#include "solver/geometry/face_motion.hpp"
 #include "tests/solver/faces/cell_worlds.hpp"
 #include "tests/support/claim.hpp"
 
@@ -22,9 +22,9 @@ using testing::within;
 
 constexpr double nu = 0.26;
 
-void force(World& world, Faces& faces) {
+void force(World& world) {
     std::ranges::fill(world.bodies.force, BodyForce{});
-    add_face_forces(world, faces);
+    add_face_forces(world);
 }
 
 /// Number of faces between each cell and the nearest cell with less than a full ring of faces.
@@ -50,7 +50,7 @@ std::vector<int> depths(const World& world, const Faces& faces) {
 
 void expect_patch(CellWorld cells, const FaceBonding& bonding) {
     FaceQuality quality;
-    Faces faces = bond_faces(cells.world, bonding, &quality);
+    Faces& faces = cells.world.faces = bond_faces(cells.world, bonding, &quality);
     EXPECT_LE(quality.raised, 4);                // two right triangles in a corner of the box have one circumcentre
     const double xx = 0.3, yy = -0.1, xy = 0.2;  // no rotation: forces are then linear in the strain
     const auto strain = [&](double by) {
@@ -60,7 +60,7 @@ void expect_patch(CellWorld cells, const FaceBonding& bonding) {
             body.x += by * (xx * x.x + xy * x.y);
             body.y += by * (xy * x.x + yy * x.y);
         }
-        force(cells.world, faces);
+        force(cells.world);
         return cells.world.bodies.force;
     };
     // Moments are linear and quadratic: forces act in the middle of what has opened.
@@ -139,15 +139,14 @@ TEST(PatchOfFaces, BalancesEveryCircumcentredTriangle) {
 /// A small box whose cells have moved and turned at random by large amounts.
 struct Disturbed {
     CellWorld cells;
-    Faces faces;
 };
 
 Disturbed disturbed(double shear_ratio, bool broken) {
     CellBox box{.columns = 4, .rows = 4, .platens = true};
-    Disturbed d{build_box(box), {}};
+    Disturbed d{build_box(box)};
     FaceBonding bonding = elastic_rock(d.cells, box.gap, nu, shear_ratio);
     bonding.platens = PlatenFaces::glued;
-    d.faces = bond_faces(d.cells.world, bonding);
+    d.cells.world.faces = bond_faces(d.cells.world, bonding);
     std::mt19937 random(7);
     const auto number = [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; };
     for (BodyState& body : d.cells.world.bodies.state) {
@@ -160,8 +159,8 @@ Disturbed disturbed(double shear_ratio, bool broken) {
         body.shape[0] = c;
     }
     if (broken) {
-        force(d.cells.world, d.faces);
-        for (FaceLaw& law : d.faces.laws) law.cohesion = law.tensile_strength = 0.0;
+        force(d.cells.world);
+        for (FaceLaw& law : d.cells.world.faces.laws) law.cohesion = law.tensile_strength = 0.0;
     }
     return d;
 }
@@ -169,7 +168,7 @@ Disturbed disturbed(double shear_ratio, bool broken) {
 TEST(FaceForces, AreTheGradientOfTheEnergyForAnyRotation) {
     for (const double ratio : {1.0, 1.0 / 1.6}) {
         Disturbed d = disturbed(ratio, false);
-        force(d.cells.world, d.faces);
+        force(d.cells.world);
         const Array<BodyForce> forces = d.cells.world.bodies.force;
         double scale = 0.0, error = 0.0, turning = 0.0;
         for (const BodyForce& one : forces) scale = std::max(scale, std::hypot(one.fx, one.fy));
@@ -182,8 +181,8 @@ TEST(FaceForces, AreTheGradientOfTheEnergyForAnyRotation) {
                 body.x += x, body.y += y, body.angle += turn;
                 body.shape[0] = kept.shape[0] * std::cos(turn) - kept.shape[1] * std::sin(turn);
                 body.shape[1] = kept.shape[1] * std::cos(turn) + kept.shape[0] * std::sin(turn);
-                force(d.cells.world, d.faces);
-                const double energy = face_energy(d.faces);
+                force(d.cells.world);
+                const double energy = face_energy(d.cells.world.faces);
                 body = kept;
                 return energy;
             };
@@ -207,7 +206,7 @@ TEST(FaceForces, OfLanesHaveTheBytesOfSingleFaces) {
         bonding.materials[1].moduli.contact *= 2.0;
         bonding.platens = PlatenFaces::bonded;
         for (FaceMaterial& material : bonding.materials) material.law.damping_ratio = damping;
-        Faces faces = bond_faces(cells.world, bonding);
+        Faces& faces = cells.world.faces = bond_faces(cells.world, bonding);
         std::mt19937 random(7);
         const auto number = [&] { return static_cast<double>(random()) / 4294967296.0 - 0.5; };
         for (BodyState& body : cells.world.bodies.state) {
@@ -215,7 +214,7 @@ TEST(FaceForces, OfLanesHaveTheBytesOfSingleFaces) {
             body.shape[0] = std::cos(0.1), body.shape[1] = std::sin(0.1);
             body.vx = number(), body.vy = number(), body.omega = number();
         }
-        force(cells.world, faces);
+        force(cells.world);
         int unlike = 0;
         for (FaceIndex k = 0; k < faces.size(); ++k) {
             const BodyState &i = cells.world.bodies.state[faces.bodies[k].body_i],
@@ -242,8 +241,8 @@ TEST(FaceForces, OfLanesHaveTheBytesOfSingleFaces) {
 TEST(FaceForces, HaveNoResultantAndNoMoment) {
     for (const bool broken : {false, true}) {
         Disturbed d = disturbed(1.0 / 1.6, broken);
-        force(d.cells.world, d.faces);
-        EXPECT_EQ(d.faces.broken.size(), broken ? d.faces.size() : 0u);
+        force(d.cells.world);
+        EXPECT_EQ(d.cells.world.faces.broken.size(), broken ? d.cells.world.faces.size() : 0u);
         BodyForce sum{};
         double scale = 0.0;
         for (BodyIndex b = 0; b < d.cells.world.bodies.size(); ++b) {
@@ -261,7 +260,7 @@ TEST(FaceForces, HaveNoResultantAndNoMoment) {
 TEST(FaceForces, AreNoneAfterARigidMotionThroughAnyAngle) {
     CellBox box{.columns = 5, .rows = 5};
     CellWorld cells = build_box(box);
-    Faces faces = bond_faces(cells.world, elastic_rock(cells, box.gap, nu, 1.0 / 1.6));
+    cells.world.faces = bond_faces(cells.world, elastic_rock(cells, box.gap, nu, 1.0 / 1.6));
     for (const double turn : {0.3, 2.5}) {
         for (BodyState& body : cells.world.bodies.state) {
             const double c = std::cos(turn), s = std::sin(turn);
@@ -270,7 +269,7 @@ TEST(FaceForces, AreNoneAfterARigidMotionThroughAnyAngle) {
             const Vec2 frame{c * body.shape[0] - s * body.shape[1], s * body.shape[0] + c * body.shape[1]};
             body.x = place.x, body.y = place.y, body.shape[0] = frame.x, body.shape[1] = frame.y;
         }
-        force(cells.world, faces);
+        force(cells.world);
         double largest = 0.0;
         for (const BodyForce& one : cells.world.bodies.force) largest = std::max(largest, std::hypot(one.fx, one.fy));
         // k_n h is some E L, with E = 1.

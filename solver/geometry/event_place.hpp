@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "solver/base/correctly_rounded.hpp"
-#include "solver/measure/point_view.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -22,14 +21,14 @@ inline double orientation_of(Vec2 normal) {
 
 /// Creates an event and sets the common fields. @tparam Event either BreakEvent or SlipEvent
 template <class Event>
-Event event_at(const World& world, const PointView& view) {
+Event event_at(const World& world, BodyIndex body_i, BodyIndex body_j, Vec2 position, Vec2 normal) {
     Event event{};
     event.step = world.stepping.steps;
     event.time = world.stepping.time;
-    event.body_i = world.bodies.info(view.body_i).id;
-    event.body_j = world.bodies.info(view.body_j).id;
-    event.position = view.position;
-    event.orientation = orientation_of(view.normal);
+    event.body_i = world.bodies.names[body_i].id;
+    event.body_j = world.bodies.names[body_j].id;
+    event.position = position;
+    event.orientation = orientation_of(normal);
     return event;
 }
 

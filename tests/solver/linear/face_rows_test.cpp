@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The faces in the sparse solve: E and nu, beams against Timoshenko, the exact stable step and its guaranteed bound.
 
-#include "solver/faces/face_rows.hpp"
+#include "solver/linear/face_rows.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,12 +26,11 @@ struct Moduli {
     double youngs, poissons;
 };
 
-Moduli moduli_of(const CellBox& box, const FaceBonding& bonding, const CellWorld& cells) {
-    const Faces faces = bond_faces(cells.world, bonding);
+Moduli moduli_of(const CellBox& box, const FaceBonding& bonding, CellWorld cells) {
+    cells.world.faces = bond_faces(cells.world, bonding);
     const double shortening = 1e-3 * box.height;
     const ElasticSolution solution =
-        solve_elastic(cells.world, {{cells.platens[0], {}}, {cells.platens[1], {0.0, -shortening, 0.0}}}, {},
-                      ClosedPoints::bonded, face_rows(cells.world, faces));
+        solve_elastic(cells.world, {{cells.platens[0], {}}, {cells.platens[1], {0.0, -shortening, 0.0}}});
     // Lateral strain by regression over the reference points.
     double n = 0.0, x = 0.0, u = 0.0, xx = 0.0, xu = 0.0;
     for (BodyIndex b = 0; b < cells.world.bodies.size(); ++b) {
@@ -49,7 +48,7 @@ Moduli moduli_of(const CellBox& box, const FaceBonding& bonding, const CellWorld
 TEST(FacesInTheSolve, GiveTheMaterialsModuliForEqualStiffnesses) {
     for (const double nu : {0.0, 0.26, 0.4}) {
         CellBox box{.width = 1.0, .height = 1.6, .columns = 8, .rows = 13, .platens = true};
-        const CellWorld cells = build_box(box);
+        CellWorld cells = build_box(box);
         const Moduli got = moduli_of(box, elastic_rock(cells, box.gap, nu, 1.0), cells);
         EXPECT_TRUE(agrees("Young's modulus", got.youngs, 1.0, 1e-9));
         EXPECT_TRUE(within("Poisson's ratio", got.poissons, nu, 1e-9));
@@ -60,7 +59,7 @@ TEST(FacesInTheSolve, GiveThemWithinAPercentForUnequalStiffnesses) {
     const double nu = 0.26;
     for (const double ratio : {1.0 / 1.6, 0.5}) {
         CellBox box{.columns = 28, .rows = 29, .platens = true};
-        const CellWorld cells = build_box(box);
+        CellWorld cells = build_box(box);
         const Moduli got = moduli_of(box, elastic_rock(cells, box.gap, nu, ratio, 0.29), cells);
         EXPECT_TRUE(agrees("Young's modulus", got.youngs, 1.0, 0.01));
         EXPECT_TRUE(within("Poisson's ratio", got.poissons, nu, 0.01));
@@ -70,7 +69,7 @@ TEST(FacesInTheSolve, GiveThemWithinAPercentForUnequalStiffnesses) {
 TEST(FacesInTheSolve, GiveThemWithoutAPressureByTheShearRatio) {
     const double nu = 0.2;
     CellBox box{.columns = 28, .rows = 29, .platens = true};
-    const CellWorld cells = build_box(box);
+    CellWorld cells = build_box(box);
     FaceBonding bonding = elastic_rock(cells, box.gap, nu, 1.0);
     bonding.materials[0].moduli = face_moduli_without_pressure(1.0, nu, 0.29);
     const Moduli got = moduli_of(box, bonding, cells);
@@ -81,14 +80,13 @@ TEST(FacesInTheSolve, GiveThemWithoutAPressureByTheShearRatio) {
 TEST(FacesInTheSolve, GiveThemForTrianglesWhoseDistancesHaveAFloor) {
     const double nu = 0.26;
     CellBox box{.kind = MeshKind::delaunay, .columns = 16, .rows = 16, .lloyd = 10, .platens = true};
-    const CellWorld cells = build_box(box);
+    CellWorld cells = build_box(box);
     FaceBonding bonding = elastic_rock(cells, box.gap, nu, 1.0);
     bonding.reference.clear();
-    const Faces faces = bond_faces(cells.world, bonding);
+    cells.world.faces = bond_faces(cells.world, bonding);
     const double shortening = 1e-3;
     const ElasticSolution solution =
-        solve_elastic(cells.world, {{cells.platens[0], {}}, {cells.platens[1], {0.0, -shortening, 0.0}}}, {},
-                      ClosedPoints::bonded, face_rows(cells.world, faces));
+        solve_elastic(cells.world, {{cells.platens[0], {}}, {cells.platens[1], {0.0, -shortening, 0.0}}});
     EXPECT_TRUE(agrees("Young's modulus", -solution.reaction[1].y / shortening, 1.0, 0.02));
 }
 
@@ -97,8 +95,8 @@ double bending_stiffness(int depth, double ratio, double correction) {
     const double nu = 0.26, span = 3.0;
     CellBox box{
         .width = 1.0, .height = span, .columns = depth, .rows = static_cast<int>(span * depth), .platens = true};
-    const CellWorld cells = build_box(box);
-    const Faces faces = bond_faces(cells.world, elastic_rock(cells, box.gap, nu, ratio, correction));
+    CellWorld cells = build_box(box);
+    cells.world.faces = bond_faces(cells.world, elastic_rock(cells, box.gap, nu, ratio, correction));
     const double turn = 1e-3;
     const BodyIndex low = cells.platens[0], high = cells.platens[1];
     // Each platen turns about the middle of its end of the beam.
@@ -107,8 +105,7 @@ double bending_stiffness(int depth, double ratio, double correction) {
         return BodyMotion{-angle * (body.y - y), angle * (body.x - 0.5), angle};
     };
     const ElasticSolution solution =
-        solve_elastic(cells.world, {{low, about_end(low, 0.0, -0.5 * turn)}, {high, about_end(high, span, 0.5 * turn)}},
-                      {}, ClosedPoints::bonded, face_rows(cells.world, faces));
+        solve_elastic(cells.world, {{low, about_end(low, 0.0, -0.5 * turn)}, {high, about_end(high, span, 0.5 * turn)}});
     // Energy ½Mφ, with M = EIφ/span and I = 1/12.
     return solution.energy / (0.5 * turn * turn / (12.0 * span));
 }
@@ -128,13 +125,13 @@ TEST(FacesInTheSolve, HaveAStableStepWithAGuaranteedBoundCloseToIt) {
     for (const int lloyd : {0, 2, 20}) {
         for (const double damping : {0.0, 0.1}) {
             const CellBox box{.columns = 12, .rows = 12, .lloyd = lloyd};
-            const CellWorld cells = build_box(box);
+            CellWorld cells = build_box(box);
             FaceBonding bonding = elastic_rock(cells, box.gap, 0.26, 1.0 / 1.6);
             bonding.materials[0].law.damping_ratio = damping;
-            const LinearRows rows = face_rows(cells.world, bond_faces(cells.world, bonding));
-            const CriticalStep exact = critical_step(cells.world, ClosedPoints::touching, rows);
+            cells.world.faces = bond_faces(cells.world, bonding);
+            const CriticalStep exact = critical_step(cells.world, ClosedPoints::touching);
             EXPECT_TRUE(exact.proved);
-            const double bound = absolute_step_bound(cells.world, ClosedPoints::touching, rows);
+            const double bound = absolute_step_bound(cells.world, ClosedPoints::touching);
             // It is lowest for even cells, and with dashpots, whose largest forces are elsewhere.
             const double least = damping > 0.0 ? 0.88 : 0.9;
             EXPECT_TRUE(within("guaranteed bound over the exact step", bound / exact.root, 0.5 * (1.0 + least),
@@ -146,8 +143,8 @@ TEST(FacesInTheSolve, HaveAStableStepWithAGuaranteedBoundCloseToIt) {
 TEST(FaceRows, AreTheForcesOfSmallMotions) {
     CellBox box{.columns = 5, .rows = 5};
     CellWorld cells = build_box(box);
-    Faces faces = bond_faces(cells.world, elastic_rock(cells, box.gap, 0.26, 1.0 / 1.6));
-    const LinearRows rows = face_rows(cells.world, faces);
+    cells.world.faces = bond_faces(cells.world, elastic_rock(cells, box.gap, 0.26, 1.0 / 1.6));
+    const LinearRows rows = face_rows(cells.world);
     std::vector<BodyMotion> motion;
     constexpr double small = 1e-8;
     for (BodyIndex b = 0; b < cells.world.bodies.size(); ++b)
@@ -166,7 +163,7 @@ TEST(FaceRows, AreTheForcesOfSmallMotions) {
         body.shape[1] += motion[b].rotation * c;
     }
     std::ranges::fill(cells.world.bodies.force, BodyForce{});
-    add_face_forces(cells.world, faces);
+    add_face_forces(cells.world);
     double scale = 0.0, error = 0.0;
     for (BodyIndex b = 0; b < motion.size(); ++b) {
         const BodyForce& got = cells.world.bodies.force[b];

@@ -2,21 +2,19 @@
 // Steps with faces: energy closes while faces break, never grows without damping, and no byte depends on the number of
 // threads or on a restart.
 
-#include "solver/faces/face_step.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cereal/archives/binary.hpp>
-#include <cereal/types/vector.hpp>
 #include <cmath>
 #include <random>
-#include <sstream>
 
 #include "solver/faces/face_pass.hpp"
-#include "solver/faces/face_rows.hpp"
+#include "solver/measure/ledger.hpp"
 #include "solver/linear/critical_step.hpp"
+#include "solver/stepping/bonding.hpp"
 #include "solver/stepping/controls.hpp"
+#include "solver/stepping/step.hpp"
+#include "solver/stepping/time_step.hpp"
 #include "solver/world/checkpoint.hpp"
 #include "tests/solver/faces/cell_worlds.hpp"
 #include "tests/support/claim.hpp"
@@ -29,19 +27,17 @@ using testing::within;
 
 struct Specimen {
     CellWorld cells;
-    Faces faces;
 
     World& world() { return cells.world; }
-    void step() { step_with_faces(cells.world, faces); }
+    Faces& faces() { return cells.world.faces; }
+    void step() { crackle::step(cells.world); }
     Ledger ledger() {
-        compute_face_forces(cells.world, faces);
-        const Ledger ledger = measure_ledger(cells.world, faces);
-        advance_with_faces(cells.world);
+        compute_forces(cells.world);
+        const Ledger ledger = measure_ledger(cells.world);
+        advance(cells.world);
         return ledger;
     }
-    double exact_step() {
-        return critical_step(cells.world, ClosedPoints::touching, face_rows(cells.world, faces)).root;
-    }
+    double exact_step() { return critical_step(cells.world, ClosedPoints::touching).root; }
 };
 
 /// Strengths as of a rock whose Young's modulus is 1.
@@ -57,13 +53,13 @@ FaceLaw brittle() {
 
 Specimen specimen(const CellBox& box, double ratio, const FaceLaw& law, double nu = 0.26,
                   PlatenFaces platens = PlatenFaces::glued) {
-    Specimen s{build_box(box), {}};
+    Specimen s{build_box(box)};
     FaceBonding bonding = elastic_rock(s.cells, box.gap, nu, ratio);
     bonding.materials[0].law = law;
     bonding.platens = platens;
     if (box.kind == MeshKind::delaunay) bonding.reference.clear();
     bonding.factors = StrengthFactors(StrengthDistribution::weibull, 0.2, 1);
-    s.faces = bond_faces(s.cells.world, bonding);
+    bond_by_faces(s.cells.world, bonding);
     return s;
 }
 
@@ -104,9 +100,9 @@ double load(Specimen& s, double velocity, double broken, double step_share = 0.3
         const Ledger ledger = s.ledger();
         if (ledger.displacement_work > 0.0)
             worst = std::max(worst, std::abs(ledger.closing_error) / ledger.displacement_work);
-        if (static_cast<double>(s.faces.broken.size()) > broken * static_cast<double>(s.faces.size())) break;
+        if (static_cast<double>(s.faces().broken.size()) > broken * static_cast<double>(s.faces().size())) break;
     }
-    EXPECT_GT(static_cast<double>(s.faces.broken.size()), broken * static_cast<double>(s.faces.size()));
+    EXPECT_GT(static_cast<double>(s.faces().broken.size()), broken * static_cast<double>(s.faces().size()));
     return worst;
 }
 
@@ -118,13 +114,13 @@ TEST(StepWithFaces, ClosesItsEnergyAccountWhileFacesBreak) {
         const double error = load(s, velocity, 0.1);
         EXPECT_TRUE(within("largest closing error, of the work", error, 0.0, 5e-4));
         double least = 0.0, most = 0.0;
-        for (const FaceBreak& one : s.faces.breaks)
+        for (const BreakEvent& one : s.world().bonds.events)
             least = std::min(least, one.energy), most = std::max(most, one.energy);
         EXPECT_TRUE(within("least energy of a break, of the largest", least / most, 0.0, 1e-12));
         EXPECT_GT(s.world().account.dashpot_loss, 0.0);
         fmt::print("  losses: fracture {:.3g}, friction {:.3g}, dashpots {:.3g}, lag {:.3g} of work {:.3g} J\n",
                    s.world().account.fracture_loss, s.world().account.friction_loss, s.world().account.dashpot_loss,
-                   s.faces.lag_loss, s.world().account.displacement_work);
+                   s.faces().lag_loss, s.world().account.displacement_work);
     }
 }
 
@@ -132,9 +128,11 @@ TEST(StepWithFaces, ClosesItsEnergyAccountWhileFacesBreak) {
 /// energy over that at the start, less 1
 double shake(Specimen s, int steps) {
     load(s, -2e-4, 0.2);
-    for (FaceLaw& law : s.faces.laws) law.tensile_strength = law.cohesion = std::numeric_limits<double>::infinity();
-    const std::size_t broken = s.faces.broken.size();
-    s.world().stepping.time_step = 0.8 * s.exact_step();
+    for (FaceLaw& law : s.faces().laws) law.tensile_strength = law.cohesion = std::numeric_limits<double>::infinity();
+    const std::size_t broken = s.faces().broken.size();
+    // Contact points lower the step where they take over from faces.
+    s.world().stepping.automatic_step = true;
+    s.world().stepping.step_goal = 0.8 * s.exact_step();
     drive(s, 0.0);
     s.step();
     restart_account(s.world());
@@ -149,7 +147,7 @@ double shake(Specimen s, int steps) {
         const Ledger now = s.ledger();
         largest = std::max(largest, now.kinetic + now.strain);
     }
-    EXPECT_EQ(s.faces.broken.size(), broken);
+    EXPECT_EQ(s.faces().broken.size(), broken);
     const Ledger last = s.ledger();
     EXPECT_LT(last.kinetic + last.strain, start);
     EXPECT_TRUE(within("closing error, of the energy", last.closing_error / start, 0.0, 0.02));
@@ -165,7 +163,9 @@ TEST(StepWithFaces, GainsNoEnergyOver100000StepsIfPartlyBroken) {
 
 TEST(StepWithFaces, GainsNoEnergyWhereTheLagMustBeSlowed) {
     const Specimen triangles = specimen(
-        {.kind = MeshKind::delaunay, .columns = 6, .rows = 6, .lloyd = 20, .platens = true}, 1.0 / 1.6, brittle());
+        // Corners meet at nodes, where points need a gap that is wide compared with the motion.
+        {.kind = MeshKind::delaunay, .columns = 6, .rows = 6, .lloyd = 20, .gap = 4e-3, .platens = true}, 1.0 / 1.6,
+        brittle());
     EXPECT_TRUE(within("triangles: largest energy over the first, less 1", shake(triangles, 20'000), 0.0, 2e-3));
     const Specimen soft = specimen({.columns = 8, .rows = 8, .platens = true}, 1.0, brittle(), 0.45);
     EXPECT_TRUE(within("nu = 0.45: largest energy over the first, less 1", shake(soft, 20'000), 0.0, 2e-3));
@@ -173,12 +173,12 @@ TEST(StepWithFaces, GainsNoEnergyWhereTheLagMustBeSlowed) {
 
 TEST(StepWithFaces, RubsOnAPlatenWithItsFriction) {
     CellBox box{.columns = 4, .rows = 4, .platens = true};
-    Specimen s{build_box(box), {}};
+    Specimen s{build_box(box)};
     FaceBonding bonding = elastic_rock(s.cells, box.gap, 0.26, 1.0);
     bonding.platens = PlatenFaces::rubbing;
     bonding.platen_friction = 0.4;
     bonding.materials[0].law.damping_ratio = 0.2;
-    s.faces = bond_faces(s.cells.world, bonding);
+    bond_by_faces(s.cells.world, bonding);
     s.world().stepping.time_step = 0.4 * s.exact_step();
     const double stroke = 1e-4 / (2000 * s.world().stepping.time_step);
     drive(s, -stroke);
@@ -187,11 +187,11 @@ TEST(StepWithFaces, RubsOnAPlatenWithItsFriction) {
     const DofControl still{Drive::velocity, 0.0, 0.0}, along{Drive::velocity, 0.5 * stroke, 0.0};
     set_control(s.world(), s.cells.platens[1], {along, still, still}, 0);
     for (int n = 0; n < 20'000; ++n) s.step();
-    compute_face_forces(s.world(), s.faces);
+    compute_forces(s.world());
     const BodyForce& on_platen = s.world().bodies.force[s.cells.platens[1]];
     EXPECT_GT(on_platen.fy, 0.5e-4);
     EXPECT_TRUE(agrees("shear over normal force", -on_platen.fx / on_platen.fy, 0.4, 1e-2));
-    const Ledger ledger = measure_ledger(s.world(), s.faces);
+    const Ledger ledger = measure_ledger(s.world());
     EXPECT_TRUE(within("closing error, of the work", ledger.closing_error / ledger.displacement_work, 0.0, 5e-4));
 }
 
@@ -207,17 +207,12 @@ TEST(StepWithFaces, RunsToTheModulusOfTheSolve) {
     for (int n = 0; n < ramp; ++n) s.step();
     drive(s, 0.0);
     for (int n = 0; n < 6000; ++n) s.step();
-    compute_face_forces(s.world(), s.faces);
+    compute_forces(s.world());
     const double stress = s.world().bodies.force[s.cells.platens[1]].fy;
     EXPECT_TRUE(agrees("Young's modulus", stress / strain, 1.0, 1e-3));
 }
 
-std::string bytes_of(const Specimen& s) {
-    std::ostringstream out(std::ios::binary);
-    cereal::BinaryOutputArchive archive(out);
-    archive(s.faces, s.cells.world.bodies, s.cells.world.stepping, s.cells.world.account);
-    return std::move(out).str();
-}
+std::string bytes_of(const Specimen& s) { return save_world(s.cells.world); }
 
 TEST(StepWithFaces, GivesTheSameBytesForAnyNumberOfThreadsAndAfterARestart) {
     const auto fresh = [](int threads) {
@@ -237,7 +232,7 @@ TEST(StepWithFaces, GivesTheSameBytesForAnyNumberOfThreadsAndAfterARestart) {
         if (n % 100 == 0) at.push_back(bytes_of(one));
         one.step();
     }
-    EXPECT_GT(one.faces.broken.size(), 20u);
+    EXPECT_GT(one.faces().broken.size(), 20u);
     const std::string expected = bytes_of(one);
     for (const int threads : {2, 3}) {
         Specimen several = fresh(threads);
@@ -245,10 +240,7 @@ TEST(StepWithFaces, GivesTheSameBytesForAnyNumberOfThreadsAndAfterARestart) {
         EXPECT_TRUE(bytes_of(several) == expected) << threads << " threads";
     }
     for (std::size_t k = 1; k < at.size(); ++k) {
-        Specimen again = fresh(1);
-        std::istringstream in(at[k], std::ios::binary);
-        cereal::BinaryInputArchive archive(in);
-        archive(again.faces, again.cells.world.bodies, again.cells.world.stepping, again.cells.world.account);
+        Specimen again{{load_world(at[k], "memory"), {}, {}}};
         for (std::size_t n = 100 * k; n < 600; ++n) again.step();
         EXPECT_TRUE(bytes_of(again) == expected) << "restarted at step " << 100 * k;
     }

@@ -4,16 +4,15 @@
 //
 // The stable step of these rows bounds that of every later state of the same faces: breaks only soften. Pressures that
 // broken faces take from the step before add no stiffness.
-// Tested by tests/solver/faces/face_rows_test.cpp.
+// Tested by tests/solver/linear/face_rows_test.cpp.
 #pragma once
 
-#include "solver/faces/faces.hpp"
 #include "solver/linear/linear_rows.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
 
-/// Rows of all faces as if none were broken, at the current positions of the bodies.
-LinearRows face_rows(const World& world, const Faces& faces);
+/// Rows of all faces of a world as if none were broken, at the current positions of the bodies. Empty without faces.
+LinearRows face_rows(const World& world);
 
 }  // namespace crackle

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "solver/base/lanes.hpp"
-#include "solver/faces/faces.hpp"
+#include "solver/world/faces.hpp"
 
 namespace crackle {
 
@@ -92,6 +92,10 @@ CRACKLE_INLINE MotionOf<Number> motion_of(const PlaceOf<Number>& place, const Fa
     const VecOf<Number> normal = inverse * sum;
     const VecOf<Number> apart = (j.place - i.place) + (j.turned(place.arm_j) - i.turned(place.arm_i));
     return {normal, dot(apart, normal), dot(apart, perpendicular(normal)), (j.angle - i.angle) - place.rest_turn};
+}
+/// A vector of a body's frame in world axes.
+inline Vec2 rotated_by(const BodyState& body, Vec2 v) {
+    return {body.shape[0] * v.x - body.shape[1] * v.y, body.shape[1] * v.x + body.shape[0] * v.y};
 }
 inline BondFaceMotion motion_of(const FacePlace& place, const BodyState& i, const BodyState& j) {
     const MotionOf<double> m = motion_of(place_of(place), face_body(i), face_body(j));

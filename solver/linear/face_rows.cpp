@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/faces/face_rows.hpp"
+#include "solver/linear/face_rows.hpp"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "solver/faces/face_motion.hpp"
+#include "solver/geometry/face_motion.hpp"
 
 namespace crackle {
 namespace {
@@ -15,14 +15,12 @@ struct MotionGradients {
     std::array<double, 6> opening, sliding, turn;
 };
 
-MotionGradients gradients_of(const World& world, const Faces& faces, FaceIndex k) {
+MotionGradients gradients_of(const World& world, FaceIndex k) {
+    const Faces& faces = world.faces;
     const BodyState &i = world.bodies.state[faces.bodies[k].body_i], &j = world.bodies.state[faces.bodies[k].body_j];
     const FacePlace& place = faces.place[k];
     const BondFaceMotion m = motion_of(place, i, j);
-    const auto turned = [](const BodyState& body, Vec2 v) {
-        return Vec2{body.shape[0] * v.x - body.shape[1] * v.y, body.shape[1] * v.x + body.shape[0] * v.y};
-    };
-    const Vec2 arm_i = turned(i, place.arm_i), arm_j = turned(j, place.arm_j);
+    const Vec2 arm_i = rotated_by(i, place.arm_i), arm_j = rotated_by(j, place.arm_j);
     const Vec2 n = m.normal, t = perpendicular(n);
     // The normal turns by half the rotation of each body.
     return {{-n.x, -n.y, -cross(arm_i, n) + 0.5 * m.sliding, n.x, n.y, cross(arm_j, n) + 0.5 * m.sliding},
@@ -32,11 +30,12 @@ MotionGradients gradients_of(const World& world, const Faces& faces, FaceIndex k
 
 }  // namespace
 
-LinearRows face_rows(const World& world, const Faces& faces) {
+LinearRows face_rows(const World& world) {
+    const Faces& faces = world.faces;
     LinearRows result;
     std::vector<MotionGradients> gradients;
     gradients.reserve(faces.size());
-    for (FaceIndex k = 0; k < faces.size(); ++k) gradients.push_back(gradients_of(world, faces, k));
+    for (FaceIndex k = 0; k < faces.size(); ++k) gradients.push_back(gradients_of(world, k));
     const auto add_entries = [&](FaceIndex k, const std::array<double, 6>& row, double factor) {
         for (std::size_t a = 0; a < 6; ++a)
             if (row[a] != 0.0)

@@ -25,13 +25,16 @@
 // Tested by tests/solver/faces/face_pass_test.cpp.
 #pragma once
 
+#include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "solver/base/array.hpp"
 #include "solver/base/fields.hpp"
-#include "solver/faces/columns.hpp"
 #include "solver/laws/face_bond.hpp"
 #include "solver/world/bodies.hpp"
 #include "solver/world/points.hpp"
@@ -40,6 +43,41 @@ namespace crackle {
 
 using FaceIndex = std::uint32_t;  // index into the arrays of Faces
 inline constexpr FaceIndex no_face = 0xffffffff;
+
+/// Records of doubles, stored column by column, so that lanes load a member of consecutive records at once.
+template <class Record>
+struct FaceColumns {
+    static_assert(std::is_trivially_copyable_v<Record>);
+    static constexpr std::size_t width = sizeof(Record) / sizeof(double);
+    using Row = std::array<double, width>;
+
+    Array<double> numbers;  // one column after the other
+    std::size_t count = 0;  // records
+
+    /// Number of records.
+    std::size_t size() const { return count; }
+    /// A member of all records. @param c its place in the record
+    const double* column(std::size_t c) const { return numbers.data() + c * count; }
+    double* column(std::size_t c) { return numbers.data() + c * count; }
+    /// A record.
+    Record operator[](std::size_t k) const {
+        Row row;
+        for (std::size_t c = 0; c < width; ++c) row[c] = column(c)[k];
+        return std::bit_cast<Record>(row);
+    }
+    /// Replaces a record.
+    void set(std::size_t k, const Record& record) {
+        const Row row = std::bit_cast<Row>(record);
+        for (std::size_t c = 0; c < width; ++c) column(c)[k] = row[c];
+    }
+    /// Makes room for `records` records, all of zeros.
+    void assign(std::size_t records) {
+        count = records;
+        numbers.assign(width * records, 0.0);
+    }
+
+    CRACKLE_FIELDS(numbers, count);
+};
 
 /// Where a face is on its two bodies, in their frames.
 struct FacePlace {
@@ -55,6 +93,8 @@ struct FaceSprings {
     double share_i, share_j;  // s_i, s_j
     double skew_i, skew_j;    // m_i, m_j: offsets of the midpoint along t over the distance of the reference points
 
+    /// Whether one of the bodies is rigid (faces/bond_faces.hpp).
+    bool at_rigid() const { return (share_i == 1.0 && share_j == 0.0) || (share_i == 0.0 && share_j == 1.0); }
     /// k_φ, N m/rad.
     double moment() const { return normal * length * length / 12.0; }
 };
@@ -100,9 +140,12 @@ struct BrokenState {
     double end_closure = 0.0;                         // N, ½ k w² at the ends of the lap, w the overlap there
     double held = 0.0;                                // 1 - D
     double pull = 0.0;                                // J, energy of an undamaged tension
+    double taken = 0.0;                               // 1 - q, which contact points have
+    double whole = 0.0;                               // J, Ψ at the late pressure as if q were 1
 
     CRACKLE_FIELDS(opening, sliding, turn, half_lap, pressure, skewing, stretch, shear, slip, late_pressure, late_force,
-                   late_moment, end_closure, held, pull);
+                   late_moment, end_closure, held, pull,
+                   taken, whole);
 };
 
 /// What a broken face remembers.
@@ -114,9 +157,10 @@ struct BrokenFace {
     double glued = 0.0;     // b_c, m: least closed length since a failure in shear
     double held = 0.0;      // 1 - D, share of an intact face's tension that it can carry
     double energy = 0.0;    // J, stored in the face
+    double taken = 0.0;     // share that the contact points between its bodies have taken over (faces/hand_over.hpp)
     BrokenState last;       // of the last force pass
 
-    CRACKLE_FIELDS(face, in_shear, slip, slipped, glued, held, energy, last);
+    CRACKLE_FIELDS(face, in_shear, slip, slipped, glued, held, energy, taken, last);
 };
 
 /// Pressure of a broken face's edges at a given pressure of its cells.
@@ -125,8 +169,9 @@ struct BrokenContact {
     double stretch;  // q_n, m
     double energy;   // J, without shear
     double pull;     // J, that of an undamaged tension
+    double whole;    // J, Ψ as if no contact points had taken over
 
-    CRACKLE_FIELDS(lap, stretch, energy, pull);
+    CRACKLE_FIELDS(lap, stretch, energy, pull, whole);
 };
 
 /// Energy lost in a step, J.
@@ -143,15 +188,12 @@ struct FaceLosses {
     CRACKLE_FIELDS(friction, fracture, lag, dashpot);
 };
 
-/// A face that broke.
-struct FaceBreak {
-    std::int64_t step;
+/// The contact points between the two bodies of a face, which take over from it when it is broken.
+struct HandOver {
     FaceIndex face;
-    bool in_shear;
-    double normal, shear, moment;  // forces at the break, N, N, N m
-    double energy;                 // J, released; never negative
+    PointIndex begin, end;  // range of points
 
-    CRACKLE_FIELDS(step, face, in_shear, normal, shear, moment, energy);
+    CRACKLE_FIELDS(face, begin, end);
 };
 
 /// All faces of a world.
@@ -169,7 +211,10 @@ struct Faces {
     Array<CellPressure> cells;  // by body
     bool has_pressure = false;  // whether any cell has a pressure
     std::vector<BrokenFace> broken;
-    std::vector<FaceBreak> breaks;
+    std::vector<HandOver> hand_over;
+    Array<float> whole_share;           // by point, its stiffness_share if it had all; empty if no face hands over
+    double stiffness_bound = 0.0, damping_bound = 0.0;  // 1/s² and 1/s, at least the largest eigenvalues of M^-½KM^-½
+                                                        // and M^-½CM^-½, of all faces as if none were broken
     FaceColumns<FaceDashpots> dashpots,
         dashpot_force;      // coefficients, and forces of the last pass; empty without damping
     double lag_loss = 0.0;  // J, lost because q_n takes the pressures of the step before, and breaks are found late
@@ -199,7 +244,7 @@ struct Faces {
     }
 
     CRACKLE_FIELDS(bodies, place, springs, law, strength_share, lag, broken_at, laws, first_face, face_ends, cells,
-                   has_pressure, broken, breaks, dashpots, dashpot_force, lag_loss, motion, dilation_i, dilation_j,
+                   has_pressure, broken, hand_over, whole_share, stiffness_bound, damping_bound, dashpots, dashpot_force, lag_loss, motion, dilation_i, dilation_j,
                    force, late, losses);
 };
 
