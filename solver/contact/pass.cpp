@@ -17,11 +17,11 @@ T* start_of(Array<T>& values) {
 }  // namespace
 
 ContactFeatures features_of(const World& world) {
-    ContactFeatures features{.bonds = world.bonds.made && !facts_of(world.settings.bond_law).by_faces,
+    ContactFeatures features{.bonds = world.bonds.made,
                              .consistent = !world.points.opening.empty(),
                              .own_shares = world.settings.own_shares(),
                              .own_shear = !world.points.shear_root.empty()};
-    if (features.bonds) features.bond_law = world.settings.bond_law;
+    if (features.bonds) features.bond_law = law_of_points(world.settings.bond_law);
     features.friction = (features.bonds && facts_of(features.bond_law).sticks) || world.bonds.held > 0;
     const std::size_t pairs = world.settings.pair_count();
     for (std::size_t number = 0; number < world.settings.laws.size(); ++number) {

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/geometry/across_joint.hpp"
 
 namespace crackle {
 namespace {
@@ -23,7 +26,9 @@ Vec2 circumcentre(const std::vector<Vec2>& corners) {
     return corners[0] + scale * Vec2{b.y * aa - a.y * bb, a.x * bb - b.x * aa};
 }
 
-FaceLaw weaker(const FaceLaw& a, const FaceLaw& b) {
+}  // namespace
+
+FaceLaw weaker_law(const FaceLaw& a, const FaceLaw& b) {
     FaceLaw law;
     law.tensile_strength = std::min(a.tensile_strength, b.tensile_strength);
     law.cohesion = std::min(a.cohesion, b.cohesion);
@@ -37,6 +42,23 @@ FaceLaw weaker(const FaceLaw& a, const FaceLaw& b) {
     law.residual_tensile_strength = std::min(a.residual_tensile_strength, b.residual_tensile_strength);
     law.softening_opening = std::min(a.softening_opening, b.softening_opening);
     law.damping_ratio = std::min(a.damping_ratio, b.damping_ratio);
+    return law;
+}
+
+namespace {
+
+/// Law of the faces of a joint.
+FaceLaw law_across(FaceLaw law, const Joint& joint) {
+    if (joint.friction_angle) law.friction = law.residual_friction = friction_coefficient(*joint.friction_angle);
+    if (joint.residual_friction_angle)
+        law.residual_friction = std::min(friction_coefficient(*joint.residual_friction_angle), law.friction);
+    law.tensile_strength = joint.tensile_strength.value_or(joint.strength_factor * law.tensile_strength);
+    law.cohesion = joint.cohesion.value_or(joint.strength_factor * law.cohesion);
+    // A joint is straight, and its envelope too.
+    law.knee = std::numeric_limits<double>::infinity();
+    law.residual_cohesion = joint.residual_cohesion.value_or(std::min(law.residual_cohesion, law.cohesion));
+    law.softening_slip = joint.softening_slip.value_or(law.softening_slip);
+    law.residual_tensile_strength = std::min(law.residual_tensile_strength, law.tensile_strength);
     return law;
 }
 
@@ -69,7 +91,8 @@ class Bonder {
         const std::size_t materials = bonding_.materials.size();
         for (std::size_t b = 0; b < materials; ++b)
             for (std::size_t a = 0; a <= b; ++a)
-                faces_.laws.push_back(weaker(bonding_.materials[a].law, bonding_.materials[b].law));
+                faces_.laws.push_back(weaker_law(bonding_.materials[a].law, bonding_.materials[b].law));
+        for (const FacePair& pair : bonding_.pairs) faces_.laws[pair_number(pair.a, pair.b)] = pair.law;
         for (const FaceLaw& law : faces_.laws) check_face_law(law);
         for (const FaceMaterial& material : bonding_.materials) {
             FaceLaw platen;
@@ -122,7 +145,7 @@ class Bonder {
     }
 
     Vec2 reference_of(BodyIndex b) const {
-        if (!bonding_.reference.empty()) return bonding_.reference[b];
+        if (!bonding_.reference.empty() && !std::isnan(bonding_.reference[b].x)) return bonding_.reference[b];
         return outlines_[b].size() == 3 ? circumcentre(outlines_[b]) : net_.cells[b].centroid;
     }
 
@@ -200,13 +223,52 @@ class Bonder {
         const auto in_frame = [](const BodyState& body, Vec2 v) {
             return Vec2{body.shape[0] * v.x + body.shape[1] * v.y, body.shape[0] * v.y - body.shape[1] * v.x};
         };
+        double aperture = 0.0;
+        const std::int32_t number = rigid_i || rigid_j || world_.settings.joints.empty()
+                                        ? no_joint
+                                        : joint_of_face(world_, face.i, face.j, bonding_.gap);
+        parted_.push_back(false);
+        if (number != no_joint) {
+            const Joint& joint = world_.settings.joints[static_cast<std::size_t>(number)];
+            if (law < first_held_law_) faces_.law.back() = law_of_joint(number, law);
+            soften(springs_.back(), joint, face);
+            parted_.back() = !joint.bonded;
+            aperture = joint.aperture;
+        }
         places_.push_back({in_frame(i, face.normal), in_frame(j, face.normal),
-                           in_frame(i, face.middle - Vec2{i.x, i.y}), in_frame(j, face.middle - Vec2{j.x, j.y}),
-                           j.angle - i.angle});
+                           in_frame(i, face.middle - Vec2{i.x, i.y}),
+                           in_frame(j, face.middle + aperture * face.normal - Vec2{j.x, j.y}), j.angle - i.angle});
+    }
+
+    /// Index of the law of a joint's faces. @param law that of the rock
+    std::uint16_t law_of_joint(std::int32_t number, std::size_t law) {
+        const auto [entry, is_new] = joint_laws_.try_emplace({number, law}, faces_.laws.size());
+        if (is_new)
+            faces_.laws.push_back(
+                law_across(faces_.laws[law], world_.settings.joints[static_cast<std::size_t>(number)]));
+        return static_cast<std::uint16_t>(entry->second);
+    }
+
+    /// Puts the stiffnesses of a joint in series with those of a face.
+    void soften(FaceSprings& springs, const Joint& joint, const SharedFace& face) {
+        const auto left = [&](double own, const std::optional<double>& per_length) {
+            return per_length && own > 0.0 ? 1.0 / (1.0 + own / (*per_length * springs.length)) : 1.0;
+        };
+        const double normal = left(springs.normal, joint.normal_stiffness),
+                     shear = left(springs.shear, joint.shear_stiffness);
+        // The joint yields to the pressure of the cells, as a free side does.
+        const double yields = (1.0 - normal) * springs.length * springs.length / springs.normal;
+        in_joint_.resize(world_.bodies.size(), 0.0);
+        in_joint_[face.i] += springs.share_i * springs.share_i * yields;
+        in_joint_[face.j] += springs.share_j * springs.share_j * yields;
+        springs.share_i *= normal, springs.share_j *= normal;
+        springs.skew_i *= shear, springs.skew_j *= shear;
+        springs.normal *= normal, springs.shear *= shear;
     }
 
     void set_pressures() {
-        std::vector<double> side(world_.bodies.size(), 0.0);  // Σ L h_b/E_c
+        std::vector<double> side = in_joint_;  // Σ L h_b/E_c
+        side.resize(world_.bodies.size(), 0.0);
         for (const FreeSide& free : net_.sides) {
             if (is_rigid(world_, free.body)) continue;
             const Vec2 from = reference_at_side(free.body, free.middle, free.normal);
@@ -253,7 +315,7 @@ class Bonder {
 
     bool starts_broken(FaceIndex k) const {
         const auto& [i, j] = faces_.bodies[k];
-        if (bonding_.leaves && bonding_.leaves(i, j)) return true;
+        if (parted_[k] || (bonding_.leaves && bonding_.leaves(i, j))) return true;
         return bonding_.platens == PlatenFaces::rubbing && (is_rigid(world_, i) || is_rigid(world_, j));
     }
 
@@ -305,6 +367,9 @@ class Bonder {
     std::size_t first_held_law_ = 0;  // from here on, for each law one that never breaks
     std::vector<FaceSprings> springs_;
     std::vector<FacePlace> places_;
+    std::vector<bool> parted_;      // by face: whether an open joint lies in it
+    std::vector<double> in_joint_;  // by cell, m²/Pa: what joints yield under its pressure; empty without any
+    std::map<std::pair<std::int32_t, std::size_t>, std::size_t> joint_laws_;
     Faces faces_;
     FaceQuality quality_;
 };

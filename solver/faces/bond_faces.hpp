@@ -30,6 +30,12 @@ struct FaceMaterial {
     FaceLaw law;
 };
 
+/// The law of the faces between two materials, in place of the smaller strengths of both.
+struct FacePair {
+    std::size_t a = 0, b = 0;  ///< as in Settings::materials
+    FaceLaw law;
+};
+
 /// How faces of driven bodies behave.
 enum class PlatenFaces {
     smooth,  ///< they hold, without shear stiffness
@@ -38,12 +44,16 @@ enum class PlatenFaces {
     rubbing  ///< they press and rub with the friction of FaceBonding::platen_friction
 };
 
+/// The smaller strengths of two laws, the larger moment share, and the shorter softening.
+FaceLaw weaker_law(const FaceLaw& a, const FaceLaw& b);
+
 /// Request for the faces of a world.
 struct FaceBonding {
     std::vector<FaceMaterial> materials;  ///< as in Settings::materials; two materials have the smaller strengths
+    std::vector<FacePair> pairs;
     double gap = 0.0;                     ///< m, distance between facing edges of the mesh
     Outlines outlines;                    ///< m, by body, before the inset; recovered from the gap if empty
-    std::vector<Vec2> reference;          ///< m, by body; if empty, circumcentres and centroids
+    std::vector<Vec2> reference;          ///< m, by body; where NaN, or if empty, circumcentres and centroids
     PlatenFaces platens = PlatenFaces::smooth;
     double platen_friction = 0.0;  ///< tan φ of PlatenFaces::rubbing
     /// Whether the faces between two bodies start broken, without cohesion. If not set, all are intact.

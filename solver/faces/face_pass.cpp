@@ -283,6 +283,15 @@ void add_face_forces(World& world) {
     Pass(world).run();
 }
 
+FaceForces forces_of_face(const Faces& faces, FaceIndex k) {
+    if (faces.broken_at[k] == no_face)
+        return intact_forces(faces.springs[k], faces.motion[k], faces.pressure_at(k), faces.skewing_at(k));
+    const BrokenFace& face = faces.broken[faces.broken_at[k]];
+    const LapPressure lap =
+        contact_of(faces.springs[k], faces.motion[k], faces.pressure_at(k), face.held, face.taken).lap;
+    return {lap.force, face.last.shear, lap.moment};
+}
+
 double face_energy(const Faces& faces) {
     double sum = 0.0;
     for (FaceIndex k = 0; k < faces.size(); ++k) {

@@ -14,6 +14,9 @@ namespace crackle {
 /// the contact points that take over from broken faces (hand_over.hpp).
 void add_face_forces(World& world);
 
+/// Elastic forces of a face in the last force pass, broken or not.
+FaceForces forces_of_face(const Faces& faces, FaceIndex k);
+
 /// Energy stored in faces and in the pressures of cells after a force pass, J.
 double face_energy(const Faces& faces);
 

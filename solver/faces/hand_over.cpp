@@ -60,6 +60,16 @@ double share_of_points(const FaceSprings& s, const BondFaceMotion& m, double thi
     return 1.0 - by_lap * by_turn;
 }
 
+void rest_new_points(World& world, const std::function<bool(PointIndex)>& is_new) {
+    constexpr auto kind = static_cast<std::size_t>(PointKind::element_outline);
+    const BodyView bodies(world);
+    for (PointIndex k = world.points.kind_begin[kind]; k < world.points.kind_begin[kind + 1]; ++k) {
+        const ContactPoint point = world.points.contact[k];
+        if (!is_new(k) || face_between(world, point.body_i, point.body_j) == no_face) continue;
+        world.points.bond_overlap[k] = std::max(0.0, overlap_at<PointKind::element_outline>(bodies, point));
+    }
+}
+
 bool face_replaces_points(const World& world, BodyIndex i, BodyIndex j) {
     const FaceIndex k = face_between(world, i, j);
     if (k == no_face) return false;

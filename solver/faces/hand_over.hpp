@@ -9,13 +9,21 @@
 // factor on the pressure of the face's edges alone, so that cells with a pressure have an energy for every q; the shear
 // force is within its limit.
 //
+// Points start without force, with a rest overlap: the rock that the face had compressed is free at its end.
+//
 // The points of a pair are listed only where q may become less than 1 before the next neighbour list. An intact face
 // has all of q. Source: solver/MODEL.md 5.5. Tested by tests/solver/faces/hand_over_test.cpp.
 #pragma once
 
+#include <functional>
+
 #include "solver/world/world.hpp"
 
 namespace crackle {
+
+/// Lets new points between the bodies of faces start without force: their rest overlap is that of the present. @param
+/// is_new whether a point was not in the list before
+void rest_new_points(World& world, const std::function<bool(PointIndex)>& is_new);
 
 /// Whether the face between two bodies replaces all of their contact points until the next neighbour list.
 bool face_replaces_points(const World& world, BodyIndex i, BodyIndex j);

@@ -45,13 +45,13 @@ static_assert(points_have_what_facts_need(BondLaws{}),
 template <BondLaw law>
 using BondLawType = std::tuple_element_t<static_cast<std::size_t>(law), BondLaws>;
 
-/// Returns visit.operator()<Type>() for the type of a law that bonds points. @tparam N number of the first law to try
+/// Returns visit.operator()<Type>() for the type of law_of_points(). @tparam N number of the first law to try
 template <std::size_t N = 0, class Visit>
 constexpr decltype(auto) with_law(BondLaw law, const Visit& visit) {
     using Bond = std::tuple_element_t<N, BondLaws>;
     static_assert(static_cast<std::size_t>(Bond::law) == N);
     if constexpr (N + 1 < bond_laws) {
-        if (law != Bond::law) return with_law<N + 1>(law, visit);
+        if (law_of_points(law) != Bond::law) return with_law<N + 1>(law, visit);
     }
     return visit.template operator()<Bond>();
 }

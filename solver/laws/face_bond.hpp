@@ -147,6 +147,27 @@ inline FaceFailure face_failure(const FaceLaw& law, double length, double share,
     return FaceFailure::shear;
 }
 
+/// Factor on forces at which an intact face fails; infinite if it never does. @param length L, m @param share random
+/// factor on T and C
+inline double face_failure_load(const FaceLaw& law, double length, double share, const FaceForces& f) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    const FaceStrength<double> strength(law, share);
+    const double tension = f.normal / length + 6.0 * strength.moment_share * std::abs(f.moment) / (length * length);
+    const double shear = std::abs(f.shear) / length, compression = -f.normal / length;
+    const double parts = tension > 0.0 ? strength.tensile / tension : infinite;
+    const auto slips = [&](double cohesion, double friction) {
+        const double rise = shear - friction * compression;
+        return rise > 0.0 ? cohesion / rise : infinite;
+    };
+    double slides = slips(strength.cohesion, strength.friction);
+    if (compression > 0.0 && slides * compression > strength.knee) {
+        // Beyond the knee the envelope is lower.
+        slides = slips(strength.cohesion + (strength.friction - strength.friction_beyond) * strength.knee,
+                       strength.friction_beyond);
+    }
+    return std::min(parts, slides);
+}
+
 /// Pressure of two edges on each other.
 struct LapPressure {
     double force = 0.0;   // F, N

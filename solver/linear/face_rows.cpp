@@ -86,4 +86,32 @@ LinearRows face_rows(const World& world) {
     return result;
 }
 
+std::vector<FaceForces> face_force_rates(const World& world, const std::vector<BodyMotion>& motion) {
+    const Faces& faces = world.faces;
+    std::vector<BondFaceMotion> of_face(faces.size());
+    std::vector<double> dilation(faces.cells.size(), 0.0);
+    for (FaceIndex k = 0; k < faces.size(); ++k) {
+        const auto [i, j] = faces.bodies[k];
+        const MotionGradients gradients = gradients_of(world, k);
+        const auto times = [&](const std::array<double, 6>& row) {
+            double sum = 0.0;
+            for (std::size_t a = 0; a < 6; ++a) sum += row[a] * component(motion[a < 3 ? i : j], static_cast<int>(a % 3));
+            return sum;
+        };
+        of_face[k] = {{}, times(gradients.opening), times(gradients.sliding), times(gradients.turn)};
+        const FaceSprings s = faces.springs[k];
+        dilation[i] += s.length * (s.share_i * of_face[k].opening + s.skew_i * of_face[k].sliding);
+        dilation[j] += s.length * (s.share_j * of_face[k].opening - s.skew_j * of_face[k].sliding);
+    }
+    std::vector<FaceForces> forces;
+    forces.reserve(faces.size());
+    for (FaceIndex k = 0; k < faces.size(); ++k) {
+        const auto [i, j] = faces.bodies[k];
+        const FaceSprings s = faces.springs[k];
+        const double p_i = faces.cells[i].per_area * dilation[i], p_j = faces.cells[j].per_area * dilation[j];
+        forces.push_back(intact_forces(s, of_face[k], s.share_i * p_i + s.share_j * p_j, s.skew_i * p_i - s.skew_j * p_j));
+    }
+    return forces;
+}
+
 }  // namespace crackle

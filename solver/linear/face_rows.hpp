@@ -15,4 +15,7 @@ namespace crackle {
 /// Rows of all faces of a world as if none were broken, at the current positions of the bodies. Empty without faces.
 LinearRows face_rows(const World& world);
 
+/// Elastic forces of all faces of a world for small motions of its bodies, as if none were broken: N, N, N m.
+std::vector<FaceForces> face_force_rates(const World& world, const std::vector<BodyMotion>& motion);
+
 }  // namespace crackle

@@ -11,6 +11,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/contact/joint_law.hpp"
 #include "solver/contact/pass.hpp"
+#include "solver/faces/hand_over.hpp"
 #include "solver/geometry/across_joint.hpp"
 #include "solver/geometry/contact_share.hpp"
 #include "solver/geometry/geometry.hpp"
@@ -357,6 +358,7 @@ void exchange_points(World& world, PointLists& lists) {
     world.points.kind_begin = kind_begin;
     world.points.fours_end = fours_end;
     open_new_contacts(world, next.old);
+    if (world.faces.size() > 0) rest_new_points(world, [&](PointIndex k) { return next.old[k] == no_point; });
     find_point_properties(world);
     if (consistent) pass_on_defects(world);
     world.points.force.assign(world.points.keep_forces ? world.points.size() : 0, PointForce{});

@@ -320,6 +320,8 @@ std::int64_t bond_by_faces(World& world, const FaceBonding& bonding, FaceQuality
     if (bonding.gap != world.settings.thick) set_thickness(world, bonding.gap);
     world.settings.bond_law = BondLaw::face;
     world.faces = bond_faces(world, bonding, quality);
+    begin_shear_roots(world);
+    derive_joint_laws(world.settings);
     for (PointState& point : world.points.state) point.flags = 0;
     world.bonds.made = true;
     bound_faces(world);

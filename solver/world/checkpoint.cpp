@@ -29,7 +29,7 @@
 namespace crackle {
 
 // Increment this when a field of a group is added, removed or moved.
-constexpr std::uint32_t checkpoint_version = 23;
+constexpr std::uint32_t checkpoint_version = 24;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 template <class Archive>
@@ -215,7 +215,7 @@ bool is_point_of(const World& world, PointKind kind, const ContactPoint& point) 
     return is_element(point.body_j, point.feature_j);
 }
 
-bool are_kinds_of(const std::array<PointIndex, point_kinds + 1>& kind_begin, std::size_t count) {
+bool are_kinds_of(std::span<const PointIndex> kind_begin, std::size_t count) {
     return kind_begin.front() == 0 && kind_begin.back() == count && std::ranges::is_sorted(kind_begin);
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,7 @@ World load_world(std::string bytes, const std::string& name,
 /// Whether the bodies and elements that a contact point refers to exist in the world.
 bool is_point_of(const World& world, PointKind kind, const ContactPoint& point);
 /// Whether `kind_begin` is a valid partition of `count` points into kinds.
-bool are_kinds_of(const std::array<PointIndex, point_kinds + 1>& kind_begin, std::size_t count);
+bool are_kinds_of(std::span<const PointIndex> kind_begin, std::size_t count);
 
 /// Checks that a loaded world is consistent: array lengths match the numbers of bodies and points, and indices are in
 /// range. The hash detects damaged bytes, but cannot prove that this program wrote them.

@@ -142,8 +142,9 @@ class ConsistencyCheck {
                 exclude_of_materials(key, "units = \"area\" uses contact_modulus and stiffness_ratio");
             for (const char* key : {"normal_damping", "shear_damping"})
                 exclude_of_materials(key, "units = \"area\" uses damping_ratio");
-            for (const char* key : {"contact_modulus", "stiffness_ratio"})
-                need(std::string("material.") + key, "units = \"area\" needs it");
+            if (!test_.bond_facts().by_faces)
+                for (const char* key : {"contact_modulus", "stiffness_ratio"})
+                    need(std::string("material.") + key, "units = \"area\" needs it");
             if (test_.numerics.contact_law != SegmentLaw::rounded)
                 refuse("material.units", "\"area\"", "\"point\" with the contact law of DEMseg's guide",
                        "that law does not use the area of faces; use contact_law = \"rounded\"");
@@ -151,6 +152,7 @@ class ConsistencyCheck {
             for (const char* key : {"contact_modulus", "stiffness_ratio"})
                 expect_materials_beside(key, "units = \"area\"");
         }
+        faces();
         numbers("material", m);
         for (std::size_t k = 0; k < test_.mineral.size(); ++k)
             numbers(fmt::format("mineral[{}]", k + 1), mineral_material(test_, k));
@@ -166,6 +168,55 @@ class ConsistencyCheck {
         if (!m.normal_damping && !m.shear_damping) return;  // a damping ratio is used, given or by default
         need("material.normal_damping", "dashpots come in pairs");
         need("material.shear_damping", "dashpots come in pairs");
+    }
+
+    /// Checks the keys that bonds by faces need and those that only they use.
+    void faces() const {
+        if (!test_.bond_facts().by_faces) {
+            for (const FaceConstant& constant : face_constants)
+                expect_materials_beside(constant.key,
+                                        fmt::format("bond.law = {}", laws_with(&BondLawFacts::by_faces)));
+            return;
+        }
+        if (!test_.area_units())
+            refuse("material.units", fmt::format("\"{}\"", name_of(test_.material.units)), "\"area\" with faces",
+                   "a face has stiffness and strengths per area");
+        for (const char* key : {"youngs_modulus", "poissons_ratio"})
+            need(std::string("material.") + key, "bond.law = \"face\" needs it");
+        exclude_of_materials("contact_modulus", "it follows from youngs_modulus and poissons_ratio");
+        exclude("bond.gap", "faces bond where cells share an edge");
+        if (test_.has_table("packing") && !test_.has_table("mesh"))
+            refuse("bond.law", "\"face\" without [mesh]", "a mesh",
+                   "only polygons have faces; add [mesh], or use law = \"coulomb\"");
+        if (test_.numerics.integrator != Integrator::leapfrog)
+            refuse("numerics.integrator", fmt::format("\"{}\"", name_of(test_.numerics.integrator)),
+                   "\"leapfrog\" with faces", "leave the key out");
+        const TestCase::MaterialKeys& m = test_.material;
+        const char* const knee = "friction_knee";
+        const char* const beyond = "friction_angle_beyond";
+        for (const std::string& table : material_tables(test_)) {
+            const std::string at_knee = fmt::format("{}.{}", table, knee), angle = fmt::format("{}.{}", table, beyond);
+            if (table != "material" && m.friction_knee) break;
+            if (written(at_knee) && !written(angle)) throw key_needs(test_, at_knee, beyond);
+            if (written(angle) && !written(at_knee)) throw key_needs(test_, angle, knee);
+        }
+    }
+
+    /// Checks the stiffnesses and the law of faces of a table.
+    template <class Key>
+    void face_numbers(const TestCase::MaterialKeys& m, const Key& key) const {
+        try {
+            static_cast<void>(m.face_moduli(0.0));
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("{}: {}", test_.at(key(m.stiffness_ratio ? "stiffness_ratio" : "poissons_ratio")),
+                                         error.what()));
+        }
+        if (!m.tensile_strength || !m.cohesion || !m.friction_angle) return;
+        try {
+            check_face_law(m.face_law());
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("{}: {}", test_.at(key("tensile_strength")), error.what()));
+        }
     }
 
     /// Checks the material values of a table; some of them may come from another table.
@@ -184,6 +235,7 @@ class ConsistencyCheck {
         if (bonds.sticks && m.shear_stiffness == 0.0)
             refuse(key("shear_stiffness"), "0 N/m", fmt::format("a number > 0 with {} bonds", name_of(test_.bond.law)),
                    "they hold in shear");
+        if (bonds.by_faces && m.youngs_modulus && m.poissons_ratio) face_numbers(m, key);
         if (!bonds.strengths_are_given || !m.tensile_strength || !m.cohesion || !m.friction_angle) return;
         const double friction = friction_coefficient(*m.friction_angle);
         if (!beyond_apex(friction, *m.tensile_strength, *m.cohesion)) return;

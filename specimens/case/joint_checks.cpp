@@ -248,7 +248,14 @@ class JointAgainstRock {
 
     /// Joint properties require bonds that they can change, and stiffnesses per area, because faces then have a length.
     void laws() const {
-        const bool across_joints = test_.bond_facts().across_joints;
+        const bool across_joints = test_.bond_facts().across_joints, by_faces = test_.bond_facts().by_faces;
+        for (const char* key : {"residual_cohesion", "softening_slip"})
+            if (!by_faces && test_.position.contains(table_.label + "." + key))
+                throw key_needs(test_, table_.label + "." + key,
+                                fmt::format("bond.law = {}", laws_with(&BondLawFacts::by_faces)));
+        if (by_faces && own_.dilation_angle)
+            refuse("dilation_angle", fmt::format("{} deg", *own_.dilation_angle), "none with bond.law = \"face\"",
+                   "faces do not dilate; use coulomb bonds, or remove the key");
         if (across_joints && test_.area_units()) return;
         for (const Parameter& p : joint_mechanics_keys()) {
             if (!test_.position.contains(table_.label + "." + p.key)) continue;

@@ -163,6 +163,9 @@ class MineralCheck {
             if (std::none_of(keys.begin(), keys.end(), is_written))
                 refuse(key, "only the names", fmt::format("at least one of {}", fmt::join(keys, ", ")),
                        "add one, or remove the table");
+            if (test_.bond_facts().by_faces && is_written("stiffness_ratio"))
+                refuse(key, "stiffness_ratio", "strengths and friction alone with bond.law = \"face\"",
+                       "the stiffness of a face follows from its two minerals");
             if (is_written("contact_modulus") != is_written("stiffness_ratio"))
                 refuse(key, "one of contact_modulus and stiffness_ratio", "both, or neither",
                        "together they replace the values of the two minerals");

@@ -48,8 +48,19 @@ parts::Mesh mesh_of(const TestCase::Mesh& keys) {
     return mesh;
 }
 
-parts::MaterialValues values_of(const TestCase::MaterialKeys& keys) {
+/// c_κ of faces (laws/face_bond.hpp), means of boxes of cells around the centres of packed circles.
+double face_correction(const TestCase& test) {
+    return test.has_table("mesh") && *test.mesh.kind == MeshKind::delaunay ? 0.79 : 0.3;
+}
+
+/// @param correction as for face_moduli()
+parts::MaterialValues values_of(const TestCase::MaterialKeys& keys, double correction) {
     parts::MaterialValues values = keys;
+    if (keys.youngs_modulus) {
+        const FaceModuli moduli = values.face_moduli(correction);
+        values.normal_stiffness = moduli.contact;
+        values.shear_stiffness = moduli.shear_ratio * moduli.contact;
+    }
     if (keys.contact_modulus) {
         values.normal_stiffness = keys.contact_modulus;
         values.shear_stiffness = *keys.contact_modulus / *keys.stiffness_ratio;
@@ -58,7 +69,7 @@ parts::MaterialValues values_of(const TestCase::MaterialKeys& keys) {
 }
 
 parts::Material material_of(const TestCase& test) {
-    parts::Material material{values_of(test.material), test.material.units, false};
+    parts::Material material{values_of(test.material, face_correction(test)), test.material.units, false};
     const bool damped = material.damping_ratio || material.normal_damping || material.shear_damping;
     if (test.has_table("packing") && !damped) {
         material.damping_ratio = default_damping_ratio;
@@ -77,7 +88,7 @@ parts::Minerals minerals_of(const TestCase& test) {
     }
     for (std::size_t k = 0; k < test.mineral.size(); ++k) {
         const TestCase::Mineral& m = test.mineral[k];
-        minerals.list.push_back({m.name, values_of(mineral_material(test, k)), m.area_share,
+        minerals.list.push_back({m.name, values_of(mineral_material(test, k), face_correction(test)), m.area_share,
                                  !m.area_share ? 1.0 - sum
                                  : open        ? *m.area_share
                                                : *m.area_share / sum});
@@ -86,7 +97,7 @@ parts::Minerals minerals_of(const TestCase& test) {
         return static_cast<int>(std::ranges::find(minerals.list, name, &parts::Mineral::name) - minerals.list.begin());
     };
     for (const auto& [between, own] : test.mineral_pair) {
-        const parts::MaterialValues values = values_of(own);
+        const parts::MaterialValues values = values_of(own, face_correction(test));
         minerals.pairs.push_back({index(between[0]), index(between[1]), values.normal_stiffness, values.shear_stiffness,
                                   values.friction_angle, values});
     }
@@ -181,6 +192,8 @@ std::optional<Joint> mechanics_of(const TestCase::JointKeys& keys) {
     joint.dilation_angle = keys.dilation_angle.value_or(0.0);
     if (keys.dilation_slip) joint.dilation_slip = *keys.dilation_slip;
     joint.aperture = keys.aperture.value_or(0.0);
+    joint.residual_cohesion = keys.residual_cohesion;
+    joint.softening_slip = keys.softening_slip;
     return joint;
 }
 

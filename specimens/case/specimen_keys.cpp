@@ -36,6 +36,17 @@ std::vector<Parameter> bond_constant_keys() {
     return keys;
 }
 
+/// Keys of [material] for the constants of faces.
+std::vector<Parameter> face_constant_keys() {
+    std::vector<Parameter> keys;
+    for (const FaceConstant& c : face_constants) {
+        const auto member = [given = c.given](TestCase& test) -> auto& { return test.material.*given; };
+        With key{declare("material", c.key, c.unit, member, c.meaning)};
+        keys.push_back(std::move(key).at_least(0).below(c.below));
+    }
+    return keys;
+}
+
 }  // namespace
 
 std::vector<Parameter> specimen_keys() {
@@ -276,7 +287,9 @@ std::vector<Parameter> specimen_keys() {
             .above(0),
     };
     const auto last = std::ranges::find(keys, "material.stiffness_ratio", &Parameter::full_key);
-    std::ranges::move(bond_constant_keys(), std::inserter(keys, last + 1));
+    std::vector<Parameter> constants = bond_constant_keys();
+    std::ranges::move(face_constant_keys(), std::back_inserter(constants));
+    std::ranges::move(constants, std::inserter(keys, last + 1));
     return keys;
 }
 

@@ -78,9 +78,8 @@ struct TestCase : WrittenPlaces {
 
     /// Keys of [material], which minerals and pairs of minerals have, too.
     struct MaterialKeys : parts::MaterialValues {
-        StiffnessUnits units = StiffnessUnits::point;  // area: the two keys below replace stiffnesses
+        StiffnessUnits units = StiffnessUnits::point;  // area: a modulus and stiffness_ratio replace stiffnesses
         std::optional<double> contact_modulus;         // Pa
-        std::optional<double> stiffness_ratio;         // -, k_n over k_s
     } material;
 
     /// Table [minerals].
@@ -125,6 +124,8 @@ struct TestCase : WrittenPlaces {
         std::optional<double> dilation_angle;    // degrees
         std::optional<double> dilation_slip;     // m
         std::optional<double> aperture;          // m
+        std::optional<double> residual_cohesion;  // Pa
+        std::optional<double> softening_slip;     // m
 
         friend bool operator==(const JointKeys&, const JointKeys&) = default;
         /// Whether the joint is without bonds.

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/geometry/face_motion.hpp"
 #include "solver/laws/bond_laws.hpp"
+#include "solver/linear/face_rows.hpp"
 #include "solver/linear/vibration.hpp"
 #include "solver/measure/point_view.hpp"
 #include "specimens/elastic/held_parts.hpp"
@@ -65,6 +67,24 @@ LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate,
     return bond;
 }
 
+/// An intact face. @param growth of its forces per unit of strain
+LinearBond linear_face(const World& world, FaceIndex k, const FaceForces& growth, double strain) {
+    const auto [i, j] = world.faces.bodies[k];
+    const BodyState& body = world.bodies.state[i];
+    const FaceLaw& law = world.faces.law_of(k);
+    LinearBond bond;
+    bond.body_i = world.bodies.info(i).id;
+    bond.body_j = world.bodies.info(j).id;
+    bond.position = Vec2{body.x, body.y} + rotated_by(body, world.faces.place[k].arm_i);
+    bond.closing = -growth.normal / world.faces.springs[k].normal * strain;
+    bond.normal_force = -growth.normal * strain;
+    bond.shear_force = growth.shear * strain;
+    bond.strength = world.faces.springs[k].length * world.faces.strength_share[k] * law.tensile_strength;
+    bond.break_strain = face_failure_load(law, world.faces.springs[k].length, world.faces.strength_share[k], growth);
+    bond.slip_strain = infinite;
+    return bond;
+}
+
 template <double LinearBond::*Strain>
 std::optional<FirstEvent> first_of(const std::vector<LinearBond>& bonds, double modulus) {
     std::optional<FirstEvent> first;
@@ -75,10 +95,12 @@ std::optional<FirstEvent> first_of(const std::vector<LinearBond>& bonds, double 
     return first;
 }
 
-/// Rates at all points for unit strain in the direction of loading. The solution is for tension; its sign is reversed
-/// for compression.
+/// Sign of the strain of a solution, which is for tension, in the direction of loading.
+double sense_of(const PlacedApparatus& apparatus) { return apparatus.compression ? -1.0 : 1.0; }
+
+/// Rates at all points for unit strain in the direction of loading.
 std::vector<PointRates> rates_of_test(const World& world, const PlacedApparatus& apparatus, const Moduli& moduli) {
-    const double sense = apparatus.compression ? -1.0 : 1.0;
+    const double sense = sense_of(apparatus);
     std::vector<PointRates> rates = rates_of(world, moduli.solution);
     for (auto& [closing, slipping] : rates) {
         closing.value *= sense;
@@ -94,6 +116,13 @@ std::vector<LinearBond> linear_bonds(const World& world, const PlacedApparatus& 
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if ((world.points.state[k].flags & point_bonded) == 0) continue;
         bonds.push_back(linear_bond(world, k, rates[k], strain));
+    }
+    const double sense = sense_of(apparatus);
+    const std::vector<FaceForces> growth = face_force_rates(world, moduli.solution.displacement);
+    for (FaceIndex k = 0; k < growth.size(); ++k) {
+        if (world.faces.broken_at[k] != no_face) continue;
+        bonds.push_back(
+            linear_face(world, k, {sense * growth[k].normal, sense * growth[k].shear, sense * growth[k].moment}, strain));
     }
     return bonds;
 }

@@ -77,6 +77,10 @@ double flat_face_lap_at_start(const World& world, const BondRecord& bonds, const
 template <PointKind K>
 Stretch share_of(const World& world, const TestSetup& setup, PointIndex bond, const Facing& held) {
     const ContactPoint point = setup.bonds.points.at<K>(bond);
+    if constexpr (K == PointKind::bonded_face) {
+        const double half = 0.5 * world.faces.springs[point.element_i].length;
+        return {perpendicular(held.normal), -half, half};
+    }
     if constexpr (K == PointKind::face_face) {
         const double half = 0.5 * flat_face_lap_at_start(world, setup.bonds, point);
         return {perpendicular(held.normal), -half, half};
@@ -101,7 +105,8 @@ CrackFace face_of(const PlacedFrame& placed, PointIndex bond) {
     const Vec2 apart = placed.carried(point.body_j, held.on_j) - placed.carried(point.body_i, held.on_i);
     const double length = norm(normal);
     const double now = length > 0.0 ? dot(apart, normal) / length : norm(apart);
-    const double touching = setup.specimen.polygons
+    const double touching = K == PointKind::bonded_face ? 0.0  // attached where the two faces met
+                            : setup.specimen.polygons
                                 ? setup.bonds.thick
                                 : setup.bonds.overlaps[bond];  // m, value of `now` when the surfaces just touch
     return {carried(part.begin), carried(part.end), now - touching};

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solver/faces/face_pass.hpp"
 #include "solver/geometry/geometry.hpp"
 #include "solver/world/point_order.hpp"
 #include "solver/world/world.hpp"
@@ -60,6 +61,20 @@ void take_loose(const BondRecord& bonds, const LooseContacts& loose, const auto&
     std::ranges::sort(frame.joint_forces, {}, &Frame::JointForce::bond);
 }
 
+/// Stores the forces of faces. Their normal force depends on the pressure of cells, so that it is given for each.
+void take_faces(const World& world, const BondRecord& bonds, const auto& target) {
+    const PointIndex first = bonds.kind_begin[static_cast<std::size_t>(PointKind::bonded_face)];
+    for (PointIndex bond = first; bond < bonds.kind_begin.back(); ++bond) {
+        const FaceIndex k = bonds.points[bond].element_i;
+        const FaceForces force = forces_of_face(world.faces, k);
+        const bool holds = world.faces.broken_at[k] == no_face;
+        if (!holds && force.normal == 0.0) continue;
+        target.shear_force[bond] = force.shear;
+        target.states[bond] = holds ? ContactState::bonded : ContactState::broken_touching;
+        target.frame.joint_forces.push_back({bond, -force.normal});
+    }
+}
+
 constexpr std::array<const char*, 4> pictures{"particles_", "contacts_", "cracks_", "joints_"};
 
 std::string picture(std::size_t which, std::int64_t row) { return fmt::format("{}{:05}.vtp", pictures[which], row); }
@@ -103,6 +118,7 @@ void take(const World& world, const BondRecord& bonds, const ContactHistory& his
                                (flat_face_contact(BodyView(world), point).overlap - world.points.bond_overlap[k])});
         }
     });
+    take_faces(world, bonds, target);
     take_loose(bonds, history.loose, target);
 }
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <span>
 
 #include "mesher/mesher.hpp"
 #include "solver/base/errors.hpp"
@@ -295,6 +297,29 @@ void report_cleaning(const Cleaning& cleaning, Specimen& specimen, const TestHoo
         hooks.report_stage(text);
 }
 
+/// Whether a point lies in a convex, counter-clockwise outline.
+bool lies_in(const std::span<const Point> outline, Point p) {
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        const Point a = outline[k], b = outline[(k + 1) % outline.size()];
+        if (cross(Point{b.x - a.x, b.y - a.y}, Point{p.x - a.x, p.y - a.y}) < 0.0) return false;
+    }
+    return true;
+}
+
+/// Specimen::cell_centres of a mesh.
+std::vector<Vec2> centres_of_cells(const Mesh& mesh, const std::vector<CellCentre>& centres) {
+    std::vector<Vec2> found;
+    found.reserve(mesh.cells.size());
+    for (const Cell& cell : mesh.cells) {
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        const bool whole =
+            cell.centre >= 0 && lies_in(mesh.outline(cell), centres[static_cast<std::size_t>(cell.centre)]);
+        const Point at = whole ? centres[static_cast<std::size_t>(cell.centre)] : Point{unknown, unknown};
+        found.push_back({at.x, at.y});
+    }
+    return found;
+}
+
 /// Replaces the circles with polygons around their centres; ids count from 1 in mesh order.
 void mesh_specimen(Specimen& specimen, const ResolvedCase& test, const TestHooks& hooks) {
     const Scene circles = specimen.scene;
@@ -363,6 +388,7 @@ void mesh_specimen(Specimen& specimen, const ResolvedCase& test, const TestHooks
         if (cell_on_side(cell, Wall::left, domain_boundary, touches_left)) specimen.left_ids.push_back(id);
         if (cell_on_side(cell, Wall::right, domain_boundary, touches_right)) specimen.right_ids.push_back(id);
     }
+    specimen.cell_centres = centres_of_cells(mesh, centres);
     specimen.scene = std::move(scene);
     specimen.polygons = true;
     specimen.kind = request.kind == MeshKind::voronoi ? SpecimenKind::voronoi : SpecimenKind::delaunay;

@@ -41,6 +41,9 @@ struct Specimen {
     std::vector<SpecimenTrace> traces;  ///< ordered by index
     /// Minerals in the order in which the case lists them; empty for a rock with a single material.
     std::vector<MineralShare> minerals;
+    /// m, by body of the scene: the centre around which a Voronoi cell was formed; NaN for triangles, and for cells that
+    /// traces have cut. Empty if no polygons were meshed.
+    std::vector<Vec2> cell_centres;
     int platen_material = 0;  ///< index of [material] in scene.materials
     /// Ids of the bodies at the left and right faces: circles that overlap the wall, or polygons with an edge on the
     /// face. For kinds of test that define regions, the bodies in Shape::left and Shape::right.

@@ -65,6 +65,8 @@ CurveRow observe_row(const World& world, const TestSetup& setup) {
         if ((flags & point_sliding) != 0 && pulled) ++row.points_sliding;
         if ((flags & point_bonded) == 0) ++row.contacts_gained;
     }
+    for (const BrokenFace& face : world.faces.broken)
+        if (face.last.slip != 0.0 && std::abs(face.last.shear) > least_sliding_force * strength) ++row.points_sliding;
     const Ledger ledger = measure_ledger(world);
     row.kinetic_energy = ledger.kinetic;
     row.strain_energy = ledger.strain;

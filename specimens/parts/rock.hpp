@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "solver/base/names.hpp"
+#include "solver/laws/face_bond.hpp"
+#include "solver/laws/face_constants.hpp"
 #include "solver/scene/bond_strength.hpp"
 #include "solver/scene/scene.hpp"
 
@@ -32,13 +34,20 @@ inline bool operator==(const MaterialPair& one, const MaterialPair& other) {
 namespace parts {
 
 /// Values that replace those of a material: all that a packing needs, or those that differ from a particle file's.
-struct MaterialValues : BondConstants {
+struct MaterialValues : BondConstants, FaceConstants {
     std::optional<double> density;                        // kg/m2
     std::optional<double> normal_stiffness;               // N/m, or Pa
     std::optional<double> shear_stiffness;                // N/m, or Pa
     std::optional<double> friction_angle;                 // degrees
     std::optional<double> damping_ratio;                  // -
     std::optional<double> normal_damping, shear_damping;  // N s/m; either of them replaces a damping ratio
+
+    /// Stiffnesses of faces of this rock. @param correction c_κ of its mesh @throws InputError if Poisson's ratio is
+    /// not to be had with this ratio of k_n to k_s
+    FaceModuli face_moduli(double correction) const;
+    /// Law of faces of this rock.
+    FaceLaw face_law() const;
+    std::optional<double> stiffness_ratio;  ///< k_n over k_s of faces; empty: cells have no pressure
 
     /// Replaces the values of `material`. Bond constants that are absent become 0, or the friction angle.
     void apply_to(crackle::Material& material) const;

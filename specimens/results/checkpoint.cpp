@@ -89,7 +89,7 @@ bool setup_is_whole(const TestSetup& setup, const World& world) {
         setup.bonds.points.parts.size() != bonds - setup.bonds.kind_begin[1] || setup.specimen.particles < 0 ||
         setup.specimen.particles > static_cast<std::int64_t>(n))
         return false;
-    for (std::size_t number = 0; number < point_kinds; ++number) {
+    for (std::size_t number = 0; number < bond_kinds; ++number) {
         const auto kind = static_cast<PointKind>(number);
         const auto key = [&](PointIndex bond) { return key_of(kind, setup.bonds.points[bond]); };
         for (PointIndex bond = setup.bonds.kind_begin[number]; bond < setup.bonds.kind_begin[number + 1]; ++bond) {
@@ -97,6 +97,7 @@ bool setup_is_whole(const TestSetup& setup, const World& world) {
                 (bond > setup.bonds.kind_begin[number] && !(key(bond - 1) < key(bond))))
                 return false;
         }
+        if (kind == PointKind::bonded_face) break;
         for (PointIndex k = world.points.kind_begin[number]; k < world.points.kind_begin[number + 1]; ++k) {
             if ((world.points.state[k].flags & point_bonded) != 0 &&
                 bond_of(setup.bonds, kind, world.points.contact[k]) == bonds)

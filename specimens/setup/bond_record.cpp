@@ -10,6 +10,26 @@
 namespace crackle {
 namespace {
 
+/// Adds the intact faces of a world. @param tensile, cohesion sums of strengths of those that can break, N
+void record_faces(BondRecord& bonds, const World& world, double& tensile, double& cohesion) {
+    const Faces& faces = world.faces;
+    for (FaceIndex k = 0; k < faces.size(); ++k) {
+        if (faces.broken_at[k] != no_face) continue;
+        const auto [i, j] = faces.bodies[k];
+        const FaceSprings springs = faces.springs[k];
+        const FaceLaw& law = faces.law_of(k);
+        ++bonds.contacts_initial;
+        bonds.points.push_back(PointKind::bonded_face, {i, j, k, k});
+        bonds.overlaps.push_back(0.0);
+        bonds.shares.push_back(
+            static_cast<float>(springs.normal / world.settings.laws[law_between(world, i, j)].normal_stiffness));
+        if (!law.can_break()) continue;
+        tensile += springs.length * faces.strength_share[k] * law.tensile_strength;
+        cohesion += springs.length * faces.strength_share[k] * law.cohesion;
+    }
+    bonds.kind_begin.back() = static_cast<PointIndex>(bonds.points.size());
+}
+
 void record_points(BondRecord& bonds, const World& world) {
     double overlap = 0.0, tension = 0.0, tensile = 0.0, cohesion = 0.0;
     bonds.points.pairs.reserve(static_cast<std::size_t>(world.bonds.initial));
@@ -48,6 +68,8 @@ void record_points(BondRecord& bonds, const World& world) {
         }
         bonds.kind_begin[static_cast<std::size_t>(K) + 1] = static_cast<PointIndex>(bonds.points.size());
     });
+    bonds.kind_begin.back() = static_cast<PointIndex>(bonds.points.size());
+    record_faces(bonds, world, tensile, cohesion);
     if (bonds.points.empty()) return;
     bonds.mean_overlap = overlap / static_cast<double>(bonds.points.size());
     bonds.mean_back_tension = tension / static_cast<double>(bonds.points.size());

@@ -32,7 +32,7 @@ struct BondRecord {
     /// The bonded points, sorted by kind and then in the world's order of points (point_order.hpp).
     ContactList points;
     std::vector<double> overlaps;                          ///< m, initial overlap δ0 of each bond
-    std::array<PointIndex, point_kinds + 1> kind_begin{};  ///< for each kind, index of its first bond
+    std::array<PointIndex, bond_kinds + 1> kind_begin{};  ///< for each kind, index of its first bond
     std::vector<float> shares;  ///< for each bond, fraction of the law's stiffness; empty if all are 1
 
     std::vector<SpecimenTrace> traces;   ///< joint traces, by index

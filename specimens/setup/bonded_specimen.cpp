@@ -12,6 +12,7 @@
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/time_step.hpp"
+#include "specimens/setup/face_bonds.hpp"
 
 namespace crackle {
 namespace {
@@ -102,6 +103,14 @@ void bond(World& world, const ResolvedCase& test, const Bonding& bonding) {
     }
 }
 
+void bond_faces_of(World& world, const ResolvedCase& test, const FaceBonding& faces) {
+    try {
+        bond_by_faces(world, faces);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", test.at(CaseKey::bond_law), error.what()));
+    }
+}
+
 }  // namespace
 
 BondedSpecimen bond_specimen(const Specimen& specimen, const ResolvedCase& test, std::function<void()> while_solving) {
@@ -118,7 +127,15 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const ResolvedCase& test,
     if (test.loading.platens == PlatenKind::glued)
         bonding.holds = grips_of(bonded.world, specimen, bonded.platens, test.loading.grip);
     if (specimen.shape.notch && specimen.polygons) bonding.leaves = parted_by(bonded.world, *specimen.shape.notch);
-    bond(bonded.world, test, bonding);
+    if (test.bond_facts().by_faces) {
+        FaceBonding faces = face_bonding_of(bonded.world, specimen, test.material, test.minerals, test.bond,
+                                            test.loading.platens, thick);
+        faces.holds = bonding.holds;
+        faces.leaves = bonding.leaves;
+        bond_faces_of(bonded.world, test, faces);
+    } else {
+        bond(bonded.world, test, bonding);
+    }
     apply_given_step(bonded.world, test);
     place_platens(bonded.world, bonded.platens);
     return bonded;
@@ -131,7 +148,12 @@ World bond_alone(const Specimen& specimen, const ResolvedCase& test, Traces trac
     if (traces == Traces::welded) std::ranges::fill(scene.joints, Joint{});
     const double thick = scene.thick;
     World world = build_world(std::move(scene));
-    bond(world, test, bonding_of(specimen, test, thick));
+    if (test.bond_facts().by_faces)
+        bond_faces_of(world, test,
+                      face_bonding_of(world, specimen, test.material, test.minerals, test.bond, PlatenKind::bonded,
+                                      thick));
+    else
+        bond(world, test, bonding_of(specimen, test, thick));
     return world;
 }
 

@@ -11,6 +11,7 @@
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/geometry/across_joint.hpp"
 #include "solver/geometry/contact_share.hpp"
+#include "solver/geometry/face_motion.hpp"
 #include "solver/measure/point_view.hpp"
 
 namespace crackle {
@@ -86,6 +87,23 @@ std::optional<TraceFace> flat_face_of(const World& world, PointIndex begin, Poin
     return face.length > 0.0 ? std::optional(face) : std::nullopt;
 }
 
+/// A bonded face of a world, if it lies on a trace.
+std::optional<TraceFace> trace_face_of(const World& world, FaceIndex k) {
+    TraceFace face;
+    face.i = world.faces.bodies[k].body_i;
+    face.j = world.faces.bodies[k].body_j;
+    const std::optional<std::int32_t> trace = trace_of_face(world, face.i, face.j, world.settings.thick);
+    if (!trace) return std::nullopt;
+    const FacePlace place = world.faces.place[k];
+    const BodyState& body = world.bodies.state[face.i];
+    face.trace = *trace;
+    face.bonds = world.faces.broken_at[k] == no_face ? 1 : 0;
+    face.length = world.faces.springs[k].length;
+    face.normal = rotated_by(body, place.normal_i);
+    face.middle = Vec2{body.x, body.y} + rotated_by(body, place.arm_i);
+    return face;
+}
+
 }  // namespace
 
 FaceMotion motion_of(const TraceFace& face, const FacePlaces& start, const FacePlaces& now) {
@@ -110,6 +128,8 @@ std::vector<TraceFace> find_trace_faces(const World& world) {
         const std::optional<TraceFace> face = (flat ? flat_face_of : face_of)(world, begin, end);
         if (face) faces.push_back(*face);
     }
+    for (FaceIndex k = 0; k < world.faces.size(); ++k)
+        if (const std::optional<TraceFace> face = trace_face_of(world, k)) faces.push_back(*face);
     std::ranges::sort(faces, {}, pair_of);
     return faces;
 }

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/setup/face_bonds.hpp"
+
+#include <limits>
+#include <unordered_map>
+
+namespace crackle {
+namespace {
+
+/// Strengths of a pair of minerals in place of the smaller ones of both.
+FaceLaw law_of_pair(FaceLaw law, const MaterialPair& pair) {
+    if (pair.bond.tensile_strength) law.tensile_strength = *pair.bond.tensile_strength;
+    if (pair.bond.cohesion) law.cohesion = *pair.bond.cohesion;
+    if (pair.friction_angle) law.friction = friction_coefficient(*pair.friction_angle);
+    if (pair.bond.residual_friction_angle)
+        law.residual_friction = friction_coefficient(*pair.bond.residual_friction_angle);
+    return law;
+}
+
+/// Reference points by body of the world, whose bodies have another order than those of the scene.
+std::vector<Vec2> references_of(const World& world, const Specimen& specimen) {
+    if (specimen.cell_centres.empty()) return {};
+    std::unordered_map<int, Vec2> centre_of_id;
+    for (std::size_t k = 0; k < specimen.cell_centres.size(); ++k)
+        centre_of_id.emplace(specimen.scene.bodies[k].id, specimen.cell_centres[k]);
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    std::vector<Vec2> references;
+    references.reserve(world.bodies.size());
+    for (const BodyName& body : world.bodies.names) {
+        const auto found = centre_of_id.find(body.id);
+        references.push_back(found == centre_of_id.end() ? Vec2{unknown, unknown} : found->second);
+    }
+    return references;
+}
+
+}  // namespace
+
+FaceBonding face_bonding_of(const World& world, const Specimen& specimen, const parts::Material& rock,
+                            const parts::Minerals& minerals, const parts::Bonds& bonds, PlatenKind platens,
+                            double gap) {
+    // The moduli of bodies are those of their materials, so that contacts and faces have the same.
+    const auto moduli_of = [](const parts::MaterialValues& values) {
+        return FaceModuli{*values.normal_stiffness, values.face_moduli(0.0).pressure,
+                          *values.shear_stiffness / *values.normal_stiffness};
+    };
+    FaceBonding bonding;
+    for (std::size_t m = 0; m < world.settings.materials.size(); ++m) {
+        const parts::MaterialValues& values = m < minerals.list.size() ? minerals.list[m].material : rock;
+        bonding.materials.push_back({moduli_of(values), values.face_law()});
+    }
+    for (const MaterialPair& pair : minerals.pairs) {
+        const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
+        bonding.pairs.push_back(
+            {a, b, law_of_pair(weaker_law(bonding.materials[a].law, bonding.materials[b].law), pair)});
+    }
+    bonding.gap = gap;
+    bonding.reference = references_of(world, specimen);
+    bonding.platens = platens == PlatenKind::glued ? PlatenFaces::glued : PlatenFaces::bonded;
+    if (const auto& random = bonds.random)
+        bonding.factors = StrengthFactors(random->distribution, random->cv, random->seed);
+    return bonding;
+}
+
+}  // namespace crackle
