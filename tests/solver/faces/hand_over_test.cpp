@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "solver/measure/ledger.hpp"
+#include "solver/measure/point_view.hpp"
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
@@ -28,7 +29,11 @@ constexpr int base_cells = 5, top_id = 100;
 /// A row of cells on a held block, and one cell that lies on the second of them, without a bond, under a force.
 World sliding_cell() {
     Scene scene;
-    scene.materials.push_back(any_material());
+    Material rock = any_material();
+    rock.shear_stiffness = 1.0;
+    scene.materials.push_back(rock);
+    scene.time_step = 1e-3;
+    scene.allow_unstable = true;
     scene.units = StiffnessUnits::area;
     scene.bond_law = BondLaw::face;
     scene.domain = {-10.0, 20.0, -10.0, 20.0, {false, false, false, false}};
@@ -67,8 +72,8 @@ BodyIndex top_of(const World& world) { return body_of_id(world, top_id); }
 TEST(HandOver, HasNoJumpOfForceOverASlipOfThreeCells) {
     World world = sliding_cell();
     const BodyIndex top = top_of(world);
-    // Starts in balance with the force, apart from what the cells below yield.
-    world.bodies.state[top].vx = 2e-3;
+    // Fast enough to climb out of the hollow that it presses into the cell below.
+    world.bodies.state[top].vx = 2e-2;
     velocities_changed(world);
     double last = std::numeric_limits<double>::quiet_NaN(), jump = 0.0, largest = 0.0, taken = 0.0;
     const double start = world.bodies.state[top].x;
@@ -88,7 +93,7 @@ TEST(HandOver, HasNoJumpOfForceOverASlipOfThreeCells) {
     EXPECT_GE(world.bodies.state[top].x, start + 3.0);
     EXPECT_EQ(taken, 1.0);
     fmt::print("  {} steps, largest force {:.3g} of {:.3g} N\n", steps, largest, pressing);
-    EXPECT_TRUE(within("largest change of force in a step, of the force that presses", jump / pressing, 0.0, 0.05));
+    EXPECT_TRUE(within("largest change of force in a step, of the largest force", jump / largest, 0.0, 0.01));
     EXPECT_TRUE(within("closing error, of the energy", ledger.closing_error / (ledger.kinetic + ledger.strain), 0.0, 0.02));
 }
 
