@@ -275,8 +275,9 @@ OutputFolder OutputFolder::reopen(const fs::path& wanted) {
     folder.locks_.emplace_back(working);
     if (staged) {
         if (!is_of_a_test(target))
-            refuse_foreign_files(target,
-                                 fmt::format("results that those in {} can replace; move it", working.string()));
+            refuse_foreign_files(
+                target,
+                fmt::format("results of an earlier test, which those in {} replace; move it away", working.string()));
         make_folder(target);
         folder.locks_.emplace_back(target);
     }
@@ -286,7 +287,7 @@ OutputFolder OutputFolder::reopen(const fs::path& wanted) {
 }
 
 OutputFolder::~OutputFolder() {
-    std::error_code ignored;  // set if the folder is not empty: results are kept
+    std::error_code ignored;  // set if a folder is not empty and is therefore kept
     const bool empty = std::ranges::none_of(
         result_files(), [&](const ResultFile& file) { return fs::exists(working_ / file.name, ignored) || ignored; });
     if (staged() && empty) fs::remove(working_ / staged_mark, ignored);
