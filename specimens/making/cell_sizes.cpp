@@ -81,8 +81,9 @@ std::string small_cell_text(const Mesh& mesh) {
     if (!(times > noticed_steps)) return "";
     const Point at = mesh.outline(*smallest).front();
     return fmt::format(
-        "the smallest cell, at ({:.6g}, {:.6g}), has {:.2g} of the mean cell's area, which makes the time step about "
-        "{:.2g} times shorter and a test about as many times longer",
+        "the smallest cell, at ({:.6g}, {:.6g}), has {:.2g} of the mean cell's area: by it the time step is about "
+        "{:.2g} "
+        "times shorter, and a test as much longer",
         at.x, at.y, smallest->area / mean, times);
 }
 

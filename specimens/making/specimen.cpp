@@ -331,10 +331,10 @@ void mesh_specimen(Specimen& specimen, const ResolvedCase& test, const TestHooks
             for (const std::string& line : jointed_mesh_text(mesh, centres, circles.domain, request))
                 hooks.report_stage(line);
             if (const std::string as_rock = sources_as_rock(joints); !as_rock.empty())
-                specimen.notices.push_back("joints without mechanics (" + as_rock +
-                                           ") are faces of the mesh with the rock's own properties, but affect the "
-                                           "specimen: their faces lie on "
-                                           "straight lines, and Voronoi cells beside them form even rows");
+                specimen.notices.push_back(
+                    "joints without mechanics (" + as_rock +
+                    ") are faces of the mesh with the rock's own properties: they change it by being straight, Voronoi "
+                    "cells by their even rows, too");
         }
     } catch (const MeshInterrupted&) {
         throw TestInterrupted();

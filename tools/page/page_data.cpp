@@ -206,8 +206,8 @@ void add_breaks(PlainBlock& block, const TestResults& results) {
     if (results.slips) real("slips.", *results.slips, {"time", "axial_strain", "x", "y", "orientation"});
 }
 
-/// Rows needed to draw a curve: the first and the last row, and the rows in which a column has its minimum or maximum
-/// within one of `intervals` parts of the curve.
+/// Rows needed to draw a curve: the first row, the last row, and the extremes of each column. Each of `intervals` parts
+/// of the curve has extremes of its own.
 std::vector<std::size_t> rows_seen(const std::vector<const std::vector<double>*>& columns, std::size_t intervals) {
     const std::size_t rows = columns.front()->size();
     std::vector<std::size_t> seen;
