@@ -240,7 +240,8 @@ class ConsistencyCheck {
         if (!written(factor)) return;
         exclude_of_materials(which == "tensile" ? "tensile_strength" : "cohesion", factor + " gives it to all bonds");
         if (test_.has_table("mesh"))
-            exclude(factor, "bonds of these polygons need no overlap, so there is no back-tension to multiply: give " + number);
+            exclude(factor,
+                    "bonds of these polygons need no overlap, so there is no back-tension to multiply: give " + number);
         if (test_.area_units()) exclude(factor, "with units = \"area\" strengths are in Pa: give " + number);
     }
 
