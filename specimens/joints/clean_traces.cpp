@@ -280,7 +280,7 @@ class TraceCleaner {
         std::sort(pairs.begin(), pairs.end());
         taken_.clear();
         for (const auto& [i, j] : pairs) attract(all[i], all[j]);
-        if (taken_.empty()) {  // no edge is to be routed through ends of others
+        if (taken_.empty()) {  // there are no edges to route through the ends of others
             for (const auto& [i, j] : pairs) {
                 if (const auto crossing = crossing_of(all[i], all[j]))
                     cross_at(all[i], all[j], *crossing);
