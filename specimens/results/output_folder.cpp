@@ -145,7 +145,7 @@ void remove_or_throw(const fs::path& path) {
 }
 
 /// Replaces the frames in `to` with those in `from`; other files in `to` stay. The operation may be interrupted at any
-/// time and repeated. @param names  of the new frames
+/// time and repeated. @param names  names of the new frames
 void replace_frames(const fs::path& from, const fs::path& to, const std::set<std::string>& names) {
     std::error_code error;
     fs::create_directories(to, error);
@@ -156,7 +156,7 @@ void replace_frames(const fs::path& from, const fs::path& to, const std::set<std
     remove_or_throw(from);
 }
 
-/// Replaces old results with complete new ones, or resumes the replacement. @param names  of the new frames
+/// Replaces old results with complete new ones, or resumes the replacement. @param names  names of the new frames
 void move_staged(const fs::path& working, const fs::path& target, const std::set<std::string>& names) {
     if (is_report_page(target / report_name)) remove_or_throw(target / report_name);
     // As long as the first file is still here, nothing has been moved, so extra files in `target` belong to the old

@@ -242,7 +242,7 @@ class ThinnedCurve {
         columns_.push_back(&values);
     }
     void write(const std::vector<double>& time) const {
-        constexpr std::size_t intervals = 400;  // each about two pixels of a diagram
+        constexpr std::size_t intervals = 400;  // number of intervals, each about two pixels wide in a diagram
         std::vector<const std::vector<double>*> all = columns_;
         all.push_back(&time);
         const std::vector<std::size_t> rows = rows_seen(all, intervals);
