@@ -36,7 +36,7 @@ namespace {
 // spacing on the trace and its apex at a distance of 0.4 spacings has angles above 21 degrees.
 constexpr double left_out_seed_share = 0.4;
 constexpr double near_share =
-    1.3;  // relative to the spacing; triangles closer to a trace than this, the first row beside it, are checked
+    1.3;  // triangles closer to a trace than this, relative to the spacing, are checked (the first row beside it)
 // Narrowest passage between traces, relative to the spacing, and sine of the smallest angle between them (1 degree).
 // Smaller values are refused, since the triangles there would be just as small.
 constexpr double narrowest_share = 0.02, least_sine = 0.0175;
@@ -340,7 +340,7 @@ class Conforming {
         }
         using PlaceOf = CGAL::First_of_pair_property_map<Placed>;
         CGAL::spatial_sort(order.begin(), order.end(), CGAL::Spatial_sort_traits_adapter_2<Kernel, PlaceOf>());
-        Unconstrained points_alone;  // without constraints, so that edge flips need not check for them
+        Unconstrained points_alone;  // has no constraints, so that edge flips need not check for them
         ConstrainedFace hint;
         for (const auto& [place, which] : order) {
             patience_.piece();

@@ -16,7 +16,7 @@ namespace crackle {
 
 /// Triangles with traces on their edges, and the numbers of omitted and added points.
 struct ConformingTriangles {
-    Triangles triangles;  ///< with `traces` filled in
+    Triangles triangles;  ///< the triangles, with their `traces` set
     /// Number of centres omitted because triangles between them and a trace would be badly shaped.
     std::size_t left_out = 0;
     std::size_t added = 0;  ///< number of interior points that are not centres: on traces and near them

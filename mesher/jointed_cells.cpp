@@ -25,7 +25,8 @@ constexpr double on_trace_share = 1e-12;
 // Smallest area of a piece, relative to the mean cell area, that is accepted if there is no mesh without such small
 // pieces. The time step is then about 20 times smaller.
 constexpr double tolerated_piece_share = 0.002;
-constexpr double covered_share = 1e-9;  // an edge is covered if at most this fraction is not
+// Largest fraction of an edge's length that may be uncovered if the edge counts as covered.
+constexpr double covered_share = 1e-9;
 
 class JointedPartition {
   public:

@@ -156,8 +156,9 @@ Mesh mesh_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, 
 /// outline.
 Triangles triangles_within(std::span<const CellCentre> centres, const Rectangle& domain, std::span<const Point> outline,
                            Patience& patience) {
-    constexpr double wall_distance = 10.0;        // relative to the size of the domain
-    constexpr double left_out_share = 1.0 / 3.0;  // relative to the mean spacing
+    constexpr double wall_distance = 10.0;  // distance of the walls, relative to the size of the domain
+    // Smallest distance of centres from the outline, relative to the mean spacing.
+    constexpr double left_out_share = 1.0 / 3.0;
     const double spacing = std::sqrt(polygon_area(outline) / static_cast<double>(centres.size()));
     std::vector<CellCentre> points;
     std::vector<int> number;
@@ -392,7 +393,7 @@ std::string advice(std::span<const CellCentre> centres, const Rectangle& domain,
         if (can_be_meshed(centres, domain, other)) helps.push_back(words);
     };
     const bool voronoi = request.kind == MeshKind::voronoi, traced = !request.traces.empty();
-    constexpr double least_share = 1e-6;  // relative to the requested inset; smaller values are not useful as advice
+    constexpr double least_share = 1e-6;  // smallest inset that is useful as advice, relative to the requested one
     if (least_radius && *least_radius > least_share * request.inset.value_or(0.5 * request.mesh_gap)) {
         MeshRequest thinner = request;
         const double depth = rounded_down(0.99 * *least_radius);

@@ -99,7 +99,7 @@ struct Cell {
     int centre = -1;
     std::array<int, 3> centres{
         -1, -1, -1};         ///< triangles: indices of the centres at the corners; -1 for a point added on the boundary
-    double area = 0.0;       ///< m2, before the inset
+    double area = 0.0;       ///< area before the inset, m2
     std::uint8_t sides = 0;  ///< SideBits of the sides of the domain on which the cell had an edge before the inset
 
     /// Whether the cell had an edge on the left side of the domain before the inset.
@@ -117,7 +117,7 @@ struct MeshReport {
     std::int64_t centres = 0;
     std::int64_t cells = 0;
     std::int64_t segments = 0;         ///< total number of edges of all cells
-    double shortest_edge = 0.0;        ///< m, after the inset
+    double shortest_edge = 0.0;        ///< length of the shortest edge after the inset, m
     double smallest_angle = 0.0;       ///< degrees, interior angle after the inset
     std::int64_t cells_destroyed = 0;  ///< number of cells destroyed by the inset, all of which were merged
     double area_before_inset = 0.0;    ///< m2, sum over all cells
@@ -157,8 +157,8 @@ struct Mesh {
 /// Worst shapes and sizes among the cells of a mesh.
 struct MeshQuality {
     double smallest_angle = 0.0;  ///< degrees
-    double smallest_area = 0.0;   ///< relative to the mean cell area, before the inset
-    double shortest_edge = 0.0;   ///< relative to the mean edge length, after the inset
+    double smallest_area = 0.0;   ///< area of the smallest cell before the inset, relative to the mean area
+    double shortest_edge = 0.0;   ///< length of the shortest edge after the inset, relative to the mean length
 };
 /// Smallest angle, area and edge of a mesh that has cells.
 MeshQuality quality_of(const Mesh& mesh);

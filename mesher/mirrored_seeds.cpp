@@ -58,8 +58,8 @@ constexpr double narrowest_strip_share = 0.1;
 // fork_share: where two traces meet at a node, the ring's angle determines the positions of the seeds. wall_share: at a
 // wall, the row is its own mirror image.
 constexpr double passage_share = 0.4, fork_share = 0.5, wall_share = 0.7;
-constexpr double widest_half_angle =
-    pi / 3.0;  // of a pair of seeds on a ring; with it, the end of a trace has three seeds
+// Largest angle between a seed of a ring and the arm beside it; with it, the end of a trace has three seeds.
+constexpr double widest_half_angle = pi / 3.0;
 // These distances are relative to the spacing. If no other edge is closer than clear_share, the packing's own seeds on
 // one side are mirrored. The mirrored seeds are at least least_offset_share from the trace, and no point on the trace
 // is farther than bare_share from the nearest seed.
@@ -77,7 +77,7 @@ struct Arm {
 
 /// Directions of seeds on a ring around a node. Each arm has a seed on either side, at the same angle for all arms.
 struct Ring {
-    double half_angle = 0.0;     // rad, between a seed and an arm
+    double half_angle = 0.0;     // angle between a seed and an arm, rad
     std::vector<double> angles;  // rad, directions of all seeds
 };
 
@@ -191,8 +191,8 @@ class SeedPlacing {
     struct Beside {
         Segment segment;
         double share;
-        Stretch near, narrow;  // ranges in which the other edge may be closer than clear_share, and in which it may
-                               // limit the row's width
+        // Ranges in which the other edge may be closer than clear_share, and in which it may limit the row's width.
+        Stretch near, narrow;
     };
     /// All edges closer than clear_share to an edge, except the edge itself and edges that continue it in a straight
     /// line.

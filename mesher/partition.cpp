@@ -149,8 +149,8 @@ void Partition::place_dual(FaceHandle face, std::vector<VertexHandle>& to_mirror
     FaceInfo& placed = face->info();
     placed.dual = p;
     placed.outside = (beyond & walls.on_all) != 0;
-    if (beyond != 0 && !placed.outside) {  // if its centres have been mirrored and the face still exists, the dual is
-                                           // outside only by round-off
+    // If the centres of the face have been mirrored and it still exists, its dual is outside only by round-off.
+    if (beyond != 0 && !placed.outside) {
         placed.dual = {std::clamp(p.x, domain_.x1, domain_.x2), std::clamp(p.y, domain_.y1, domain_.y2)};
     }
     const unsigned needs = walls.images | beyond;

@@ -77,7 +77,7 @@ struct HeldPoints {
     PointState* states;
     StateBits<Number> law_and_flags;
     Condition<Number> bonded, holds;
-    Number overlap;  // m, from beyond_rest()
+    Number overlap;  // m, as returned by beyond_rest()
 };
 
 /// Adds the work done on the spring during the last drift, by the trapezoidal rule. @param now the current normal
@@ -102,8 +102,8 @@ inline void keep_work(const PassView& view, PointIndex k, const ContactPoint& po
     work.last = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
 }
 
-/// Computes the forces of points that carry load and writes them to `out`; the other points in a batch get a force of
-/// 0. Updates shear springs, dashpots, flags and losses.
+/// Computes the forces of points that carry load and writes them to `out`; the other points in a batch get no
+/// force. Updates shear springs, dashpots, flags and losses.
 /// @tparam All whether every point was in contact without sliding and still carries load, and (with bonds) is bonded
 /// @param place the first point's position in its block @param law the law, including the points' stiffness factors
 template <bool All, PointKind K, class Features, class Number, class Contact>

@@ -26,7 +26,7 @@ struct PassView {
 
     BodyView bodies;
     const BodyForce* force = nullptr;  // only prefetched, since forces are added to it after the kernel
-    // The next three are used only by the consistent integrator.
+    // The next three members are used only by the consistent integrator.
     const BodyInertia* inertia = nullptr;
     const BodyForce* last_force = nullptr;
     const PushBound* push_bound = nullptr;

@@ -16,9 +16,9 @@ class DeckReader;
 
 /// First number of in_bc.dat (jclid): how the run starts.
 enum class DeckStart : int {
-    fresh = 0,      ///< with only the bodies in in_gm.dat
-    continued = 1,  ///< with the contacts in in_cf.dat as well
-    bonded = 3,     ///< with bonds made at the start; back-tensions from in_cf0.dat, or from the current overlaps
+    fresh = 0,      ///< a new run, from the bodies in in_gm.dat alone
+    continued = 1,  ///< a continued run, which also reads the contacts in in_cf.dat
+    bonded = 3,     ///< bonds are made at the start, with the back-tensions in in_cf0.dat or from the current overlaps
 };
 
 /// Control of one body. Flag 0 becomes Drive::force (even for a value of 0, since gravity and contacts still act). Flag

@@ -36,9 +36,10 @@ struct DeckOptions {
                              ///< is the input folder, outputs are then appended
     bool overwrite = false;  ///< whether existing outputs may be replaced
     std::optional<std::int64_t> steps;  ///< number of steps, overriding nstep; ramps still take nstep steps
-    std::optional<std::uint64_t> seed;  ///< for mode 0 (random circles); 1 if not given
-    std::optional<SegmentLaw> law;  ///< if not given, as in the previous run according to its state file, or rounded
-    std::optional<Integrator> integrator;  ///< if not given, as in the previous run, or leapfrog
+    std::optional<std::uint64_t> seed;  ///< seed of the random circles of mode 0; 1 if not given
+    /// If not given, that of the previous run according to its state file, otherwise rounded.
+    std::optional<SegmentLaw> law;
+    std::optional<Integrator> integrator;  ///< if not given, that of the previous run, otherwise leapfrog
     bool allow_unstable = false;
     int threads = 1;
     /// Wall-clock time between saves of the new_* files, from which an interrupted run can be continued, s.

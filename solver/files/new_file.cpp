@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t digits_of_a_name = 16;
 constexpr std::size_t buffer_bytes = std::size_t{1}
-                                     << 18;  // large, since pictures are written in pieces of a few bytes
+                                     << 18;  // a large buffer, since pictures are written in pieces of a few bytes
 constexpr std::time_t seconds_of_an_old_one = 60;
 
 std::string drawn_name(const fs::path& shown) {

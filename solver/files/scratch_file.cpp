@@ -48,7 +48,7 @@ void ScratchFile::read(std::size_t at, std::span<std::byte> bytes) const {
         if (done < 0)
             fail_reading(errno, fmt::format("{}: an unnamed temporary file in this folder cannot be read ({})",
                                             folder_.string(), std::strerror(errno)));
-        if (done == 0) {  // beyond the end of the data written
+        if (done == 0) {  // the position is beyond the end of the data written
             std::ranges::fill(bytes, std::byte{});
             return;
         }

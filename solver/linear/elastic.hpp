@@ -52,7 +52,8 @@ struct ElasticSolution {
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
                               const std::vector<BodyMotion>& loads = {}, ClosedPoints closed = ClosedPoints::bonded);
 
-/// Motions that store no energy while some bodies are held in the degrees of freedom that Prescribed would prescribe.
+/// Motions that store no energy while some bodies are held in the degrees of freedom to which a Prescribed motion would
+/// apply.
 struct FreeMotions {
     std::int64_t count = 0;         ///< dimension of the null space, by Sylvester's law of inertia
     std::vector<BodyIndex> bodies;  ///< bodies that move in at least one such motion

@@ -51,7 +51,7 @@ struct Block {
 
     /// Adds s·vvᵀ with v = (x, y, r).
     void add(double s, double x, double y, double r) {
-        if (s == 0.0) return;  // for example, without damping
+        if (s == 0.0) return;  // for example, if there is no damping
         xx += s * x * x;
         yy += s * y * y;
         rr += s * r * r;
@@ -395,8 +395,8 @@ Least raised(World& world, const Surroundings& all, Counts counts) {
         const auto now = static_cast<std::size_t>(round);
         reached[now] = best.bound;
         if (best.bound >= enough) break;
-        if (!world.bonds.made) {  // only a small fraction of the bound is used without bonds, so the initial weights
-                                  // are good enough
+        // Without bonds only a small fraction of the bound is used, so the initial weights are good enough.
+        if (!world.bonds.made) {
             if (round > 0 || !warm) break;
             trial = first = first_weights(world, all.rows);
             continue;

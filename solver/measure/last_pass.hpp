@@ -11,10 +11,11 @@ namespace crackle {
 
 /// Load of one contact point in the last force pass.
 struct PointLoad {
-    Vec2 force;  // N, force of the point's springs on body_i, without the back-tension of its bond; body_j receives the
-                 // opposite force
-    Vec2 place;  // m, position midway between the two surfaces
-    Vec2 normal;  // unit, from i to j
+    // Force of the point's springs on body_i, N, without the back-tension of its bond; body_j receives the opposite
+    // force.
+    Vec2 force;
+    Vec2 place;   // m, position midway between the two surfaces
+    Vec2 normal;  // unit vector from i to j
 };
 /// Load of a contact point's springs in the last force pass; there must have been one.
 PointLoad load_of_last_pass(const World& world, PointIndex point);

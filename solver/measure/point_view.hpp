@@ -18,9 +18,9 @@ struct PointView {
     PointKind kind;
     BodyIndex body_i, body_j;
     double overlap;       // δ, m
-    Vec2 normal;          // unit, from i to j
+    Vec2 normal;          // unit vector from i to j
     Vec2 position;        // m, midway between the two surfaces
-    Vec2 arm_i, arm_j;    // m, from the centroids to `position` (arm_j is zero for walls)
+    Vec2 arm_i, arm_j;    // vectors from the centroids to `position`, m; arm_j is zero for walls
     double normal_force;  // N, elastic force k_n(δ - δ0), compression positive (0 without contact)
     double shear_force;   // N, elastic force on i along the normal turned by +90 degrees
     double normal_stiffness, shear_stiffness, friction;

@@ -37,7 +37,7 @@ struct CalibrationOptions {
     std::filesystem::path folder;
     int workers = 1;
     bool retry = false;    ///< repeat tests that ended without a result because of their case
-    bool endless = false;  ///< as TestOptions::endless
+    bool endless = false;  ///< see TestOptions::endless
 };
 
 /// Callbacks of a calibration; empty ones are skipped.

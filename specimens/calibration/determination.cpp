@@ -18,7 +18,8 @@ bool fills(double low, double high, double least, double most) {
 
 Determination determine(const MatrixXd& slopes, const MatrixXd& covariance, double step) {
     constexpr double least_change = 0.5;  // in tolerances
-    constexpr double small_part = 0.1;    // fraction of an open direction's largest component
+    // A key is determined if its component in each open direction is at most this fraction of the largest one.
+    constexpr double small_part = 0.1;
     const Index variables = slopes.cols();
     const Eigen::JacobiSVD<MatrixXd> svd(slopes * step, Eigen::ComputeThinU | Eigen::ComputeFullV);
     Determination found;

@@ -29,8 +29,9 @@ constexpr auto list_names(TargetVerdict) {
 
 /// A target, and the means measured for it.
 struct ReachedTarget {
-    MeanFigure fresh;   ///< over fresh packings, not used for fitting, that have results for all targets
-    MeanFigure polish;  ///< over the packings of the last correction, measured before that correction
+    /// Mean over the fresh packings that have results for all targets; none of them was used for fitting.
+    MeanFigure fresh;
+    MeanFigure polish;  ///< mean over the packings of the last correction, measured before that correction
     double off = 0.0;   ///< mean over fresh packings divided by the target value, minus 1
     /// Tolerance, or half the width of the 95 % confidence interval of the difference between the two means if that is
     /// larger.

@@ -21,8 +21,8 @@ namespace {
 
 using LinearFigures = std::array<double, linear_figures>;
 
-// Kinds of a worker's answers, their first byte. Moduli or a reason follow, as bytes: a reason may name a file whose
-// name is no UTF-8.
+// First byte of a worker's answer, which states its kind. The moduli, or the reason for a failure, follow as raw bytes,
+// because a reason may contain a file name that is not valid UTF-8.
 constexpr char solved = 's', refused_case = 'r', unwritten_file = 'u', failed_system = 'f';
 
 LinearFigures moduli_of_case(ResolvedCase test, PackingStore& packings) {

@@ -17,7 +17,7 @@ struct SearchSpace {
     const Rock& rock;
     Eigen::Index keys = 0, targets = 0;
     Eigen::VectorXd low, high, start;  ///< bounds and start of the variables
-    Eigen::VectorXd logs, widths;      ///< by target: logarithms of its value and of 1 + tolerance
+    Eigen::VectorXd logs, widths;      ///< logarithm of each target, and of 1 + its tolerance
     /// The targets in linear_targets are moduli, which linear_keys determine; both lists are empty unless the rock has
     /// both. other_keys determine other_targets. Without other targets, other_keys is empty, and the remaining keys
     /// keep their start values.

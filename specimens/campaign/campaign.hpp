@@ -29,7 +29,7 @@ struct CampaignOptions {
     Shard shard = {};
     /// Repeat tests that ended in a verdict (RowKind); those with a system failure are always repeated.
     bool retry = false;
-    bool endless = false;  ///< as TestOptions::endless
+    bool endless = false;  ///< see TestOptions::endless
 };
 
 /// Progress of a campaign.

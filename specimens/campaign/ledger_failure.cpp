@@ -17,7 +17,8 @@
 namespace crackle {
 namespace {
 
-// Error numbers that explain a failed read or write. Others stem from SQLite's search for files that need not exist.
+// Error numbers that can explain a failed read or write. Other numbers are left over from SQLite's search for files
+// that need not exist.
 constexpr std::array causes{ENOSPC, EDQUOT, EFBIG, ENOMEM, EMFILE, ENFILE, ENOLCK, EROFS, EPERM, EACCES};
 
 /// errno behind a failure of SQLite. @param kept  errno kept by SQLite, or 0 @param last  errno of the last failed call
@@ -28,14 +29,14 @@ int reason_of(int code, int kept, int last) {
             if (std::find(causes.begin(), causes.end(), error) != causes.end()) return error;
         return EIO;
     }
-    // After a refusal SQLite still looks for other files, which may be missing.
+    // After it has been refused access, SQLite looks for further files, so ENOENT does not explain the refusal.
     return code == SQLITE_CANTOPEN && last != 0 && last != ENOENT ? last : EACCES;
 }
 
 }  // namespace
 
 void refuse_ledger(const SQLite::Exception& error, int kept, int last, const std::string& file) {
-    // SQLite takes a page that the disc does not return for a damaged one.
+    // If the disc fails to return a page, SQLite reports the file as damaged.
     const int code = error.getErrorCode() == SQLITE_CORRUPT && last == EIO ? SQLITE_IOERR : error.getErrorCode();
     const int reason = reason_of(code, kept, last);
     switch (code) {

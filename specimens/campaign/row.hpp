@@ -64,7 +64,7 @@ struct RowResult {
 /// Where and how the tests of a campaign are run.
 struct RowPlace {
     std::filesystem::path folder;  ///< folder of the campaign
-    bool endless = false;          ///< as TestOptions::endless
+    bool endless = false;          ///< see TestOptions::endless
 };
 
 /// Numbers, strings and flags of a summary by name; those in tables as "packing.void_ratio". Unknown values are left

@@ -54,12 +54,12 @@ class TaskQueue {
     /// Next test for a worker. It prefers a test with the packing that the worker has in memory, then one with a
     /// packing that no worker has begun, then any test.
     std::optional<std::size_t> next(std::optional<std::size_t> before);
-    /// A packing has been made, or cannot be made: its tests may be taken.
+    /// Call this when a packing has been made, or could not be made; its tests can then be run.
     void packing_ended(std::size_t piece) {
         groups_[group_of(piece)].made = true;
         groups_[group_of(piece)].making = false;
     }
-    /// Puts a test back, to be run again.
+    /// Puts a test back into the queue, to be run again.
     void again(std::size_t task) {
         groups_[group_of(task)].left.push_back(task);
         first_ = 0;  // the test's group may precede those already begun

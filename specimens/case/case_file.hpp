@@ -64,7 +64,7 @@ class CaseFiles {
 
 /// Reads and checks a case. @throws InputError «file:line: key: found X, expected Y; what to do».
 ResolvedCase read_case(const std::filesystem::path& path);
-/// Likewise, but from a text instead of a file.
+/// Reads and checks a case that is given as text instead of a file.
 ResolvedCase read_case(const CaseText& text);
 /// The joints of a case. @throws InputError if the case was not read
 JointCase joints_of(const ResolvedCase& test);

@@ -250,7 +250,7 @@ class ConsistencyCheck {
     void bond() const {
         const auto& b = test_.bond;
         const BondLawFacts& facts = test_.bond_facts();
-        const std::string law = fmt::format("bond.law = {} (by back-tension the overlap is the strength)",
+        const std::string law = fmt::format("bond.law = {} (with back_tension, the overlap determines the strength)",
                                             laws_with(&BondLawFacts::strengths_are_given));
         for (const BondConstant& constant : all_bond_constants())
             if (facts.constant(constant.key) == nullptr) expect_materials_beside(constant.key, law);
@@ -292,7 +292,8 @@ class ConsistencyCheck {
         if (!written(factor)) return;
         exclude_of_materials(which == "tensile" ? "tensile_strength" : "cohesion", factor + " gives it to all bonds");
         if (test_.has_table("mesh"))
-            exclude(factor, "polygons whose bonds need no overlap have none to take a factor of: give " + number);
+            exclude(factor,
+                    "bonds of these polygons need no overlap, so there is no back-tension to multiply: give " + number);
         if (test_.area_units()) exclude(factor, "with units = \"area\" strengths are in Pa: give " + number);
     }
 

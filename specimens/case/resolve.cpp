@@ -114,7 +114,7 @@ parts::Minerals minerals_of(const TestCase& test) {
     return minerals;
 }
 
-/// A distribution within `deviation` of its mean, or the mean alone.
+/// A uniform distribution of mean ± deviation; without a deviation, the mean alone.
 LengthLaw spread_law(double mean, const std::optional<double>& deviation) {
     return deviation ? LengthLaw::uniform(mean, *deviation) : LengthLaw::fixed(mean);
 }
@@ -267,7 +267,7 @@ parts::Loading loading_of(const TestCase::Loading& keys) {
     return loading;
 }
 
-/// The file that a part of a certain type names, if there is such a part.
+/// Adds the file that `parts` names, if it holds a part of type Part.
 template <class Part, class Variant>
 void add_file(std::vector<std::filesystem::path>& files, const Variant& parts) {
     if (const auto* part = std::get_if<Part>(&parts)) files.push_back(part->path);

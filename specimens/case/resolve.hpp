@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Turns a case as written into the parts that the stages of a test use. Behind it there are no keys, no words and no
-// defaults.
+// Turns a case as written into the parts that the stages of a test use. The parts contain no keys of the case file, no
+// words, and no values that still need a default.
 // Tested by tests/specimens/case/resolve_test.cpp.
 #pragma once
 

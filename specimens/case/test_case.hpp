@@ -92,7 +92,7 @@ struct TestCase : WrittenPlaces {
     /// A table [[mineral]].
     struct Mineral {
         std::string name;
-        std::optional<double> area_share;   ///< -; if empty, the remainder left by the other minerals
+        std::optional<double> area_share;   ///< area fraction; if empty, the remainder left by the other minerals
         std::optional<std::string> colour;  ///< colour of this mineral in the image
         MaterialKeys own;                   ///< overrides the keys of [material]
     };
@@ -235,7 +235,7 @@ struct TestCase : WrittenPlaces {
     bool confined() const { return test_kind(loading.kind).confined; }
     /// Whether the whole packing lies between platens, so that stress and strain are those of the rock.
     bool uniaxial() const { return test_kind(loading.kind).uniaxial; }
-    /// What is true of its bonds by their law.
+    /// Properties of the case's bond law.
     const BondLawFacts& bond_facts() const { return facts_of(bond.law); }
     /// Whether stiffness and strengths are given per area, in Pa.
     bool area_units() const { return material.units == StiffnessUnits::area; }

@@ -26,12 +26,12 @@ namespace crackle {
 struct LinearBond {
     int body_i = 0, body_j = 0;  ///< input ids
     Vec2 position;               // m
-    /// N, in tension: k_n δ0, or the tensile strength of a coulomb bond; infinite if it cannot break.
+    /// Strength, N: in tension k_n δ0, or the tensile strength of a coulomb bond; infinite if it cannot break.
     double strength = 0.0;
     double overlap = 0.0;       // m, δ0, initial overlap
     double closing = 0.0;       // m, growth of the overlap under `strain`
     double normal_force = 0.0;  // N, compression positive
-    double shear_force = 0.0;   // N, on body_i; positive along the normal from i to j turned by +90 degrees
+    double shear_force = 0.0;   // force on body_i, N; positive along the normal from i to j turned by +90 degrees
     double break_strain = 0.0;  ///< axial strain at which the point breaks; infinite if it closes
     double slip_strain = 0.0;   ///< axial strain at which the point slides; infinite if it never does
 
@@ -59,7 +59,7 @@ struct ElasticAnalysis {
     double time_step_bound = 0.0, time_step = 0.0;
     FreeMotions free;
     std::vector<int> free_ids;        ///< input ids of the bodies that can move without resistance
-    std::vector<double> frequencies;  // rad/s, of the lowest modes that store elastic energy
+    std::vector<double> frequencies;  // angular frequencies of the lowest modes that store elastic energy, rad/s
     std::int64_t unknowns = 0;
 };
 

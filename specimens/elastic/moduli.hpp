@@ -13,8 +13,8 @@ namespace crackle {
 struct Moduli {
     double youngs_modulus;     // N/m
     double poissons_ratio;     ///< NaN without side particles
-    double gauge_modulus;      ///< N/m, from the strain of the axial gauge length; NaN without gauge particles
-    ElasticSolution solution;  ///< for an axial strain of 1 in tension, with the lower platen fixed
+    double gauge_modulus;      ///< stress over the strain of the axial gauge length, N/m; NaN without gauge particles
+    ElasticSolution solution;  ///< solution for an axial strain of 1 in tension, with the lower platen fixed
 };
 
 /// Moduli, and the strain up to which they hold.

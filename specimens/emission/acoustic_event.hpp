@@ -16,15 +16,15 @@ namespace crackle {
 
 /// Breaks that are close in space and time, treated as one source.
 struct AcousticEvent {
-    double time = 0.0;          // s, of the first break
+    double time = 0.0;          // time of the first break, s
     double axial_strain = 0.0;  ///< axial strain at the first break
-    double duration = 0.0;      // s, from the first break to the end of the window after the last one
-    Vec2 centre;                // m, mean position of the breaks
-    double radius = 0.0;        // m, of the source disc
+    double duration = 0.0;      // time from the first break to the end of the window after the last one, s
+    Vec2 centre;                // mean position of the breaks, m
+    double radius = 0.0;        // radius of the source disc, m
     std::int64_t breaks = 0, breaks_in_shear = 0;
-    double energy = 0.0;     // J, released by its breaks
-    MomentTensor moment;     // N m, largest during the event
-    double rise_time = 0.0;  // s, from the first break to the time of that moment
+    double energy = 0.0;     // energy released by its breaks, J
+    MomentTensor moment;     // largest moment during the event, N m
+    double rise_time = 0.0;  // time from the first break to that moment, s
 
     CRACKLE_FIELDS(time, axial_strain, duration, centre, radius, breaks, breaks_in_shear, energy, moment, rise_time);
 };

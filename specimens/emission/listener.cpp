@@ -187,7 +187,7 @@ void EmissionListener::add_body(OpenEvent& open, BodyIndex body, std::span<const
     const PointIndex walls = world_.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     for (const PointIndex k : points_of(body)) {
         const ContactPoint point = world_.points.contact[k];
-        // Points between two source bodies are excluded for good.
+        // Points between two source bodies are permanently excluded.
         if (k < walls && is_source(open, point.body_i == body ? point.body_j : point.body_i)) continue;
         const PointKind kind = kind_of_point(world_, k);
         const auto broke = std::ranges::find_if(

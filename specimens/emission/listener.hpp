@@ -37,7 +37,7 @@ struct EmissionRule {
     double diameter = 0.0;          // m, mean particle diameter (of circles of equal area); 0: emission is off
     double shear_wave_speed = 0.0;  // m/s, sqrt(G/ρ)
     bool mean_field = false;        ///< whether G is mean_field_shear_modulus() rather than that of the linear solution
-    double density = 0.0;           // kg/m2, of the specimen including its pores
+    double density = 0.0;           // mass per area of the specimen including its pores, kg/m2
     double damping_ratio = 0.0;     ///< mean over bonds of the normal dashpot relative to critical damping
     /// Factor on moments and energies before magnitudes are computed, m. In area units, magnitudes refer to a thickness
     /// of 1 m; in point units, to the actual plate.

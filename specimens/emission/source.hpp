@@ -35,7 +35,7 @@ struct MomentTensor {
 /// Principal moments of the symmetric part; the antisymmetric part is a torque.
 struct PrincipalMoments {
     double largest, smallest;  // N m
-    double direction;          // rad, of the axis of the largest moment, in (-π/2, π/2]
+    double direction;          // direction of the axis of the largest moment, rad, in (-π/2, π/2]
 };
 /// Principal moments of a moment tensor.
 PrincipalMoments principal_moments(const MomentTensor& moment);

@@ -60,7 +60,7 @@ std::optional<std::string> first_difference(const RockKeys& a, const RockKeys& b
 /// A test from a test's folder or a campaign.
 struct StrengthTest {
     std::string where;    ///< description in messages
-    std::string packing;  ///< name of the packing, by which tests are drawn again
+    std::string packing;  ///< name of the packing; the bootstrap draws whole packings
     Summary figures;
     RockKeys rock;
     std::optional<CurvePoints> curve = {};  ///< set if the curve was requested and kept

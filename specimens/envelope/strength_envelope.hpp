@@ -86,7 +86,7 @@ struct StrengthEnvelope {
 
 /// Both laws, fitted to one packing's tests.
 struct FittedLaws {
-    double strength = 0.0, slope = 0.0, friction_angle = 0.0, cohesion = 0.0;  // as in StrengthEnvelope
+    double strength = 0.0, slope = 0.0, friction_angle = 0.0, cohesion = 0.0;  // see StrengthEnvelope
     double hoek_brown_strength = 0.0, hoek_brown_m = 0.0;
 };
 /// Fits both laws with weights 1/strength². Results of single packings scatter about those fitted to the means.

@@ -109,7 +109,7 @@ void take(const World& world, const BondRecord& bonds, const ContactHistory& his
             while (next < last && !same_point(K, points.at<K>(next), point)) ++next;
             if (next == last)
                 throw std::logic_error(
-                    "a bonded point is missing in the list made when loading began, or stands in another order there");
+                    "a bonded point is missing in the list made when loading began, or out of order there");
             target.shear_force[next] = world.points.shear_force[k];
             target.states[next] = (flags & point_slid) != 0 ? ContactState::bonded_slid : ContactState::bonded;
             if constexpr (K == PointKind::face_face)

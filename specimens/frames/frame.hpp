@@ -48,7 +48,7 @@ struct Frame {
     };
     std::int64_t row = -1;  ///< row of the curve; -1 if there is no frame
     double axial_strain = 0.0, axial_stress = 0.0, time = 0.0;
-    std::vector<Body> bodies;  ///< in the order of World::bodies
+    std::vector<Body> bodies;  ///< the bodies in the order of World::bodies
     /// Elastic shear force, N, in the order of BondRecord::points; 0 for broken bonds whose surfaces do not touch.
     std::vector<double> shear_force;
     std::vector<ContactState> states;  ///< states of the bonds, in the order of BondRecord::points

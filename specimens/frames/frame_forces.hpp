@@ -24,7 +24,7 @@ struct FrameForces {
     /// Elastic normal forces, N, compression positive: first those of BondRecord::points (0 for broken bonds whose
     /// surfaces do not touch), then those of Frame::loose.
     std::vector<double> normal;
-    std::vector<ParticleStress> stress;  ///< by body; 0 for platens
+    std::vector<ParticleStress> stress;  ///< stress of each body; 0 for platens
 };
 
 /// Computes the forces of the contacts and the stresses of the bodies in a frame.

@@ -22,7 +22,8 @@
 namespace crackle {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "VTK files are read as the little-endian bytes they are");
+static_assert(std::endian::native == std::endian::little,
+              "the little-endian numbers of VTK files are read without conversion");
 
 using Bytes = std::vector<unsigned char>;
 

@@ -19,7 +19,7 @@ namespace crackle {
 namespace {
 
 static_assert(std::endian::native == std::endian::little,
-              "arrays are written as they lie in memory, declared LittleEndian");
+              "arrays are written without conversion and declared LittleEndian");
 
 template <class T>
 constexpr const char* vtk_name() {

@@ -17,12 +17,13 @@
 namespace crackle {
 namespace {
 
-constexpr double simplified_share = 0.25, near_share = 0.5;  // relative to snap
+// Tolerances for simplifying traces and for merging nodes, relative to snap.
+constexpr double simplified_share = 0.25, near_share = 0.5;
 // Two traces that run within the distance near_ of each other over at least long_stretch times that distance are
 // merged. They separate over parting_stretch times that distance.
 constexpr double long_stretch = 10.0, parting_stretch = 5.0;
-// Relative to the largest coordinate: a trace counts as unmoved if it passes its nodes by less. This is half of what
-// the mesher takes for the same place, so that it still finds the nodes of other traces on an unmoved one.
+// Relative to the largest coordinate: a trace counts as unmoved if it passes its nodes by less. This is half the
+// distance below which the mesher treats two points as one, so the mesher still finds these nodes on the trace.
 constexpr double same_place_share = 5e-14;
 constexpr int most_passes = 100;  // about three passes are needed; every trace stays within snap in each pass
 
@@ -279,7 +280,7 @@ class TraceCleaner {
         std::sort(pairs.begin(), pairs.end());
         taken_.clear();
         for (const auto& [i, j] : pairs) attract(all[i], all[j]);
-        if (taken_.empty()) {  // no edge is to be routed through ends of others
+        if (taken_.empty()) {  // there are no edges to route through the ends of others
             for (const auto& [i, j] : pairs) {
                 if (const auto crossing = crossing_of(all[i], all[j]))
                     cross_at(all[i], all[j], *crossing);

@@ -299,8 +299,9 @@ class SetDrawing {
 
     static constexpr double settling_cycles = 20.0;
     static constexpr double most_gap_share = 1e3;
-    static constexpr double most_drawn = 1e7;    // number of draws, which take some seconds
-    static constexpr double least_share = 1e-9;  // relative to the box's diagonal; shorter traces are rounding errors
+    static constexpr double most_drawn = 1e7;  // largest number of draws, which take some seconds
+    // Shortest trace, relative to the box's diagonal; shorter ones are rounding errors.
+    static constexpr double least_share = 1e-9;
 
     const Places& places_;
     std::size_t number_;

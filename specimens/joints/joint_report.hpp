@@ -33,7 +33,7 @@ struct SourceReport {
     /// Direction of the scan line for p10, degrees; by default perpendicular to the mean direction.
     double scan_line = none;
     std::optional<Asked> amount;  ///< amount requested for a set; empty if none
-    double mean_length = none;    ///< m, before clipping, over traces whose midpoint lies in the box
+    double mean_length = none;    ///< mean length before clipping of the traces whose midpoint lies in the box, m
     /// Requested values: m, degrees from 0 to 180, dimensionless.
     double mean_length_asked = none, direction_asked = none, kappa_asked = none;
     /// Length of the longest trace in the box, m.
@@ -51,8 +51,8 @@ struct JointReport {
     SourceReport all;
     /// Number of blocks into which traces divide the box; empty if there are too many crossings to count blocks.
     std::optional<std::size_t> blocks;
-    double largest_block = SourceReport::none;  ///< relative to the box's area
-    double median_block = SourceReport::none;   ///< relative to the box's area
+    double largest_block = SourceReport::none;  ///< area of the largest block, relative to the box
+    double median_block = SourceReport::none;   ///< area of the median block, relative to the box
     std::vector<std::string> notices;
 };
 

@@ -35,8 +35,8 @@ class LengthLaw {
 
     /// Whether all lengths lie between two positive bounds, shortest() and longest().
     bool has_power_law() const { return kind_ == Kind::power_law; }
-    double shortest() const { return first_; }  ///< m, of a power law
-    double longest() const { return second_; }  ///< m, of a power law
+    double shortest() const { return first_; }  ///< shortest length of a power law, m
+    double longest() const { return second_; }  ///< longest length of a power law, m
 
     /// Mean length, m.
     double mean() const;

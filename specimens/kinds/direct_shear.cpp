@@ -21,9 +21,9 @@
 namespace crackle {
 namespace {
 
-constexpr double default_box_gap = 2.0;  // in mean particle sizes
+constexpr double default_box_gap = 2.0;  // gap between the half boxes if none is given, in mean particle sizes
 constexpr double wall_share = 0.05;      // thickness of the box walls relative to the specimen's height
-constexpr double widest_box_gap = 0.5;   // relative to the specimen's height
+constexpr double widest_box_gap = 0.5;   // largest gap between the half boxes, relative to the specimen's height
 constexpr double relieved = 1.5;         // size of the relief pockets in mean particle sizes
 
 /// The lower half box. The corners of its inner faces come first.

@@ -70,12 +70,12 @@ struct Apparatus {
     std::vector<LoadingPart> parts;      ///< the last part is the driving part
     int axis = 1;                        ///< axis along which the driving part moves: 0 is x, 1 is y
     double section = 0.0, length = 0.0;  // m
-    /// N, on the driving part, perpendicular to its direction of travel and towards the specimen.
+    /// Normal force on the driving part, N, perpendicular to its direction of travel and towards the specimen.
     double normal_force = 0.0;
     double normal_spring =
         0.0;  ///< N/m; increase of the normal force per displacement of the driving part away from the specimen
-    double stress_intensity = 0.0;  ///< sqrt(m); K_I divided by the nominal stress; 0 without a notch
-    double span = 0.0;              ///< m, between supports; 0 without supports
+    double stress_intensity = 0.0;  ///< K_I divided by the nominal stress, sqrt(m); 0 without a notch
+    double span = 0.0;              ///< distance between the supports, m; 0 without supports
 };
 
 /// A corner or circle of the specimen. A face touches it if closer than `reach`.

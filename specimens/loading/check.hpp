@@ -29,7 +29,7 @@ struct FirstLoss {
 
 /// Estimate of the strength from the linear solution.
 struct StrengthEstimate {
-    double stress = 0.0, strain = 0.0;  ///< as in FirstLoss
+    double stress = 0.0, strain = 0.0;  ///< see FirstLoss
     /// Fraction of the breakable points that are assumed to be broken at the strength.
     double share = 0.0;
     /// Largest ratio between estimate and result in the calibration tests, either way.
@@ -57,7 +57,7 @@ struct TestCheck {
     double youngs_modulus = 0.0, poissons_ratio = 0.0, gauge_modulus = 0.0;  ///< N/m, -, N/m; NaN if unknown
     std::optional<FirstLoss> first_slip, first_break;
     std::optional<StrengthEstimate> strength;
-    std::optional<DiscOutlook> disc;        ///< for a Brazilian test whose rock has a linear solution
+    std::optional<DiscOutlook> disc;        ///< only for a Brazilian test whose rock has a linear solution
     double rate = 0.0, slowest_rate = 0.0;  // 1/s; equal if the case states a rate
     double steps_per_second = 0.0;          ///< speed measured in this check
     std::optional<RunEstimate> to_strength;

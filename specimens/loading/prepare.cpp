@@ -91,7 +91,7 @@ void listen_for_emission(VirtualTest& test) {
     }
 }
 
-/// Overlap of bonds, relative to the particle size, above which polygons bond that share no face.
+/// Overlap of bonds, relative to the particle size, above which even polygons that share no face are bonded.
 constexpr double deep_bond_share = 0.1;
 
 void notice_deep_bonds(VirtualTest& test) {

@@ -28,14 +28,15 @@ struct Specimen {
     bool polygons = false;
     /// mesh.thick as given or derived, m; 0 if the specimen was not meshed from circles.
     double mesh_thick = 0.0;
-    double mesh_gap = 0.0;             ///< m, gap between neighbouring polygons; 0 for circles
-    Shape shape;                       ///< the shape that was cut from the packing
-    double width = 0.0, height = 0.0;  ///< m, of the tested shape; for the whole packing, of the domain
-    double area = 0.0;                 ///< m2, of the tested shape
-    double particle = 0.0;             ///< m, mean size: square root of a cell's area, or diameter of a circle
+    double mesh_gap = 0.0;  ///< m, gap between neighbouring polygons; 0 for circles
+    Shape shape;            ///< the shape that was cut from the packing
+    /// Size of the tested shape, m; if the whole packing is tested, that of the domain.
+    double width = 0.0, height = 0.0;
+    double area = 0.0;      ///< area of the tested shape, m2
+    double particle = 0.0;  ///< m, mean size: square root of a cell's area, or diameter of a circle
     std::vector<std::pair<std::string, double>>
         packing;                        ///< quantities that describe the packing, by name; empty for a particle file
-    double mean_radius = 0.0;           ///< m, of the circles, or of those from which polygons were meshed
+    double mean_radius = 0.0;           ///< mean radius, m, of the circles, or of those from which polygons were meshed
     std::int64_t segments = 0;          ///< number of edges of all polygons
     std::int64_t centres = 0;           ///< number of circles from which polygons were meshed; 0 if none were meshed
     std::vector<SpecimenTrace> traces;  ///< ordered by index

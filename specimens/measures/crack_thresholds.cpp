@@ -15,8 +15,9 @@ using Rows = std::span<const CurveRow>;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double first_share = 0.01;  // fraction of the bonds broken at the peak
-constexpr double counted_to = 0.8;    // relative to the peak stress
-constexpr double quiet_to = 0.25;     // from the confining pressure (0) to the peak (1); assumed free of cracks
+constexpr double counted_to = 0.8;    // stress up to which breaks are counted, relative to the peak stress
+// End of the range assumed free of cracks, between the confining pressure (0) and the peak (1).
+constexpr double quiet_to = 0.25;
 constexpr double deviations_of_noise = 3.0;
 constexpr std::size_t fewest_quiet_rows = 10;
 

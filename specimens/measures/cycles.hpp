@@ -27,13 +27,13 @@ namespace crackle {
 
 /// One cycle of unloading and reloading.
 struct LoadingCycle {
-    double strain = 0.0, stress = 0.0;          ///< where unloading starts; N/m
-    double low_strain = 0.0, low_stress = 0.0;  ///< at the lowest strain
+    double strain = 0.0, stress = 0.0;          ///< where unloading starts; stress in N/m
+    double low_strain = 0.0, low_stress = 0.0;  ///< strain and stress at the lowest strain
     double modulus = 0.0;                       // N/m
     double poissons_ratio = 0.0;
     double permanent_strain = 0.0;
     double loop = 0.0;           ///< N/m; area of the hysteresis loop; NaN if the curve ends within the cycle
-    double modulus_error = 0.0;  ///< relative; from the difference between the stresses of the two platens
+    double modulus_error = 0.0;  ///< relative error, from the difference between the stresses of the two platens
     bool unbroken = false;       ///< whether no bond has broken by the end of the cycle
     bool linear = false;         ///< whether, in addition, no bond has slid and no point has started to slide or touch
 };

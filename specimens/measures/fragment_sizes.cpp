@@ -20,7 +20,7 @@ double diameter(double area) { return std::sqrt(4.0 * area / std::numbers::pi); 
 }  // namespace
 
 FragmentSizes measure_fragments(const World& world, const TestSetup& setup, const Frame& frame) {
-    std::vector<double> areas;  // m², by fragment index
+    std::vector<double> areas;  // area of each fragment, m²
     const std::vector<std::int32_t> number = find_fragments(world, setup, frame);
     for (BodyIndex b = 0; b < number.size(); ++b) {
         if (number[b] < 0) continue;

@@ -19,7 +19,8 @@ struct TraceMotion {
     double length = 0.0;                // m, total length of the faces
     double bonded = 0.0, failed = 0.0;  // m, length of the initially bonded faces, and of those that lost all bonds
     double opening = 0.0, slip = 0.0;   // m, means over the faces; defined in trace_faces.hpp
-    double largest_opening = 0.0, largest_slip = 0.0;  // m, of a single face; the slip of largest magnitude is signed
+    // Largest values of a single face, m; the slip of largest magnitude is signed.
+    double largest_opening = 0.0, largest_slip = 0.0;
 
     CRACKLE_FIELDS(faces, length, bonded, failed, opening, slip, largest_opening, largest_slip);
 

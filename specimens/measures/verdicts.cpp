@@ -17,13 +17,15 @@ namespace crackle {
 namespace {
 
 constexpr double fewest_across = 20.0;
-constexpr double first_drop = 0.01;  // relative to the largest stress before the drop
+// Stress drop that counts as the first one, relative to the largest stress before it.
+constexpr double first_drop = 0.01;
 constexpr double centre_share = 0.5, jaw_share = 0.8,
-                 jaw_energy = 0.25;  // the first two are relative to the radius, the third to the energy
+                 jaw_energy = 0.25;  // limits: the first two relative to the radius, the third to the energy
 constexpr double largest_slant = 20.0, split_share = 0.5;  // degrees; fraction of the diameter or height
-constexpr double midspan_share = 0.25;                     // relative to the height
+constexpr double midspan_share = 0.25;  // largest distance of a crack from midspan, relative to the height
 
-constexpr double gap_share = 0.25, gap_energy = 2.0 / 3.0;  // fraction of the height; fraction of the energy
+// Limits: a fraction of the height, and a fraction of the energy.
+constexpr double gap_share = 0.25, gap_energy = 2.0 / 3.0;
 
 /// A condition, and the sentence that reports its violation; {} stands for the value found.
 struct Claim {
@@ -87,7 +89,7 @@ std::vector<BreakPlace> places_of(const TestSetup& setup, const ContactHistory& 
 /// The crack with the most breaks.
 struct LargestCrack {
     std::size_t breaks = 0;
-    double slant = 0.0;                                                 // degrees, between its longest axis and y
+    double slant = 0.0;                                                 // angle between its longest axis and y, degrees
     double low = std::numeric_limits<double>::infinity(), high = -low;  // m, its extent along y
     double middle = 0.0;                                                // m, mean x
 };

@@ -21,7 +21,7 @@ namespace crackle {
 struct Crack {
     double time = 0.0;         // s
     double energy = 0.0;       // J, energy dissipated by the break
-    double strength = 0.0;     // N, as in BreakEvent
+    double strength = 0.0;     // strength, N, as in BreakEvent
     double orientation = 0.0;  // rad, direction of the contact normal when the bond broke, in (-π/2, π/2]
     PointIndex bond = 0;       // index into BondRecord::points
     bool shear_mode = false;
@@ -51,8 +51,8 @@ struct LooseContacts {
 
 /// History of the contacts in a test.
 struct ContactHistory {
-    std::vector<Crack> cracks;  ///< in the order in which the bonds broke
-    LooseContacts loose;        ///< at the last update
+    std::vector<Crack> cracks;  ///< cracks in the order in which the bonds broke
+    LooseContacts loose;        ///< unbonded contacts at the last update
 
     CRACKLE_FIELDS(cracks, loose);
 };

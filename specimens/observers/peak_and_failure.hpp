@@ -31,12 +31,12 @@ struct StressDrop {
 /// Finds the peak, the largest stress and failure while rows of a curve are added one by one. Stress and strain are
 /// positive in the direction of loading.
 struct FailureTracker {
-    double strength_drop = 0.1;  ///< relative to the peak
+    double strength_drop = 0.1;  ///< stress drop that makes a maximum the peak, relative to the peak
     double share_of_peak = 0.5;  ///< fraction of the largest stress below which the test ends
     double peak_stress = 0.0;    // N/m
     double peak_strain = 0.0;
     std::int64_t peak_row = -1;   ///< row of the peak; -1 if there is no stress yet
-    double largest_stress = 0.0;  // N/m, up to the last row added
+    double largest_stress = 0.0;  // largest stress up to the last row added, N/m
     double strain_at_largest = 0.0;
     double travel_at_largest = 0.0;
     std::int64_t largest_row = -1;

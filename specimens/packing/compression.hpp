@@ -16,7 +16,7 @@ namespace crackle {
 
 /// Target of a compression; exactly one of the two values is set.
 struct CompressionTarget {
-    std::optional<double> mean_overlap;  ///< m, over all contacts except those of the side walls
+    std::optional<double> mean_overlap;  ///< mean overlap of all contacts except those of the side walls, m
     std::optional<double> void_ratio;
     /// Width to which the finished packing will be scaled, m; mean_overlap refers to the scaled packing. 0: no scaling.
     double final_width = 0.0;

@@ -57,20 +57,20 @@ struct PackingRequest {
 struct PackingReport {
     std::int64_t circles = 0;
     double width = 0.0, height = 0.0;           ///< m
-    double radius_min = 0.0, radius_max = 0.0;  ///< m, of the final circles
+    double radius_min = 0.0, radius_max = 0.0;  ///< smallest and largest radius of the final circles, m
     double mean_radius = 0.0;                   ///< m
     double radius_scale = 1.0;                  ///< final radius divided by drawn radius; 1 if a count is given
     double size_distance = 0.0;                 ///< Kolmogorov-Smirnov distance of the radii from the distribution
     double void_ratio = 0.0;
-    double mean_overlap = 0.0;                     ///< m, over contacts between circles and with bottom and top walls
-    std::int64_t circle_contacts = 0;              ///< pairs of circles with overlap > 0
+    double mean_overlap = 0.0;         ///< mean over contacts between circles and with bottom and top walls, m
+    std::int64_t circle_contacts = 0;  ///< pairs of circles with overlap > 0
     std::int64_t wall_contacts[4] = {0, 0, 0, 0};  ///< indexed by Wall
     double coordination = 0.0;                     ///< 2·circle_contacts/circles
     double coordination_of_carrying = 0.0;  ///< (2·circle_contacts + wall contacts)/(circles that are not floating)
     std::int64_t floating = 0;              ///< circles without any contact
     double stress_x = 0.0, stress_y = 0.0;  ///< N/m, mean over the two opposite walls, compression positive
     double anisotropy = 0.0;                ///< |σx - σy| / (σx + σy)
-    double mean_contact_force = 0.0;        ///< N, over all contacts
+    double mean_contact_force = 0.0;        ///< mean over all contacts, N
     double residual = 0.0;                  ///< largest unbalanced force on a circle divided by the mean contact force
     double aspect_error = 0.0;              ///< height/width/requested aspect - 1
     int attempts = 1;                       ///< number of packings drawn

@@ -57,7 +57,7 @@ struct SieveCurve {
 
 using SizeDistribution = std::variant<UniformRadii, LognormalRadii, SieveCurve>;
 
-/// The value of a request for a packing that an error is about.
+/// The part of a packing request to which an error refers.
 enum class PackingInput : std::uint8_t {
     box,
     count,

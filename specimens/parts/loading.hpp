@@ -71,7 +71,7 @@ struct Loading {
     double stop_at_share_of_peak = 0.0;
     PlatenKind platens = PlatenKind::bonded;
     double grip = 0.0;                   ///< fraction of the height at each end; 0 unless platens are glued
-    double platen_friction_angle = 0.0;  // degrees, of frictional platens
+    double platen_friction_angle = 0.0;  // friction angle of frictional platens, degrees
     double half_angle = 10.0;            // degrees; half the angle spanned by a jaw's arc; ISRM's jaws have 10
     JawShape jaws = JawShape::arc;
     std::optional<double> span;       ///< m; empty: as usual for the kind of test

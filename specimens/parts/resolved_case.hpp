@@ -49,8 +49,9 @@ struct Output {
     FramePrecision frame_precision = FramePrecision::single_;
     bool slips = false;
     bool emission = false;
-    double checkpoint_interval = 60.0;             // s, wall clock
-    std::optional<double> out_of_plane_thickness;  ///< m, to convert reported stresses; empty: they are for 1 m
+    double checkpoint_interval = 60.0;  // s, wall clock
+    /// Thickness to which reported stresses are converted, m; empty: 1 m.
+    std::optional<double> out_of_plane_thickness;
 
     bool operator==(const Output&) const = default;
 };
@@ -96,7 +97,7 @@ struct ResolvedCase {
     bool pressed() const { return test_kind(loading.kind).pressed(); }
     /// Whether the whole packing lies between platens, so that stress and strain are those of the rock.
     bool uniaxial() const { return test_kind(loading.kind).uniaxial; }
-    /// What is true of its bonds by their law.
+    /// Properties of the test's bond law.
     const BondLawFacts& bond_facts() const { return facts_of(bond.law); }
     /// Whether stiffness and strengths are given per area, in Pa.
     bool area_units() const { return material.units == StiffnessUnits::area; }

@@ -16,7 +16,7 @@
 
 namespace crackle {
 
-/// A value of a case that errors found after reading refer to.
+/// A value of a case to which errors found after reading can refer.
 enum class CaseKey : std::uint8_t {
     particles_file,
     packing,

@@ -60,7 +60,7 @@ struct FrameHead {
     double time = 0.0;
     std::optional<double> axial_strain, axial_stress;
     std::optional<std::int64_t> step;
-    std::vector<std::string> roles;  ///< those of "start", "peak" and "end" that apply to this frame
+    std::vector<std::string> roles;  ///< which of "start", "peak" and "end" this frame shows
     std::string file;                ///< name shown to users
 };
 

@@ -193,7 +193,7 @@ class TestFrames {
         int id = 0;
     };
     std::vector<Start> start_;
-    std::optional<CellFinder> finder_;  ///< set if there are contacts
+    std::optional<CellFinder> finder_;  ///< empty if there are no contacts
     std::size_t bonds_ = 0;
 };
 

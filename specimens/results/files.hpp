@@ -63,7 +63,7 @@ class TestFiles {
     const OutputFolder& folder_;
     std::string case_hash_;
     FileOptions options_;
-    std::array<std::optional<GrowingFile>, result_tables> tables_;  // those of this test
+    std::array<std::optional<GrowingFile>, result_tables> tables_;  // files of the tables that this test writes
     std::optional<FrameOnDisc> peak_on_disc_;                       // used instead of TestState::peak_frame
     std::optional<FramePainter> painter_;                           // exists once there is a frame
     bool collection_due_;                                           // whether frames.pvd is older than the state

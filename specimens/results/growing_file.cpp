@@ -44,7 +44,7 @@ GrowingFile::GrowingFile(fs::path path, const FileMark& marked)
             throw InputError(fmt::format(
                 "{}: found {}, expected the first {} bytes as they were written; restore the file, or run the test "
                 "again with --force",
-                path_.string(), whole ? "other contents" : "less than a part of it", marked.bytes));
+                path_.string(), whole ? "other contents" : "a shorter file", marked.bytes));
         }
     }
     std::error_code error;

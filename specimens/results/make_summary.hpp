@@ -19,8 +19,8 @@ struct NumericalErrors;
 
 /// Wall-clock times of the whole test, including resumed parts, s. Only these keys differ between two runs of a case.
 struct TestTiming {
-    double wall_seconds = 0.0;  ///< s; of the whole test
-    /// s; of the stepping loop, including neighbour list rebuilds, bond breakage and observers
+    double wall_seconds = 0.0;  ///< wall-clock time of the whole test, s
+    /// Wall-clock time of the stepping loop, s, with neighbour list rebuilds, bond breakage and observers.
     double step_seconds = 0.0;
     int threads = 1;
 };

@@ -12,7 +12,8 @@ namespace crackle {
 /// Numerical errors of a test, estimated from companions: runs of the same specimen with another time step, rate or
 /// damping.
 struct NumericalErrors {
-    ErrorsByFigure figures;              ///< of the peak and, in compression tests, of cracking; with the companions
+    /// Errors of the peak and, in compression tests, of crack stresses; also the companions' results.
+    ErrorsByFigure figures;
     std::optional<bool> peak_converged;  ///< whether no companion with other time step or rate is on another branch;
                                          ///< empty: no failure so far
 };

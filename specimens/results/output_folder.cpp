@@ -145,7 +145,7 @@ void remove_or_throw(const fs::path& path) {
 }
 
 /// Replaces the frames in `to` with those in `from`; other files in `to` stay. The operation may be interrupted at any
-/// time and repeated. @param names  of the new frames
+/// time and repeated. @param names  names of the new frames
 void replace_frames(const fs::path& from, const fs::path& to, const std::set<std::string>& names) {
     std::error_code error;
     fs::create_directories(to, error);
@@ -156,7 +156,7 @@ void replace_frames(const fs::path& from, const fs::path& to, const std::set<std
     remove_or_throw(from);
 }
 
-/// Replaces old results with complete new ones, or resumes the replacement. @param names  of the new frames
+/// Replaces old results with complete new ones, or resumes the replacement. @param names  names of the new frames
 void move_staged(const fs::path& working, const fs::path& target, const std::set<std::string>& names) {
     if (is_report_page(target / report_name)) remove_or_throw(target / report_name);
     // As long as the first file is still here, nothing has been moved, so extra files in `target` belong to the old
@@ -275,8 +275,9 @@ OutputFolder OutputFolder::reopen(const fs::path& wanted) {
     folder.locks_.emplace_back(working);
     if (staged) {
         if (!is_of_a_test(target))
-            refuse_foreign_files(target,
-                                 fmt::format("results that those in {} can replace; move it", working.string()));
+            refuse_foreign_files(
+                target,
+                fmt::format("results of an earlier test, which those in {} replace; move it away", working.string()));
         make_folder(target);
         folder.locks_.emplace_back(target);
     }
@@ -286,7 +287,7 @@ OutputFolder OutputFolder::reopen(const fs::path& wanted) {
 }
 
 OutputFolder::~OutputFolder() {
-    std::error_code ignored;  // set if the folder is not empty: results are kept
+    std::error_code ignored;  // set if a folder is not empty and is therefore kept
     const bool empty = std::ranges::none_of(
         result_files(), [&](const ResultFile& file) { return fs::exists(working_ / file.name, ignored) || ignored; });
     if (staged() && empty) fs::remove(working_ / staged_mark, ignored);

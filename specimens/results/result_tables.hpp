@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tables that a test writes row by row, each listed once: which tests have it, its columns, its text in FILES.md.
-// A new one is a value of ResultTable and a row in result_tables.cpp.
+// The tables that a test writes row by row. Each is listed once, with the tests that have it, its columns, and its text
+// in FILES.md. To add a table, add a value to ResultTable and a row to result_tables.cpp.
 // Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
@@ -33,7 +33,7 @@ struct FileOptions {
     std::size_t large_frame = 200'000;      ///< number of bodies from which the frame at the peak is kept on disk
 };
 
-/// What is known about a table.
+/// Properties of a table.
 struct ResultTableFacts {
     const char* holds;    ///< its contents, for lists of files
     const char* section;  ///< what FILES.md says about it above its columns

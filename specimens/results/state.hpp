@@ -52,20 +52,20 @@ struct TestState {
     LoadingPath path;
     std::int64_t breaks_in_shear = 0, breaks_in_tension = 0, breaks_after_sliding = 0;
     std::int64_t breaks_in_shear_to_peak = 0, breaks_in_tension_to_peak = 0;
-    std::vector<FacePlaces> faces_at_peak;  ///< for BondRecord::trace_faces, at the current peak
+    std::vector<FacePlaces> faces_at_peak;  ///< positions of the bodies of BondRecord::trace_faces at the current peak
     std::string ended_by;                   ///< empty while the test runs
 
     // Moduli of the specimen with all bonds intact and without sliding (linear solution); NaN if there is no solution.
     double youngs_modulus = std::numeric_limits<double>::quiet_NaN();  // N/m
     double poissons_ratio = std::numeric_limits<double>::quiet_NaN();
     double gauge_modulus =
-        std::numeric_limits<double>::quiet_NaN();  ///< N/m, stress divided by the strain of the gauge length
+        std::numeric_limits<double>::quiet_NaN();  ///< stress divided by the strain of the gauge length, N/m
     double modulus_residual = std::numeric_limits<double>::quiet_NaN();  ///< relative error of the solve
 
     Emission emission;
 
-    TableMarks tables;                              ///< at the checkpoint
-    double wall_seconds = 0.0, step_seconds = 0.0;  ///< s; spent in earlier processes
+    TableMarks tables;                              ///< lengths and hashes of the tables at the checkpoint
+    double wall_seconds = 0.0, step_seconds = 0.0;  ///< time spent in earlier processes, s
     std::string command;                            ///< command line that started the test
 
     /// Total strain travelled, back and forth, up to the last row.

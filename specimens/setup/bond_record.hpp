@@ -22,11 +22,11 @@ struct BondRecord {
     double grip = 0.0;                  // m, depth at each end within which bonds never break
     std::int64_t contacts_initial = 0;  ///< number of contact points that touch when loading starts
 
-    double mean_overlap = 0.0;                 // m, over bonded points
-    double mean_back_tension = 0.0;            // N, over bonded points
-    double mean_back_tension_interface = 0.0;  // N, over pairs of bodies
+    double mean_overlap = 0.0;                 // mean over bonded points, m
+    double mean_back_tension = 0.0;            // mean over bonded points, N
+    double mean_back_tension_interface = 0.0;  // mean over pairs of bodies, N
     double mean_tensile_strength = 0.0,
-           mean_cohesion = 0.0;  // N, over bonded points that can break; 0 if strengths are not given
+           mean_cohesion = 0.0;  // means over bonded points that can break, N; 0 if strengths are not given
 
     std::vector<StartPlace> start;  ///< initial positions, by body
     /// The bonded points, sorted by kind and then in the world's order of points (point_order.hpp).
@@ -51,7 +51,7 @@ struct BondRecord {
     double rest_overlap(PointIndex bond) const {
         return facts().from_rest_overlap ? std::max(overlaps[bond], 0.0) : 0.0;
     }
-    /// What is true of the bonds by their law.
+    /// Properties of the bonds' law.
     const BondLawFacts& facts() const { return facts_of(law); }
 };
 

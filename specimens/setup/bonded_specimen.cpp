@@ -18,7 +18,7 @@ namespace crackle {
 namespace {
 
 // Circles bond at their overlaps, whatever the thickness; this value keeps platens thin compared with the particles.
-constexpr double circle_thick_share = 0.1;  // relative to the mean radius
+constexpr double circle_thick_share = 0.1;  // thickness relative to the mean radius
 
 /// Applies the case's time step. Its stability can be checked only once there are bonds.
 void apply_given_step(World& world, const ResolvedCase& test) {

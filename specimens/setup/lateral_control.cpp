@@ -11,7 +11,7 @@
 namespace crackle {
 namespace {
 
-constexpr double band_share = 0.05;  // relative to the lateral strain at the strain ε1
+constexpr double band_share = 0.05;  // half-width of the band, relative to the lateral strain at the strain ε1
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts that hold and drive a specimen, as bodies of the world, and what its stress and strain mean.
+// The parts that hold and drive a specimen, as bodies of the world, and the definitions of its stress and strain.
 // Tested by tests/specimens/setup/setup_test.cpp.
 #pragma once
 
@@ -23,23 +23,24 @@ struct SetupPart {
     CRACKLE_FIELDS(body, face, wall);
 };
 
-/// The parts of a test in the world, and the lengths that turn their forces and ways into stress and strain.
+/// The parts of a test in the world, and the lengths by which their forces and displacements are divided to obtain
+/// stress and strain.
 struct PlacedApparatus {
     LoadingKind kind = LoadingKind::compression;
-    bool uniaxial = true;                ///< as in TestKind: whether stress and strain are those of the rock
+    bool uniaxial = true;                ///< whether stress and strain are those of the rock, as in TestKind
     bool compression = true;             ///< whether the driving part moves in the negative direction of its axis
     int axis = 1;                        ///< axis along which the driving part moves: 0 x, 1 y
-    double section = 0.0, length = 0.0;  // m, for nominal stress and strain, as in Apparatus
+    double section = 0.0, length = 0.0;  // divisors for nominal stress and strain, m, as in Apparatus
     double stress_intensity = 0.0;       ///< sqrt(m), K_I divided by the nominal stress; 0 without a notch
     double span = 0.0;                   // m; 0 if absent
-    double normal_force = 0.0;           // N, on the driving part, perpendicular to its motion
+    double normal_force = 0.0;           // force on the driving part perpendicular to its motion, N
     double normal_spring = 0.0;          // N/m; increase of the normal force per rise of that part
     int bottom_id = 0, top_id = 0;       // ids as in the outputs
     BodyIndex bottom = 0, top = 0;       // indices of the first support and the driving part in the world
     std::vector<SetupPart> parts;        ///< all parts: a support first, the driving part last
     double top_start = 0.0;              // m, coordinate of the driving part's centroid along its axis
     double top_height = 0.0;             // m, initial y of the driving part's centroid
-    double confining_pressure = 0.0;     // N/m, on the sides; 0: no pressure
+    double confining_pressure = 0.0;     // pressure on the sides, N/m; 0: none
 
     /// Whether a pressure acts on the specimen's sides.
     bool confined() const { return confining_pressure > 0.0; }
@@ -53,7 +54,7 @@ struct PlacedApparatus {
     }
     /// 1 if the driving part moves in the negative direction of its axis, else -1.
     double sense() const { return compression ? 1.0 : -1.0; }
-    /// Strain along the driving part's way, positive in the sense of the test.
+    /// Displacement of the driving part along its axis divided by `length`; positive in the direction of loading.
     double axial_strain(const World& world) const;
     /// Makes the driving part's current position the reference of strains.
     void strains_begin_at(const World& world);

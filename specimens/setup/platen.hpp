@@ -31,9 +31,9 @@ struct Platens {
     int bottom_id = 0, top_id = 0;  ///< ids of the first and the last part; both are larger than all ids in the input
     Apparatus apparatus;  ///< parts for kinds of test without platens; reference dimensions of stress and strain
     double bottom_y = 0.0, top_y = 0.0;  ///< m, y of the faces at the start of loading
-    double velocity = 0.0;               ///< m/s, of the upper platen, positive upwards
+    double velocity = 0.0;               ///< velocity of the upper platen, m/s, positive upwards
     double parked = 0.0;  ///< m, distance of each platen from its initial position while the specimen is being bonded
-    double walls_parked = 0.0;  ///< m, the same distance for the walls
+    double walls_parked = 0.0;  ///< distance of the walls from their initial position at that time, m
     bool bonded = true;
     bool walls = false;  ///< whether walls press on the sides; their ids follow the lower platen's, left before right
 };

@@ -24,7 +24,7 @@ struct TestedSpecimen {
     SpecimenKind kind = SpecimenKind::circles;
     bool polygons = false;
     double width = 0.0, height = 0.0;          // m, initial
-    double area = 0.0;                         // m2, of the tested part of the packing
+    double area = 0.0;                         // area of the tested part of the packing, m2
     double middle = 0.0, middle_height = 0.0;  // m, centre of the packing's box and of the specimen's symmetry
     double low_end = 0.0;                      // m, y of the specimen's lower face
     double notch = 0.0;                        // m; 0 if absent
@@ -32,7 +32,7 @@ struct TestedSpecimen {
     std::int64_t particles = 0;
 };
 
-/// Where a specimen comes from; results state it, no measure depends on it.
+/// The origin of a specimen. Results state it, but no measured value depends on it.
 struct Provenance {
     std::int64_t segments = 0, centres = 0;
     std::vector<std::string> notices;
@@ -51,7 +51,7 @@ struct TestSetup {
 
     double stable_time_step = 0.0;         // s, exact limit for the world as bonded
     bool stable_time_step_proved = false;  ///< whether a factorisation proved the limit; otherwise it is only a bound
-    double time_step_bound = 0.0;          // s, at the start of loading; updated during the run
+    double time_step_bound = 0.0;          // bound at the start of loading, s; updated during the run
     RateRule rate_rule;
 
     /// Lateral strain; NaN if a side has no particles in the middle half of the height. If the driving part moves along

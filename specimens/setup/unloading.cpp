@@ -8,7 +8,7 @@
 namespace crackle {
 namespace {
 
-constexpr double creep_share = 0.05;  // relative to the largest rate
+constexpr double creep_share = 0.05;  // creeping rate relative to the largest rate
 // Fraction of the acceleration used for braking: the speed is chosen at intervals and lags behind continuous braking.
 constexpr double brake_share = 0.7;
 

@@ -21,7 +21,7 @@ struct UnloadRule {
     std::vector<double> at;     ///< strains, or N/m; positive in the direction of loading; empty: no unloading
     double to = 0.0;            ///< fraction of the stress at which unloading started
     double acceleration = 0.0;  // 1/s2, largest acceleration of the strain
-    double modulus = 0.0;       // N/m, of the linear solution
+    double modulus = 0.0;       // modulus of the linear solution, N/m
     /// Least speed, 1/s, so that every reversal is reached; the distance needed to stop from it is negligible.
     double creep = 0.0;
 

@@ -14,7 +14,7 @@ namespace crackle {
 
 /// Two lines that meet. Slopes are in units of y per unit of x.
 struct BrokenStick {
-    double at = std::numeric_limits<double>::quiet_NaN();  ///< s, at which the lines meet
+    double at = std::numeric_limits<double>::quiet_NaN();  ///< the value x = s at which the lines meet
     double slope_below = std::numeric_limits<double>::quiet_NaN();
     double slope_above = std::numeric_limits<double>::quiet_NaN();
 };

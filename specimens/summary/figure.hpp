@@ -43,7 +43,7 @@ inline constexpr const char* unlisted = nullptr;
 
 /// Unit and meaning of a figure. A table without a meaning is listed under the wildcard name `*`.
 struct FigureRow {
-    const char* unit = "";  ///< as in Quantity, or `unlisted`
+    const char* unit = "";  ///< unit as in Quantity, or `unlisted`
     const char* meaning = "";
     const char* more = "";  ///< printed only in FILES.md
     /// Meaning and additional text in tests where the figure means something else, at index NumberBySense::sense - 1.

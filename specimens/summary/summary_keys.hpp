@@ -15,7 +15,7 @@ namespace crackle {
 /// A key of summary.json.
 struct SummaryKey {
     std::string name;
-    std::string unit, meaning, more;  ///< as in Quantity
+    std::string unit, meaning, more;  ///< members as in Quantity
     bool converted = false;           ///< whether it is a stress or modulus, which also has a value in Pa under ..._pa
     bool again = false;               ///< whether the key belongs to a type of table that has been listed before
 };

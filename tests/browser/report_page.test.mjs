@@ -337,7 +337,8 @@ test('the map shows every slip beneath the breaks, as a line along its contact, 
             assert.ok(off < 1, `${axis} of slips: off by ${off} px`);
         }
         slips.forEach(({orientation}, at) => {
-            const [along, across] = [Math.abs(Math.sin(orientation)), Math.abs(Math.cos(orientation))]; // of the contact, perpendicular to its normal
+            // Directions of the contact, whose normal is at the orientation.
+            const [along, across] = [Math.abs(Math.sin(orientation)), Math.abs(Math.cos(orientation))];
             if (Math.abs(along - across) > 0.3) assert.equal(boxes[at].width > boxes[at].height, along > across, `slip ${at}: normal at ${orientation}`);
         });
         const order = await card.locator('.map path').evaluateAll((all) => all.map((one) => one.getAttribute('fill')));

@@ -60,7 +60,7 @@ class Disc:
         """before: contents() of the folder, completely on the disc."""
         self.now = {name: None if name.endswith("/") else File(data) for name, data in before.items()}
         self.now = {name.rstrip("/"): file for name, file in self.now.items()}
-        self.names = dict(self.now)  # on the disc
+        self.names = dict(self.now)  # files and folders by their names on the disc
         self.pending = []  # changes of names that are not on the disc: (folders, {name: file, or "gone"})
 
     def name(self, folders, changes):

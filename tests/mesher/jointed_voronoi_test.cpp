@@ -25,7 +25,7 @@ MeshRequest cells_with(Lines traces, double gap = 0.0) {
 TEST(JointedVoronoi, EveryTraceIsAChainOfEdgesOnItsLine) {
     for (const Lines& traces :
          {Lines{{{0.2, 0.7}, {0.8, 1.1}}},                                        // two free ends
-          Lines{{{0.0, 0.5}, {1.0, 0.9}}},                                        // from wall to wall
+          Lines{{{0.0, 0.5}, {1.0, 0.9}}},                                        // one from wall to wall
           Lines{{{0.2, 0.5}, {0.8, 0.9}}, {{0.3, 1.0}, {0.6, 0.4}}},              // a crossing
           Lines{{{0.1, 0.4}, {0.5, 0.9}, {0.9, 1.0}}, {{0.5, 0.9}, {0.4, 1.6}}},  // a bend, and a branch
           Lines{{{0.0, 0.3}, {1.0, 0.8}}, {{0.3, 0.0}, {0.6, 2.0}}, {{0.1, 1.2}, {0.5, 1.3}, {0.9, 1.7}}}}) {

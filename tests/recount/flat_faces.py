@@ -165,7 +165,7 @@ def meetings(faces, centre):
     i, j = faces.body[a], faces.body[b]
     way = centre[j] - centre[i]
     along = way @ faces.part.along
-    normal = np.array([faces.part.along[1], -faces.part.along[0]])  # from left to right
+    normal = np.array([faces.part.along[1], -faces.part.along[0]])  # points from the left side to the right
     lap = np.minimum(faces.stop[a], along + faces.stop[b]) - np.maximum(faces.start[a], along + faces.start[b])
     overlap = faces.height[a] + faces.height[b] - way @ normal
     return i, j, overlap, lap, np.broadcast_to(normal, way.shape), (centre[i] + centre[j]) / 2

@@ -39,7 +39,7 @@ class Values(NamedTuple):
     rest: float  # force-free overlap of a point without a bond, before it slides
     dilation: float  # tangent of the dilation angle
     dilation_slip: float
-    lap: float  # of flat faces, otherwise NaN
+    lap: float  # overlap of flat faces, otherwise NaN
     turning: float  # m, closure of flat faces by rotation in the step
     aperture: float
 
@@ -52,7 +52,7 @@ class Point:
         self.rest = rest  # force-free overlap, m
         self.shear = self.normal_dashpot = self.shear_dashpot = 0.0
         self.slid = self.in_shear = False
-        self.lap = math.nan  # m, of flat faces without a bond
+        self.lap = math.nan  # m, overlap of flat faces without a bond
         self.failing = (0.0, 0.0)  # N, normal and shear force for events.csv
 
 

@@ -22,7 +22,7 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ["CRACKLE_PROGRAM"]).resolve()
-BENCH_PROGRAM = Path(os.environ["CRACKLE_BENCH_PROGRAM"]).resolve()  # in the same folder
+BENCH_PROGRAM = Path(os.environ["CRACKLE_BENCH_PROGRAM"]).resolve()  # crackle_bench is in the same folder as crackle
 ROOMS = ("solver", "mesher", "specimens", "tools", "tests")
 AT_MOST = {"README.md": 9000, "CONTRIBUTING.md": 9000}  # bytes
 PAGES = {name: (TOP / name).read_text(encoding="utf-8") for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")} | {

@@ -55,8 +55,8 @@ ARRAYS = {"particles": {"id", "radius", "material", "angle", "displacement", "ve
                         "stress_xy", "fragment"},
           "contacts": {"body_i", "body_j", "normal_force", "shear_force", "state", "age"},
           "cracks": {"body_i", "body_j", "time", "mode", "energy", "orientation", "strength", "opening"}}
-PIXELS = 900  # per side of a picture
-TOLERANCE = 1e-12  # relative to the values of an array
+PIXELS = 900  # width and height of a picture
+TOLERANCE = 1e-12  # error relative to the values of an array
 # Forces are computed from positions and rotations, so their error is k_n times the rounding of coordinates and of
 # accumulated rotations.
 STATE_TOLERANCE = 1e-9

@@ -284,7 +284,7 @@ TEST(GuideHangingChain, IsACatenaryOfEqualHorizontalTension) {
     for (std::size_t f = from; f < forces.size(); ++f) {
         for (const auto& row : forces[f].rows) {
             const auto bond = static_cast<std::size_t>(std::min(row[0], row[1]));
-            const double sign = row[0] < row[1] ? 1.0 : -1.0;  // for the force of the right disc on the left one
+            const double sign = row[0] < row[1] ? 1.0 : -1.0;  // gives the force of the right disc on the left one
             horizontal[bond] += share * sign * row[4];
             vertical[bond] += share * sign * row[5];
         }

@@ -69,12 +69,12 @@ struct Invocation {
 
 /// An option as shown to the user.
 struct OptionFacts {
-    std::string name;         ///< without the leading dashes
+    std::string name;         ///< long name without the leading dashes
     char letter = '\0';       ///< one-letter name, or 0
-    std::string argument;     ///< for example "FILE"; empty if the option takes no argument
+    std::string argument;     ///< name of the argument, such as "FILE"; empty if the option takes none
     bool several = false;     ///< whether it takes any number of arguments
     std::string value;        ///< default value, or empty
-    std::string description;  ///< without the default value
+    std::string description;  ///< description without the default value
     Arguments words;          ///< accepted words; empty if any text is accepted
 };
 

@@ -26,7 +26,7 @@ struct Command {
 };
 
 struct Program {
-    const char* name;        ///< as typed by the user
+    const char* name;        ///< name as typed by the user
     const char* summary;     ///< description in one line
     const char* first_word;  ///< name of the first word in messages, for example "command"
     const std::vector<Command>& (*commands)();

@@ -94,8 +94,9 @@ int doctor(const Invocation& given) {
                                     : "specimens/... is also looked for in " + shipped);
     line("crackle-bench",
          studies.empty() ? "not found: `crackle bench` prints where to get it" : studies + ": studies of the engine");
-    line("gnuplot", gnuplot.empty() ? "not found on the PATH: `crackle-bench` leaves tables and scripts, no pictures"
-                                    : gnuplot + ": draws the pictures of `crackle-bench`");
+    line("gnuplot", gnuplot.empty()
+                        ? "not found on the PATH: `crackle-bench` writes tables and scripts, but no pictures"
+                        : gnuplot + ": draws the pictures of `crackle-bench`");
     const bool coloured = !styled("", Style::heading, Stream::out).empty();
     line("terminal", !is_terminal(Stream::out) ? "none: no colours, no progress line"
                      : coloured                ? "colours and a progress line"

@@ -250,7 +250,7 @@ int elastic(const Invocation& given) {
     if (modes > 0) messages.progress().step(0.0, fmt::format("solving the linear system, {} modes", modes));
     const ElasticAnalysis analysis = analyse_elastic(test.world, test.setup, moduli_of(test), strain, modes);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count() - test.specimen_seconds;
-    TestHooks quietly = hooks;  // for making the same specimen again without messages
+    TestHooks quietly = hooks;  // hooks for making the same specimen again without messages
     quietly.stage = quietly.detail = {};
     const std::optional<JointedCompliance> compliance = jointed_compliance(description, quietly);
     messages.make_room();

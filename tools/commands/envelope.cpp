@@ -35,9 +35,11 @@ using plot::EnvelopeFigure;
 /// Ratio of unconfined to tensile strength as a function of m: Hoek & Martin, J. Rock Mech. Geotech. Eng. 6, 2014.
 double hoek_martin(double m) { return 8.62 + 0.7 * m; }
 
-constexpr std::size_t enough_confinements = 5;  // needed to fit the two parameters of Hoek-Brown (Hoek & Brown 2019)
-constexpr double largest_share = 0.5;   // of the unconfined strength: largest confinement for Hoek-Brown (ibid.)
-constexpr double trusted_misfit = 0.1;  // about as large as the scatter between packings
+// Confinements needed to fit the two parameters of Hoek-Brown (Hoek & Brown 2019).
+constexpr std::size_t enough_confinements = 5;
+// Largest confinement for Hoek-Brown, relative to the unconfined strength (ibid.).
+constexpr double largest_share = 0.5;
+constexpr double trusted_misfit = 0.1;  // misfit about as large as the scatter between packings
 constexpr double trusted_factor =
     1.5;  // accepted factor between a strength ratio and hoek_martin(), about the scatter of its data
 constexpr double smallest_m = 4.0, largest_m = 35.0;  // range of m for intact rocks in Hoek and Brown's tables

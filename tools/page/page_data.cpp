@@ -34,8 +34,9 @@ constexpr double place_share = 0x1p-22;    // quantum, relative to the specimen'
 constexpr double angle_quantum = 0x1p-18;  // rad
 // Quantum, relative to the block's largest value, for quantities of varying magnitude.
 constexpr double least_share = 0x1p-20;
-constexpr double growth = 0x1p-7;        // for velocities and stresses: relative resolution 0.4 %
-constexpr double force_growth = 0x1p-6;  // for forces, which need much space: relative resolution 0.8 %
+constexpr double growth = 0x1p-7;  // growth for velocities and stresses, with a relative resolution of 0.4 %
+// Growth for forces, which need much space, with a relative resolution of 0.8 %.
+constexpr double force_growth = 0x1p-6;
 
 double largest_of(const std::vector<std::vector<double>>& rows) {
     double largest = 0.0;
@@ -205,8 +206,8 @@ void add_breaks(PlainBlock& block, const TestResults& results) {
     if (results.slips) real("slips.", *results.slips, {"time", "axial_strain", "x", "y", "orientation"});
 }
 
-/// Rows needed to draw a curve: the first and the last row. In addition, for each of `intervals` parts of the rows,
-/// those with a column's minimum or maximum.
+/// Rows needed to draw a curve: the first row, the last row, and the extremes of each column. Each of `intervals` parts
+/// of the curve has extremes of its own.
 std::vector<std::size_t> rows_seen(const std::vector<const std::vector<double>*>& columns, std::size_t intervals) {
     const std::size_t rows = columns.front()->size();
     std::vector<std::size_t> seen;
@@ -241,7 +242,7 @@ class ThinnedCurve {
         columns_.push_back(&values);
     }
     void write(const std::vector<double>& time) const {
-        constexpr std::size_t intervals = 400;  // each about two pixels of a diagram
+        constexpr std::size_t intervals = 400;  // number of intervals, each about two pixels wide in a diagram
         std::vector<const std::vector<double>*> all = columns_;
         all.push_back(&time);
         const std::vector<std::size_t> rows = rows_seen(all, intervals);

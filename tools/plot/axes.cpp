@@ -67,7 +67,7 @@ Scale scale_for(double smallest, double largest, int most_ticks) {
 }
 
 Scale scale_around(double smallest, double largest, int most_ticks) {
-    constexpr double far = 0.5;  // relative to the largest absolute value
+    constexpr double far = 0.5;  // distance from 0 above which 0 is left out, relative to the largest absolute value
     if (largest > smallest && (smallest > far * largest || largest < far * smallest))
         return ticked(smallest, largest, most_ticks, true);
     return scale_for(smallest, std::max(0.0, largest), most_ticks);

@@ -40,7 +40,7 @@ Unit unit_with_power(double largest, const std::string& unit);
 struct Axes {
     Rect frame;  ///< area for curves, pt
     Scale x, y;
-    double text = 1.0;  ///< relative to the font size
+    double text = 1.0;  ///< text size relative to the font size
 
     Point at(double value_x, double value_y) const;
     /// Draws frame, ticks, numbers and titles. The x axis has numbers only if x_title is not empty.

@@ -44,14 +44,14 @@ std::string broken(const Canvas& canvas, const std::string& label, double text, 
 
 /// Labels next to the rows of a panel of a given width.
 struct RowLabels {
-    static constexpr double text = 0.85;  // relative to the font size
+    static constexpr double text = 0.85;  // text size relative to the font size
 
     std::vector<std::string> markup;
     double width = 0.0, height = 0.0;  // pt, size of the largest label
 };
 
 RowLabels labels_of(const Canvas& canvas, const std::vector<Sample>& samples, double panel_width) {
-    constexpr double widest = 0.4;  // relative to the panel's width
+    constexpr double widest = 0.4;  // largest width of labels, relative to the panel's width
     RowLabels labels;
     for (const Sample& sample : samples) {
         labels.markup.push_back(escaped(broken(canvas, sample.label, RowLabels::text, widest * panel_width)));
@@ -169,7 +169,8 @@ Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<Lab
 Panel distributions(const std::string& title, const std::string& unit_name, const std::vector<Sample>& samples) {
     Panel panel;
     panel.height = [samples](const Canvas& measure, double width) {
-        constexpr double row = 2.6, between = 0.6;  // relative to the font size
+        // Height of a row and of the space between labels, relative to the font size.
+        constexpr double row = 2.6, between = 0.6;
         const double size = measure.style().font_size;
         const double rows = std::max(row * size, labels_of(measure, samples, width).height + between * size);
         return rows * static_cast<double>(samples.size()) + Axes::room_below(measure) + 1.6 * size;

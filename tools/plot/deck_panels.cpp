@@ -195,7 +195,8 @@ double change_of(const std::vector<PlottedDeck>& decks, Column column) {
     return most;
 }
 
-constexpr double no_change = 1e-9;  // relative to the change in the other direction; smaller changes are round-off
+// Smallest change that is not round-off, relative to the change in the other direction.
+constexpr double no_change = 1e-9;
 
 /// Directions in which anything changes.
 std::vector<Direction> directions_of(const std::vector<PlottedDeck>& decks, Column Direction::*column, bool still) {

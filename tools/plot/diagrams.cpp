@@ -19,7 +19,7 @@
 namespace crackle::plot {
 namespace {
 
-constexpr double small_text = 0.75;  // relative to the font size
+constexpr double small_text = 0.75;  // size of small text, relative to the font size
 
 /// Breaks per strain interval. Interval k is k width < strain <= (k + 1) width, as on the report page.
 struct Histogram {
@@ -155,7 +155,7 @@ void mark_cracks(Canvas& canvas, const Axes& axes, const PlottedTest& test, doub
     for (const auto& [level, name] : {std::pair(known.crack_initiation_stress.or_nan(), crack_initiation_sign),
                                       std::pair(known.crack_damage_stress.or_nan(), crack_damage_sign)}) {
         const auto reached = std::ranges::find_if(stress, [level = level](double s) { return s >= level; });
-        if (reached == stress.end()) continue;  // also if the stress is NaN
+        if (reached == stress.end()) continue;  // true also if the stress is NaN
         const auto row = static_cast<std::size_t>(reached - stress.begin());
         const Point place = axes.at(strain[row] / strain_unit, *reached / unit);
         canvas.circle(place, 1.5, &white, &colour_of(test), 0.7 * curve_width);
@@ -181,7 +181,8 @@ Scale stress_scale(const std::vector<PlottedTest>& tests, double unit, int ticks
 
 /// Tests of one kind of loading whose curves are hard to see on the common scales; usually empty.
 std::vector<PlottedTest> slivers_of(const std::vector<PlottedTest>& tests) {
-    constexpr double least_stress = 0.25, least_strain = 0.2;  // relative to the largest value of all tests
+    // Values below which curves are hard to see, relative to the largest of all tests.
+    constexpr double least_stress = 0.25, least_strain = 0.2;
     std::array<std::vector<PlottedTest>, 2> kinds;
     for (const PlottedTest& test : tests) kinds[pulled(*test.results) ? 0 : 1].push_back(test);
     if (kinds[0].empty() || kinds[1].empty()) return {};

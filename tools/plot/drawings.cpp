@@ -262,8 +262,8 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
 
 constexpr double between_drawings = 6.0;  // pt
 constexpr double key_height = 13.0;       // pt, height of the line of keys below the captions
-constexpr double key_text = 0.85;         // relative to the font size
-constexpr double caption_text = 0.9;      // relative to the font size
+constexpr double key_text = 0.85;         // text size of the key, relative to the font size
+constexpr double caption_text = 0.9;      // text size of captions, relative to the font size
 
 double caption_height(const Canvas& canvas, const std::vector<Moment>& moments) {
     std::size_t lines = 0;
@@ -405,7 +405,7 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
     }
     const double height = y2 - y1 + 2.0 * beyond;
     const auto scale_at = [widths, widest, gaps, height](double width) {
-        constexpr double highest = 300.0;  // pt, since a page-wide sheet may have further panels below
+        constexpr double highest = 300.0;  // pt; limited since a page-wide sheet may have further panels below
         // A single specimen need not fill the sheet.
         return std::min({(width - gaps) / widths, 0.45 * width / widest, highest / height});
     };

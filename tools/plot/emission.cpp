@@ -19,7 +19,7 @@
 namespace crackle::plot {
 namespace {
 
-constexpr double small_letters = 0.8;  // relative to the font size
+constexpr double small_letters = 0.8;  // size of small letters, relative to the font size
 constexpr double magnitude_bin = 0.1;  // width of an interval of magnitude
 constexpr const char* completeness_sign = "<i>M</i><span size=\"75%\" rise=\"-2pt\">c</span>";
 
@@ -101,7 +101,7 @@ std::vector<std::string> lines_of(const BValue& value, const std::vector<Plotted
 double size_of_line(std::size_t number) { return number == 0 ? 1.0 : small_letters; }
 
 double height_of(const Canvas& canvas, const std::vector<std::string>& lines) {
-    double height = 3.0;  // pt, including the distance to the frame
+    double height = 3.0;  // height of the text in pt, including the distance to the frame
     for (std::size_t k = 0; k < lines.size(); ++k) height += 1.1 * canvas.size_of(lines[k], size_of_line(k)).height;
     return height;
 }

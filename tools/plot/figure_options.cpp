@@ -15,7 +15,7 @@ namespace {
 
 namespace po = boost::program_options;
 
-constexpr double column_width = 85.0, page_width = 180.0;  // mm, as in most journals
+constexpr double column_width = 85.0, page_width = 180.0;  // widths of a column and a page in most journals, mm
 
 }  // namespace
 

@@ -51,7 +51,8 @@ void refuse_without_memory(double sheet) {
     // Bytes: two threads that search for fonts, each with an arena of 64 MiB from glibc and a stack, and the data they
     // read. To align an arena, glibc maps twice its size for a moment.
     constexpr double of_fonts = (3.0 * 64.0 + 2.0 * 8.0 + 32.0) * (1 << 20);
-    constexpr double sheets = 3.0;  // copies made while drawing, converting colours and compressing
+    // Copies of the sheet in memory while it is drawn, its colours are converted, and it is compressed.
+    constexpr double sheets = 3.0;
     const auto needed = static_cast<std::size_t>(of_fonts + sheets * sheet);
     void* const room = mmap(nullptr, needed, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (room == MAP_FAILED) {

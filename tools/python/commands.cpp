@@ -134,7 +134,7 @@ py::tuple elastic(const ResolvedCase& description, double strain, int modes, con
         *analysis = analyse_elastic(test.world, test.setup, moduli_of(test), strain, modes);
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         notices.insert(notices.end(), test.setup.origin.notices.begin(), test.setup.origin.notices.end());
-        TestHooks quietly = hooks;  // for making the same specimen again without reports
+        TestHooks quietly = hooks;  // hooks for making the same specimen again without reports
         quietly.stage = quietly.detail = {};
         json = tools::elastic_as_json(test, *analysis, jointed_compliance(test.description, quietly),
                                       seconds - test.specimen_seconds);

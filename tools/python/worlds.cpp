@@ -51,7 +51,7 @@ Shared world_of_particles(const Particles& particles, int threads, bool walls) {
     auto test = std::make_shared<VirtualTest>();
     Scene scene = particles.scene;
     if (!walls) scene.domain.wall_present = {false, false, false, false};
-    scene.driven_contacts = DrivenContacts::all;  // since the caller may request any force
+    scene.driven_contacts = DrivenContacts::all;  // all contacts, since the caller may request any force
     const py::gil_scoped_release free;
     test->world = build_world(std::move(scene));
     use_threads(test->world, threads);

@@ -25,7 +25,7 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<const char*>
               "used in a signal handler");
 
 constexpr unsigned patience = 2,
-                   last_patience = 3;  // s, from the signal to the message, and from the message to the end
+                   last_patience = 3;  // waiting times before the message and before the end, s
 constexpr int exit_code_interrupted = 130;
 
 void put(std::string_view text) {

@@ -44,7 +44,7 @@ struct Row {
     double contacts = 0.0;  // per particle
     double rate = 0.0;      // particle-steps / s
     double bare = 0.0;      // bare kernel on the same discs, particle-steps/s; 0 if not measured
-    double bytes = 0.0;     // per particle; 0 if unknown
+    double bytes = 0.0;     // bytes of memory per particle; 0 if unknown
     double list = 0.0;      // number of steps per neighbour list; 0 if unknown
 };
 

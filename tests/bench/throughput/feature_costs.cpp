@@ -190,7 +190,7 @@ double run_of(const Trial& trial, std::int64_t steps) {
 
 /// Number of steps that take about `seconds`.
 std::int64_t steps_to_fill(const Trial& trial, double seconds) {
-    std::int64_t rounds = 1;  // of trial.together steps
+    std::int64_t rounds = 1;  // each of trial.together steps
     while (true) {
         const double took = run_of(trial, rounds * trial.together);
         if (took >= 0.2 * seconds)

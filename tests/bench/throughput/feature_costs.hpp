@@ -20,7 +20,7 @@ namespace crackle::throughput {
 
 struct FeatureStudy {
     std::int64_t count = 5000;      ///< number of discs, and of hexagons; actual numbers differ by a few
-    int pairs = 15;                 ///< at least fewest_for_interval
+    int pairs = 15;                 ///< number of pairs of runs, at least fewest_for_interval
     double seconds = 0.08;          ///< approximate time of one run; a pair has two runs
     std::filesystem::path scratch;  ///< folder for the files of a virtual test
 };

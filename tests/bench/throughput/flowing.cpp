@@ -14,7 +14,7 @@ namespace {
 constexpr double gravity = 9.81;          // m/s2
 constexpr double hexagon_apothem = 0.02;  // m
 constexpr double thick = 1e-3;            // m
-constexpr double runout = 20.0;           // relative to the column's width; nothing reaches the far wall
+constexpr double runout = 20.0;           // width of the domain in widths of the column; nothing reaches the far wall
 
 }  // namespace
 

@@ -27,7 +27,7 @@ def add_discs(material, strain_a_step=0.0):
 
 def run_timed():
     """The results that compare_peers reads, except those of the model."""
-    if job["warm_up"]:  # for O.run, 0 means without end
+    if job["warm_up"]:  # O.run takes 0 steps as no limit
         O.run(job["warm_up"], wait=True)
     begin, start, processor = O.iter, time.perf_counter(), time.process_time()
     O.run(job["steps"], wait=True)

@@ -317,7 +317,7 @@ TEST(FlatFaces, GainNoEnergyAsTurningOpensThem) {
     scene.intact.no_breaking = true;
     scene.step_scale = 0.1;
     World world = bonded_circles(scene);
-    push(world, 5.0, 1000);  // m/s, until faces meet other faces than initially
+    push(world, 5.0, 1000);  // at 5 m/s, until faces meet other faces than initially
     for (const double start = world.stepping.time; world.stepping.time < start + 0.015 / 5.0;) step(world);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> spin(-2000.0, 2000.0);  // rad/s

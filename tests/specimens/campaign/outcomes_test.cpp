@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tests that end without a result, because of their case or because of the system.
+// Tests a campaign in which some tests end without a result, because of their case or because of the system.
 
 #include "specimens/campaign/campaign.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a case comes to: each alternative is a type, and defaults are values.
+// Tests the resolved form of a case: each alternative has its own type, and defaults are filled in.
 
 #include "specimens/case/resolve.hpp"
 

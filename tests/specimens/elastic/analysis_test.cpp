@@ -102,7 +102,7 @@ TEST_F(ElasticAnalysisOf, BondForcesAreThoseOfTheBodiesMoved) {
 
 TEST_F(ElasticAnalysisOf, EnergyOfTheSolutionIsHalfStressTimesStrain) {
     const VirtualTest test = prepared({});
-    const Moduli moduli = moduli_of(test);  // at a strain of 1
+    const Moduli moduli = moduli_of(test);  // found at a strain of 1
     const double area = test.setup.specimen.width * test.setup.specimen.height;
     EXPECT_TRUE(agrees("stored energy", moduli.solution.energy, 0.5 * moduli.youngs_modulus * area, 1e-9));
 }

@@ -140,7 +140,8 @@ TEST(StrengthEnvelope, OnThePlaneOfFailureTouchesEachCircleOfTheLaw) {
     for (const double s3 : {envelope.hoek_brown_tension(), 0.0, 0.1 * c, 0.5 * c}) {
         const double s1 = envelope.hoek_brown(s3), centre = 0.5 * (s1 + s3), radius = 0.5 * (s1 - s3);
         double nearest = 2.0 * radius;
-        constexpr int steps = 20'000;  // in deviatoric stress; the error of a quadratic minimum is the square of a step
+        // Steps of deviatoric stress; near a minimum, the error is of the order of a step squared.
+        constexpr int steps = 20'000;
         for (int k = 0; k <= steps; ++k) {
             const PlaneStress on = envelope.hoek_brown_on_plane(3.0 * (s1 - s3) * k / steps);
             nearest = std::min(nearest, std::hypot(on.normal - centre, on.shear));

@@ -19,7 +19,7 @@ using testing::within;
 struct Named {
     const char* name;
     LengthLaw law;
-    double mean, deviation;  // m, from closed forms
+    double mean, deviation;  // m, values of closed forms
 };
 
 /// Moments of a power law with density l^-a: ∫ l^(k-a) / ∫ l^-a.

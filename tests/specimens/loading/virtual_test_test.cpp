@@ -220,7 +220,7 @@ TEST_F(VirtualRock, NoTermOfTheAccountOfEnergyCouldBeMissing) {
         wanted.numerics = "safety_factor = 0.4";
         ResolvedCase description = read_case(write_small_case(scratch_ / "", wanted));
         description.material.damping_ratio.reset();
-        description.material.normal_damping = shear ? 0.0 : 2000.0;  // N s/m, about 0.2 of critical
+        description.material.normal_damping = shear ? 0.0 : 2000.0;  // N s/m, about 0.2 of the critical damping
         description.material.shear_damping = shear ? 1000.0 : 0.0;
         VirtualTest test = prepare_test(description);
         load_specimen(test);

@@ -58,8 +58,8 @@ TEST(LoadingCycles, OneThatTheCurveDoesNotEndHasNoLoss) {
 TEST(LoadingCycles, SayWhetherAnythingHasBrokenOrSlidAndWhatThePlatensDifferBy) {
     std::vector<CurveRow> rows = loop();
     for (CurveRow& row : rows) row.stress_top = row.stress_bottom = row.axial_stress;
-    rows[1].stress_top += 2.0, rows[1].stress_bottom -= 2.0;  // at the reversal
-    rows[3].stress_top -= 1.0, rows[3].stress_bottom += 1.0;  // at the lowest point
+    rows[1].stress_top += 2.0, rows[1].stress_bottom -= 2.0;  // the point of reversal
+    rows[3].stress_top -= 1.0, rows[3].stress_bottom += 1.0;  // the lowest point
     const LoadingCycle plain = find_cycles(rows, true)[0];
     EXPECT_TRUE(plain.unbroken && plain.linear);
     EXPECT_TRUE(agrees("error of the modulus", plain.modulus_error, (2.0 + 1.0) / (40.0 - 10.0), 1e-14));

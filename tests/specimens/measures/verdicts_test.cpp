@@ -132,8 +132,8 @@ TEST(Verdicts, ACrackAtThirtyDegreesIsNoSplitAndOneAtTenIs) {
 
 TEST(Verdicts, MidspanIsAQuarterOfTheHeightToEitherSide) {
     Cracked near(LoadingKind::bending, 81, 21), far(LoadingKind::bending, 81, 21);
-    near.split(44, 0, 15);  // at 4.5 from the middle; the limit is 5.25
-    far.split(47, 0, 15);   // at 7.5 from the middle
+    near.split(44, 0, 15);  // splits at 4.5 from the middle; the limit is 5.25
+    far.split(47, 0, 15);   // splits at 7.5 from the middle
     EXPECT_EQ(near.verdicts()[0].holds, true) << near.verdicts()[0].found;
     EXPECT_EQ(far.verdicts()[0].holds, false) << far.verdicts()[0].found;
 }

@@ -59,7 +59,7 @@ struct PlainFigures {
     std::array<double, 4> wall_force{};
     double circle_area = 0.0;
     std::int64_t circle_contacts = 0, floating = 0;
-    double smallest_overlap = 1e300;  // m, over all contacts
+    double smallest_overlap = 1e300;  // m, smallest over all contacts
 
     double anisotropy(const Domain& d) const {
         const double x = 0.5 * (wall_force[0] + wall_force[1]) / (d.y2 - d.y1),

@@ -20,7 +20,7 @@ TEST(CurvePoints, AreTheRowsThatHaveBothNumbers) {
 }
 
 TEST(CurvePoints, HaveTheStressBetweenThemWhereAStrainIsFirstReached) {
-    const CurvePoints curve{{0.0, 0.0}, {1.0, 10.0}, {0.5, 4.0}, {2.0, 6.0}};  // with one unloading
+    const CurvePoints curve{{0.0, 0.0}, {1.0, 10.0}, {0.5, 4.0}, {2.0, 6.0}};  // a curve with one unloading
     EXPECT_EQ(stress_at(curve, 0.25), 2.5);
     EXPECT_EQ(stress_at(curve, 1.0), 10.0);
     EXPECT_EQ(stress_at(curve, 1.25), 5.0);

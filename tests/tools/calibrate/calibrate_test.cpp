@@ -99,7 +99,7 @@ TEST_F(CalibrateCommand, AnInterruptIsGoneOnFrom) {
     EXPECT_TRUE(exists("out/calibration.json"));
 }
 
-// A mean without a test that ended with a system error would be that of another rock.
+// A test that ended with a system error has no figures, and a mean without it would be that of another rock.
 TEST_F(CalibrateCommand, WithoutATestThatTheSystemEndedNothingIsCalibrated) {
     write_rock(target_text("compression", "peak_stress", 3e7) + target_text("tension", "peak_stress", 6e6) +
                testing::strength_keys);

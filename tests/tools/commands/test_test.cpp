@@ -337,7 +337,8 @@ TEST_F(CrackleTest, VerifyStatesTheErrorOfTheStrength) {
     for (const char* part : {"time_step", "rate", "damping", "resolution", "stated"})
         EXPECT_TRUE(stress[part].is_number()) << part;
     EXPECT_GE(stress["stated"].get<double>(), 3.0 * stress["rate"].get<double>());
-    const double spacing = 0.005 / 2000 / summary["peak_strain"].get<double>();  // of rows; a step may be longer
+    // Spacing of rows in strain over the peak strain; a step may be longer.
+    const double spacing = 0.005 / 2000 / summary["peak_strain"].get<double>();
     const double resolution = summary["numerical_errors"]["peak_strain"]["resolution"].get<double>();
     EXPECT_GE(resolution, 0.99 * spacing);
     EXPECT_LE(resolution, 2.0 * spacing);

@@ -142,7 +142,7 @@ def _read_object(folder, name):
     return value
 
 
-# Pragmas that read and change nothing.
+# Pragmas that only read.
 _LOOKING_PRAGMAS = ("index_info", "index_list", "table_info", "table_list", "table_xinfo")
 
 

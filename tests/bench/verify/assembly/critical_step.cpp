@@ -27,7 +27,7 @@ namespace critical_step_scenes {
 namespace {
 
 constexpr double radius = 0.02, overlap = 8e-5, kn = 1e7;
-constexpr double lever = 1.0 - overlap / (2.0 * radius);  // of the shear spring, relative to the radius
+constexpr double lever = 1.0 - overlap / (2.0 * radius);  // lever arm of the shear spring, relative to the radius
 
 /// Largest displacement of a disc that is pressed deep into a floor, m; the run stops at 1e-5.
 double excursion(double h, double time_step, double& bound) {

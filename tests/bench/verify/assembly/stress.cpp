@@ -141,7 +141,8 @@ int after_impact(const Impact& impact, double speed, std::string& words) {
 std::vector<ClaimRow> impacts_rebound_or_are_named() {
     Rows rows;
     using Target = Impact::Target;
-    constexpr double slow_impact = 1.0;  // m/s; the depth v sqrt(m/k) is a tenth of any body here, so it must rebound
+    // m/s; penetrates by v sqrt(m/k), a tenth of a body's size here, so it must rebound.
+    constexpr double slow_impact = 1.0;
     for (const Impact& impact :
          {Impact{"disc on a disc", false, Target::same}, Impact{"disc on a segment", false, Target::segment},
           Impact{"disc on a wall", false, Target::wall}, Impact{"square on a square", true, Target::same},

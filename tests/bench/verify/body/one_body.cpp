@@ -175,7 +175,8 @@ class AnalyticBounce {
     }
     Fall in_contact(double t) const {
         const double w = omega_ * std::sqrt(1.0 - h_ * h_), decay = h_ * omega_, sag = gravity_ / (omega_ * omega_);
-        const double a = sag, b = (state_.speed + decay * a) / w;  // of the height above the position at rest
+        // Coefficients of the height above the position at rest.
+        const double a = sag, b = (state_.speed + decay * a) / w;
         const double c = std::cos(w * t), s = std::sin(w * t), e = std::exp(-decay * t);
         return {e * (a * c + b * s) - sag, e * ((b * w - decay * a) * c - (a * w + decay * b) * s)};
     }

@@ -88,7 +88,7 @@ std::vector<Collision> collisions() {
 
 struct Outcome {
     double momentum_error = 0.0, energy_error = 0.0, closing_error = 0.0;
-    double stored_at_start = 0.0, largest_stored = 0.0;  // relative to the initial kinetic energy
+    double stored_at_start = 0.0, largest_stored = 0.0;  // energies relative to the initial kinetic energy
 };
 
 /// @param step_share step relative to the contact time of two squares, 1.4e-3 s
@@ -186,7 +186,7 @@ std::vector<ClaimRow> polygons_colliding_under_the_guides_law_keep_momentum_and_
 
 struct SlideOff {
     double taken = 0.0;          // energy removed by the law itself, relative to the largest strain energy
-    double closing_error = 0.0;  // relative to the largest strain energy
+    double closing_error = 0.0;  // error of the energy balance, relative to the largest strain energy
     double height = 0.0;         // m, height of the block at the end
 };
 

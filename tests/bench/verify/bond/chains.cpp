@@ -99,7 +99,7 @@ std::vector<ClaimRow> long_chain_waves_travel_at_their_speed() {
 /// equal, and vertical tensions differ by the weights between them.
 struct Catenary {
     double horizontal;        // N
-    std::vector<Vec2> place;  // m, relative to the left end
+    std::vector<Vec2> place;  // m, positions relative to the left end
 };
 Catenary discrete_catenary(int bonds, double span, double weight) {
     const auto hang = [&](double horizontal) {

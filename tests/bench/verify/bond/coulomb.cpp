@@ -213,7 +213,7 @@ double pair_sheared_under_pressure(int steps, Rows* rows) {
 }
 
 struct ShearedLattice {
-    double closing = 0.0;  // relative to the work
+    double closing = 0.0;  // error of the energy balance, relative to the work
     double broken = 0.0, in_shear = 0.0;
     double least_energy = 0.0;  // J
 };

@@ -37,7 +37,7 @@ struct Pull {
 };
 
 struct FirstBreak {
-    double stress = 0.0;      // N/m, in the last increment before the break
+    double stress = 0.0;      // N/m, stress in the last increment before the break
     double lateral = 0.0;     // N/m, largest lateral stress until then
     double unbalanced = 0.0;  // N, largest net force on the observed disc until then
     bool right_bonds = true;  // whether only bonds of the expected rows broke

@@ -10,7 +10,7 @@ namespace crackle::verification {
 struct TwoBlocks {
     static constexpr double width = 0.04, height = 0.04, thick = 4e-5;  // m, size of the upper block, and the gap
     static constexpr double modulus = 50e9, ratio = 2.0;                // Pa, k_n over k_s
-    static constexpr double distance = 0.5 * height;                    // m, for the stiffness of a face
+    static constexpr double distance = 0.5 * height;                    // m, distance that sets the stiffness of a face
     static constexpr double density = 2500.0;
 
     World world;

@@ -48,7 +48,7 @@ std::vector<ClaimRow> beam_bends_as_the_theory_of_elasticity_has_it() {
 
 struct NotchedBeam {
     double compliance;        // m/N, displacement at the load divided by the load
-    double stress_intensity;  // m^-1/2, by the formula, divided by the load
+    double stress_intensity;  // m^-1/2, stress intensity by the formula, divided by the load
     double points;            // largest number of bonded points between two cells
 };
 /// A beam with a notch that ends between row number `cut` and the next.
@@ -81,8 +81,8 @@ std::vector<ClaimRow> notched_beam_sets_free_the_energy_of_its_stress_intensity(
     Rows rows;
     rows.exactly("contact points of a face, each a spring along and across", beams.front().points, 4.0);
     for (const std::size_t k : {1U, 2U}) {
-        const double released =
-            0.5 * (beams[k + 1].compliance - beams[k - 1].compliance) / (4.0 * row_height);  // for a load of 1
+        // Energy release rate for a load of 1.
+        const double released = 0.5 * (beams[k + 1].compliance - beams[k - 1].compliance) / (4.0 * row_height);
         rows.relative(fmt::format("K_I of a notch of {} of {} rows", 7 + 2 * k, depth),
                       std::sqrt(lattice.modulus() * released), beams[k].stress_intensity, 0.05,
                       "a quarter row of notch");

@@ -110,7 +110,7 @@ std::vector<ClaimRow> glued_arcs_stretch_the_centre_less() {
     const VirtualTest test = disc("");
     const double half = 0.5 * test.setup.specimen.width;
     const double force =
-        test.small_strain->moduli.youngs_modulus * test.setup.apparatus.section;  // N, at a strain of 1
+        test.small_strain->moduli.youngs_modulus * test.setup.apparatus.section;  // N, force at a strain of 1
     const double got = -stress_across(test, test.small_strain->moduli.solution.displacement);
     Rows rows;
     rows.absolute("stress across over Hondros'", got / (hondros() * force / (2.0 * half * std::sin(alpha))), 0.95, 0.02,

@@ -40,7 +40,7 @@ double slip_of(const VirtualTest& test) {
 
 struct Sheared {
     VirtualTest test;
-    double slip = 0.0;  // m, caused by shearing alone
+    double slip = 0.0;  // m, slip caused by shearing alone
 };
 
 /// Shears the joint by its upper box to the given strain; bonds to the boxes do not break.
@@ -77,7 +77,7 @@ Sheared sheared(double strain, double rate) {
 std::vector<ClaimRow> plane_joint_slips_at_its_friction_and_yields_by_its_shear_stiffness() {
     Rows rows;
     const double strength = pressed * std::tan(angle * std::numbers::pi / 180.0);
-    const double stiffness = modulus / ratio / side;  // Pa/m, for cells at a distance of one side
+    const double stiffness = modulus / ratio / side;  // Pa/m, stiffness of faces of cells at a distance of one side
     const double to_slip = strength / stiffness / side;
     // The couple of the shear forces reduces the normal force at one end; far below the strength, neither end slips.
     const Sheared sticking = sheared(0.05 * to_slip, slow);

@@ -22,7 +22,7 @@ inline Material rock(double friction_angle = 27.0, double shear_share = 0.25) {
 
 struct Momentum {
     double x = 0.0, y = 0.0;     // N s
-    double angular = 0.0;        // N m s about the origin
+    double angular = 0.0;        // N m s, angular momentum about the origin
     double scale = 0.0;          // N s, sum of the magnitudes of the bodies' momenta
     double angular_scale = 0.0;  // N m s, sum of the magnitudes of the angular momenta
 };

@@ -11,7 +11,7 @@ export type SequentialName = (typeof sequentialNames)[number];
 
 const sequential: Record<SequentialName, (share: number) => string> = {viridis: interpolateViridis, cividis: interpolateCividis, inferno: interpolateInferno};
 
-// Paul Tol's "muted" set, light ones first, so that particle numbers stay readable on most of them.
+// Paul Tol's "muted" set, light colours first, so that particle numbers stay readable on most of them.
 const distinct = ['#88ccee', '#ddcc77', '#44aa99', '#cc6677', '#aa4499', '#117733', '#999933', '#882255', '#332288'];
 
 export function rgb(colour: string): Rgb {

@@ -16,7 +16,7 @@ export function expose(viewer: Viewer): void {
         settled: () => viewer.scaled(),
         /// Position on the page of a particle of a test, in CSS pixels.
         place: (name: string, id: number) => viewer.placeOf(name, id),
-        /// Draws as while the picture moves, and waits until drawing is finished.
+        /// Draws at the resolution used while the picture moves, and waits until drawing is finished.
         draw: () => {
             stage.drawMoving();
             stage.finish();

@@ -44,7 +44,7 @@ interface TestEntry {
     summary: Summary;
     walls?: [number, number, number, number];
     sides?: [number, number]; // m, left and right end of the specimen over all frames, without splinters far away
-    velocities?: 'mean'; // if velocities are means between two frames
+    velocities?: 'mean'; // present if velocities are means between two frames
     curves?: {in_time: boolean; bodies: ListedBodies; velocities: ListedBodies}; // only for decks
     arrays: Record<string, ArrayEntry>;
     frames: FrameEntry[];
@@ -99,7 +99,7 @@ export interface BondEvents {
     strain: NumberArray;
     x: NumberArray; // m
     y: NumberArray;
-    orientation: NumberArray; // rad, of the contact normal, in (-π/2, π/2]
+    orientation: NumberArray; // direction of the contact normal, rad, in (-π/2, π/2]
 }
 
 /// Bond breaks.

@@ -25,7 +25,7 @@ export interface Placing {
 export interface Pane {
     rectangle: Rectangle;
     views: readonly SpecimenView[];
-    pixelsPerMetre: number; // at which the specimen fits the pane
+    pixelsPerMetre: number; // scale at which the specimen fits the pane
 }
 
 ColorManagement.enabled = false; // colours are passed unchanged

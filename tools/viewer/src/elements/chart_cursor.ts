@@ -7,7 +7,7 @@ import type {ECharts} from 'echarts/core';
 import {element} from './dom';
 
 export interface Mark {
-    value: number; // in the axis's own unit
+    value: number; // value in the axis's own unit
     colour: string;
 }
 

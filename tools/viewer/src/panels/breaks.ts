@@ -68,7 +68,8 @@ export function breakCard({test, label}: LabelledTest, settings: MapSettings, th
 
 function drawMap(container: HTMLElement, test: TestData, {colour, slips}: MapSettings, largest: number, theme: Theme): ECharts {
     const {events} = test, extent = extentOfBondEvents(test);
-    const width = container.clientWidth, scale = scaleFor([0.9 * Math.max(extent.x2 - extent.x1, extent.y2 - extent.y1)], 'm'); // without the room for marks
+    // Size without the room for marks.
+    const width = container.clientWidth, scale = scaleFor([0.9 * Math.max(extent.x2 - extent.x1, extent.y2 - extent.y1)], 'm');
     const left = 54, right = 12, top = 10, bottom = 40;
     // Both axes have the same scale.
     const perMetre = Math.min((mapHeight - top - bottom) / (extent.y2 - extent.y1), (width - left - right) / (extent.x2 - extent.x1));

@@ -17,7 +17,8 @@ export interface Scale {
     unit: string; // unit with its prefix; empty if the unit is unknown
 }
 
-/// Quantities by SI unit whose units particle files and decks do not state. The units of angles and times are always known.
+/// For each SI unit, the quantity whose unit particle files and decks do not state. Units of angles and times are
+/// always known.
 const unstated: Record<string, Exclude<keyof UnitNames, 'prefixes'>> = {m: 'length', 'm/s': 'velocity', N: 'force', J: 'energy', 'N/m': 'stress'};
 let statedUnits = true;
 let unitNames: UnitNames | undefined;
