@@ -30,9 +30,7 @@ LinearFigures moduli_of_case(ResolvedCase test, PackingStore& packings) {
     LinearFigures found{};
     found.fill(std::nan(""));
     TestHooks hooks;
-    hooks.keep_packing = [&](const ResolvedCase& of, const PackingRequest& request, const auto& make) {
-        return packings.get(of, request, make);
-    };
+    hooks.keep_packing = packings.keeping(test);
     const auto look = [&](const World&, const TestSetup&, const Moduli& moduli) {
         found = {moduli.youngs_modulus, moduli.poissons_ratio, moduli.gauge_modulus};
     };

@@ -11,9 +11,7 @@
 #include "solver/scene/scene.hpp"
 #include "specimens/joints/joint_trace.hpp"
 #include "specimens/kinds/test_kind.hpp"
-#include "specimens/making/hooks.hpp"
 #include "specimens/making/minerals.hpp"
-#include "specimens/parts/resolved_case.hpp"
 
 namespace crackle {
 
@@ -51,14 +49,5 @@ struct Specimen {
 /// Names passed to hooks.made(): for the circles, including those from which polygons are meshed, and for the polygons.
 inline constexpr const char* circles_file = "specimen_circles.dat";
 inline constexpr const char* polygons_file = "specimen_polygons.dat";
-
-/// The circles of a case with [packing], obtained through hooks.keep_packing if set.
-/// @throws InputError that names the case's key if the circles cannot be packed; TestInterrupted
-Packing packing_of(const ResolvedCase& test, const TestHooks& hooks);
-
-/// Creates or reads the specimen that the case describes.
-/// @throws InputError that names the case's key if the specimen cannot be read, packed, meshed or tested;
-/// TestInterrupted
-Specimen make_specimen(const ResolvedCase& test, const TestHooks& hooks);
 
 }  // namespace crackle
