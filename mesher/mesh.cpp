@@ -260,6 +260,43 @@ std::array<int, 3> traces_along(const Triangles& triangles, std::size_t t) {
     return {opposite[2], opposite[0], opposite[1]};
 }
 
+std::array<Point, 3> outline_of(const Triangles& triangles, std::size_t t) {
+    const auto point = [&](int k) { return triangles.points[static_cast<std::size_t>(k)]; };
+    const auto& c = triangles.corners[t];
+    return {point(c[0]), point(c[1]), point(c[2])};
+}
+
+/// Numbers of the centres at the corners of a triangle.
+std::array<int, 3> centres_about(const Triangles& triangles, std::size_t t) {
+    std::array<int, 3> numbers{};
+    for (std::size_t k = 0; k < 3; ++k)
+        numbers[k] = triangles.centre_of[static_cast<std::size_t>(triangles.corners[t][k])];
+    return numbers;
+}
+
+/// Throws an error that names the most slender of the triangles that the inset destroys.
+[[noreturn]] void refuse_destroyed_triangles(const Triangles& triangles, const std::vector<int>& destroyed, bool traced,
+                                             double depth, double scale) {
+    const auto outline = [&](std::size_t t) { return outline_of(triangles, t); };
+    const int worst = *std::min_element(destroyed.begin(), destroyed.end(), [&](int a, int b) {
+        return slenderness(outline(static_cast<std::size_t>(a))) < slenderness(outline(static_cast<std::size_t>(b)));
+    });
+    const auto corners = outline(static_cast<std::size_t>(worst));
+    std::vector<int> named;
+    std::string numbers;
+    for (const int centre : centres_about(triangles, static_cast<std::size_t>(worst))) {
+        numbers += (numbers.empty() ? "" : ", ") + (centre >= 0 ? std::to_string(centre)
+                                                    : !traced   ? std::string("wall")
+                                                                : std::string("wall or trace"));
+        if (centre >= 0) named.push_back(centre);
+    }
+    std::vector<int> traces = traces_about(triangles, static_cast<std::size_t>(worst));
+    const std::string by = in_words(traces);
+    refuse_destroyed(fmt::format("triangle {} of centres {} at {}, {}, {}{}", worst, numbers, place(corners[0]),
+                                 place(corners[1]), place(corners[2]), by),
+                     inscribed_radius(corners, scale), depth, destroyed.size(), std::move(named), std::move(traces));
+}
+
 Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
                    double depth) {
     const double scale = coordinate_scale(domain);
@@ -282,17 +319,7 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
             centres.size(), centres.size() == 1 ? "" : "s"));
     }
     Inset inset(depth, scale);
-    const auto point = [&](int k) { return triangles.points[static_cast<std::size_t>(k)]; };
-    const auto outline = [&](std::size_t t) {
-        const auto& c = triangles.corners[t];
-        return std::array<Point, 3>{point(c[0]), point(c[1]), point(c[2])};
-    };
-    const auto centres_of = [&](std::size_t t) {
-        std::array<int, 3> numbers{};
-        for (std::size_t k = 0; k < 3; ++k)
-            numbers[k] = triangles.centre_of[static_cast<std::size_t>(triangles.corners[t][k])];
-        return numbers;
-    };
+    const auto outline = [&](std::size_t t) { return outline_of(triangles, t); };
     // Outlines are inset twice: first to find the destroyed ones, then to add the others. This is faster than storing
     // them.
     std::vector<int> destroyed;
@@ -300,27 +327,8 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
         patience.piece();
         if (inset.of(outline(t)).empty()) destroyed.push_back(static_cast<int>(t));
     }
-    if (!destroyed.empty() && !request.merge_destroyed) {
-        const int worst = *std::min_element(destroyed.begin(), destroyed.end(), [&](int a, int b) {
-            return slenderness(outline(static_cast<std::size_t>(a))) <
-                   slenderness(outline(static_cast<std::size_t>(b)));
-        });
-        const auto corners = outline(static_cast<std::size_t>(worst));
-        std::vector<int> named;
-        std::string numbers;
-        for (const int centre : centres_of(static_cast<std::size_t>(worst))) {
-            numbers += (numbers.empty() ? "" : ", ") + (centre >= 0              ? std::to_string(centre)
-                                                        : request.traces.empty() ? std::string("wall")
-                                                                                 : std::string("wall or trace"));
-            if (centre >= 0) named.push_back(centre);
-        }
-        std::vector<int> traces = traces_about(triangles, static_cast<std::size_t>(worst));
-        const std::string by = in_words(traces);
-        refuse_destroyed(fmt::format("triangle {} of centres {} at {}, {}, {}{}", worst, numbers, place(corners[0]),
-                                     place(corners[1]), place(corners[2]), by),
-                         inscribed_radius(corners, scale), depth, destroyed.size(), std::move(named),
-                         std::move(traces));
-    }
+    if (!destroyed.empty() && !request.merge_destroyed)
+        refuse_destroyed_triangles(triangles, destroyed, traced, depth, scale);
     const auto join = [&] {
         try {
             return join_destroyed(triangles, destroyed, depth, scale);
@@ -342,14 +350,14 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
             const auto after = inset.of(alone);
             Cell& cell = traced ? builder.add(alone, after, traces_along(triangles, t), inset.edges_kept())
                                 : builder.add(alone, after);
-            cell.centres = centres_of(t);
+            cell.centres = centres_about(triangles, t);
         } else if (next != joined.outlines.end() && static_cast<std::size_t>(next->triangle) == t) {
             before.clear();
-            for (const int corner : next->corners) before.push_back(point(corner));
+            for (const int corner : next->corners) before.push_back(triangles.points[static_cast<std::size_t>(corner)]);
             const auto after = inset.of(before);
             Cell& cell =
                 traced ? builder.add(before, after, next->traces, inset.edges_kept()) : builder.add(before, after);
-            cell.centres = centres_of(t);
+            cell.centres = centres_about(triangles, t);
             ++next;
         }
     }

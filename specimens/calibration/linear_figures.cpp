@@ -30,14 +30,32 @@ LinearFigures moduli_of_case(ResolvedCase test, PackingStore& packings) {
     LinearFigures found{};
     found.fill(std::nan(""));
     TestHooks hooks;
-    hooks.keep_packing = [&](const ResolvedCase& of, const PackingRequest& request, const auto& make) {
-        return packings.get(of, request, make);
-    };
+    hooks.keep_packing = packings.keeping(test);
     const auto look = [&](const World&, const TestSetup&, const Moduli& moduli) {
         found = {moduli.youngs_modulus, moduli.poissons_ratio, moduli.gauge_modulus};
     };
     bond_test(test, hooks, look);
     return found;
+}
+
+/// Means by test. A mean covers the packings that have the result, and at least half of them must have it, as with
+/// tests; otherwise it is NaN. @param found  by packing, then by test @param fit  number of packings
+std::vector<std::vector<double>> means_of(const std::vector<LinearFigures>& found, std::size_t tests,
+                                          std::int64_t fit) {
+    std::vector<std::vector<double>> means(tests, std::vector<double>(linear_figures, std::nan("")));
+    for (std::size_t test = 0; test < tests; ++test) {
+        for (std::size_t k = 0; k < linear_figures; ++k) {
+            double sum = 0.0;
+            std::int64_t counted = 0;
+            for (std::size_t piece = test; piece < found.size(); piece += tests) {
+                if (!std::isfinite(found[piece][k])) continue;
+                sum += found[piece][k];
+                ++counted;
+            }
+            if (2 * counted >= fit) means[test][k] = sum / static_cast<double>(counted);
+        }
+    }
+    return means;
 }
 
 }  // namespace
@@ -126,23 +144,11 @@ std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& reques
         throw SystemFailure(fmt::format("{}: a linear solve failed by the system: {}; the same command resumes",
                                         rock.file.string(), failed));
     if (!complete) throw TestInterrupted();
-    // A mean covers the packings that have the result, and at least half of them must have it, as with tests.
-    std::vector<std::vector<double>> means(request.tests.size(), std::vector<double>(linear_figures, std::nan("")));
-    for (std::size_t test = 0; test < request.tests.size(); ++test) {
-        for (std::size_t k = 0; k < linear_figures; ++k) {
-            double sum = 0.0;
-            std::int64_t counted = 0;
-            for (std::size_t piece = test; piece < count; piece += request.tests.size()) {
-                if (!std::isfinite(found[piece][k])) continue;
-                sum += found[piece][k];
-                ++counted;
-            }
-            if (2 * counted >= rock.fit) means[test][k] = sum / static_cast<double>(counted);
-        }
-        if (std::isnan(means[test][0]) && !refused.empty())
-            throw InputError(fmt::format("{}: more than half of the packings were refused, for example {}",
-                                         rock.file.string(), refused));
-    }
+    std::vector<std::vector<double>> means = means_of(found, request.tests.size(), rock.fit);
+    const bool refuses = std::ranges::any_of(means, [](const auto& of_test) { return std::isnan(of_test[0]); });
+    if (refuses && !refused.empty())
+        throw InputError(fmt::format("{}: more than half of the packings were refused, for example {}",
+                                     rock.file.string(), refused));
     return means;
 }
 

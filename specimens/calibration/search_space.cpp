@@ -27,7 +27,7 @@ Index level_key_of(const SearchSpace& space) {
     if (tensile < 0 || !cohesion) return -1;
     for (std::size_t test = 0; test < space.rock.tests.size(); ++test) {
         const ResolvedCase at = space.rock.case_of(test, space.values_at(space.start));
-        if (!at.bond_facts().strengths_are_given || !at.area_units() || !at.minerals.list.empty()) return -1;
+        if (!at.bond.facts().strengths_are_given || !at.area_units() || !at.minerals.list.empty()) return -1;
     }
     return tensile;
 }

@@ -25,7 +25,7 @@
 #include "solver/files/replace_file.hpp"
 #include "specimens/campaign/crew.hpp"
 #include "specimens/campaign/tasks.hpp"
-#include "specimens/making/specimen.hpp"
+#include "specimens/making/packed_circles.hpp"
 
 namespace crackle {
 namespace {
@@ -108,13 +108,10 @@ class RowWorker {
     std::string packing(const Task& task) {
         return answer([&] {
             TestHooks hooks;
-            hooks.keep_packing = [&](const ResolvedCase& of, const PackingRequest& request, const auto& make) {
-                return packings_.get(of, request, make);
-            };
-            ResolvedCase test = plan_.test_of(plan_.rows[task.row]);
-            test.numerics.threads = 1;  // a worker process uses one processor and starts no threads
+            const ResolvedCase test = plan_.test_of(plan_.rows[task.row]);
+            hooks.keep_packing = packings_.keeping(test);
             try {
-                packing_of(test, hooks);
+                packing_of(test, 1, test.places, hooks);  // a worker process uses one processor and starts no threads
             } catch (const OutputError&) {
                 throw;
             } catch (const std::exception&) {  // each test with this packing will report the reason

@@ -133,6 +133,32 @@ std::vector<std::string> usual_figures(const LedgerTable& results) {
     return usual;
 }
 
+namespace {
+
+/// Values by figure and variant, then by packing number.
+using Values = std::map<std::pair<std::size_t, std::string>, std::map<double, double>>;
+
+/// Sets the means of a point's figures, and their bias where companions have run.
+void take_means(PointSummary& point, const std::vector<std::string>& figures, Values& values) {
+    for (std::size_t f = 0; f < figures.size(); ++f) {
+        std::vector<double> all, asked, half_step, half_rate;
+        const auto &steps = values[{f, name_of(Variant::half_step)}], &rates = values[{f, name_of(Variant::half_rate)}];
+        for (const auto& [seed, value] : values[{f, name_of(Variant::as_asked)}]) {
+            all.push_back(value);
+            const auto step = steps.find(seed), rate = rates.find(seed);
+            if (step == steps.end() || rate == rates.end()) continue;
+            asked.push_back(value);
+            half_step.push_back(step->second);
+            half_rate.push_back(rate->second);
+        }
+        point.figures[figures[f]] = mean_of(all);
+        point.values[figures[f]] = std::move(all);
+        if (!asked.empty()) point.biases[figures[f]] = bias_of(asked, half_step, half_rate);
+    }
+}
+
+}  // namespace
+
 std::vector<PointSummary> summarise(const LedgerTable& results, const std::vector<std::string>& figures) {
     const Columns columns(results);
     const std::vector<std::string> known = numeric_figures(results);
@@ -146,8 +172,6 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
     }
     const std::size_t units = place_in(results, "material_units"), failed = place_in(results, "failed");
 
-    /// Values by figure and variant, then by packing number.
-    using Values = std::map<std::pair<std::size_t, std::string>, std::map<double, double>>;
     std::vector<PointSummary> points;
     std::vector<Values> values;
     std::map<std::string, std::size_t> place_of;
@@ -183,24 +207,7 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
             values[at->second][{f, variant}][*seed] = *value;
         }
     }
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        for (std::size_t f = 0; f < figures.size(); ++f) {
-            std::vector<double> all, asked, half_step, half_rate;
-            const auto &steps = values[p][{f, name_of(Variant::half_step)}],
-                       &rates = values[p][{f, name_of(Variant::half_rate)}];
-            for (const auto& [seed, value] : values[p][{f, name_of(Variant::as_asked)}]) {
-                all.push_back(value);
-                const auto step = steps.find(seed), rate = rates.find(seed);
-                if (step == steps.end() || rate == rates.end()) continue;
-                asked.push_back(value);
-                half_step.push_back(step->second);
-                half_rate.push_back(rate->second);
-            }
-            points[p].figures[figures[f]] = mean_of(all);
-            points[p].values[figures[f]] = std::move(all);
-            if (!asked.empty()) points[p].biases[figures[f]] = bias_of(asked, half_step, half_rate);
-        }
-    }
+    for (std::size_t p = 0; p < points.size(); ++p) take_means(points[p], figures, values[p]);
     return points;
 }
 

@@ -128,9 +128,7 @@ RowResult run_row(const ResolvedCase& test, const RowNames& names, Keep keep, co
     result.identity = names.identity;
     TestHooks hooks;
     hooks.interrupted = interrupted;
-    hooks.keep_packing = [&](const ResolvedCase& of, const PackingRequest& request, const auto& make) {
-        return packings.get(of, request, make);
-    };
+    hooks.keep_packing = packings.keeping(test);
     ResolvedCase description = test;
     description.numerics.threads = 1;
     const auto went_wrong = [&](const char* state, int exit, const std::string& message) {

@@ -7,7 +7,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/campaign/identity.hpp"
-#include "specimens/making/specimen.hpp"
+#include "specimens/making/hooks.hpp"
 
 namespace crackle {
 

@@ -9,7 +9,7 @@
 
 #include "solver/base/correctly_rounded.hpp"
 #include "specimens/joints/joint_network.hpp"
-#include "specimens/making/specimen.hpp"
+#include "specimens/making/make_specimen.hpp"
 #include "specimens/setup/bonded_specimen.hpp"
 
 namespace crackle {
@@ -39,8 +39,8 @@ std::optional<JointedCompliance> jointed_compliance(const ResolvedCase& test, co
     const double inset = 0.5 * specimen.mesh_gap;
     JointedCompliance found;
     hooks.report_work("solving for the compliance");
-    found.jointed = compliance_of(bond_alone(specimen, test), box, inset);
-    found.welded = compliance_of(bond_alone(specimen, test, Traces::welded), box, inset);
+    found.jointed = compliance_of(bond_alone(specimen, test.bond, test), box, inset);
+    found.welded = compliance_of(bond_alone(specimen, test.bond, test, Traces::welded), box, inset);
     const std::size_t centres =
         specimen.centres > 0 ? static_cast<std::size_t>(specimen.centres) : specimen.scene.bodies.size();
     const JointNetwork network = make_joints(test.joints, box, centres);

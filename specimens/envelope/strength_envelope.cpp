@@ -115,8 +115,10 @@ HoekBrown fit_hoek_brown(const WeightedPoints& points) {
 }
 
 /// Tests grouped by packing, in the order of the packings' names.
-std::map<std::string, std::vector<StrengthPoint>> by_packing(std::span<const StrengthPoint> tests) {
-    std::map<std::string, std::vector<StrengthPoint>> packings;
+using PackingStrengths = std::map<std::string, std::vector<StrengthPoint>>;
+
+PackingStrengths by_packing(std::span<const StrengthPoint> tests) {
+    PackingStrengths packings;
     for (const StrengthPoint& test : tests) packings[test.packing].push_back(test);
     return packings;
 }
@@ -247,10 +249,77 @@ double StrengthEnvelope::mohr_coulomb_on_plane(double normal) const {
     return cohesion.value + normal * (slope.value - 1.0) / (2.0 * std::sqrt(slope.value));  // tan φ
 }
 
+namespace {
+
+/// The strengths of several packings, from which any of them can be drawn again.
+class DrawnPackings {
+  public:
+    /// @param points  the mean strength of all packings at each confinement @param means  the same strengths
+    DrawnPackings(const PackingStrengths& packings, const WeightedPoints& points, std::span<const StrengthAt> means)
+        : points_(points), means_(means) {
+        for (const auto& [name, own] : packings) {
+            std::vector<Sums>& sums = packings_.emplace_back(points.size());
+            for (const StrengthPoint& test : own) {
+                const auto at = std::ranges::lower_bound(points, test.confinement, {}, &WeightedPoint::confinement);
+                Sums& sum = sums[static_cast<std::size_t>(at - points.begin())];
+                sum.strength += test.strength;
+                sum.tests += 1.0;
+            }
+        }
+    }
+
+    /// Fits the six numbers to the given packings, each counted as often as it is listed; empty if no line can be
+    /// fitted.
+    std::optional<Numbers> operator()(const std::vector<std::size_t>& named) const {
+        std::vector<Sums> sums(points_.size());
+        for (const std::size_t packing : named) {
+            const std::vector<Sums>& own = packings_[packing];
+            for (std::size_t at = 0; at < sums.size(); ++at) {
+                sums[at].strength += own[at].strength;
+                sums[at].tests += own[at].tests;
+            }
+        }
+        WeightedPoints again;
+        for (std::size_t at = 0; at < sums.size(); ++at) {
+            if (sums[at].tests == 0.0) continue;
+            again.push_back({points_[at].confinement, sums[at].strength / sums[at].tests,
+                             std::sqrt(sums[at].tests) / means_[at].mean});
+        }
+        if (again.size() < 2) return std::nullopt;
+        return numbers_of(again);
+    }
+
+  private:
+    /// Sum and number of a packing's strengths at one confinement.
+    struct Sums {
+        double strength = 0.0, tests = 0.0;
+    };
+
+    const WeightedPoints& points_;
+    std::span<const StrengthAt> means_;
+    std::vector<std::vector<Sums>> packings_;
+};
+
+/// States how far both fitted laws are from the mean strengths.
+void state_misfits(StrengthEnvelope& envelope) {
+    double line_squares = 0.0, law_squares = 0.0;
+    for (const StrengthAt& at : envelope.strengths) {
+        const double by_line = envelope.mohr_coulomb(at.confinement) / at.mean - 1.0,
+                     by_law = envelope.hoek_brown(at.confinement) / at.mean - 1.0;
+        line_squares += by_line * by_line;
+        law_squares += by_law * by_law;
+    }
+    const auto confinements = static_cast<double>(envelope.strengths.size());
+    envelope.misfit = std::sqrt(line_squares / confinements);
+    envelope.hoek_brown_misfit = std::sqrt(law_squares / confinements);
+}
+
+}  // namespace
+
 StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests) {
     StrengthEnvelope envelope;
     envelope.strengths = by_confinement(tests);
-    const auto packings = by_packing(tests);
+    const PackingStrengths packings = by_packing(tests);
     envelope.packings = packings.size();
     if (envelope.strengths.size() < fewest_confinements || packings.size() < fewest_packings) {
         throw InputError(fmt::format(
@@ -272,54 +341,12 @@ StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests) {
     const Numbers best = numbers_of(points);
     for (std::size_t k = 0; k < fitted.size(); ++k) fitted[k]->value = best[k];
 
-    // Sum and number of a packing's strengths at one confinement.
-    struct Sums {
-        double strength = 0.0, tests = 0.0;
-    };
-    std::vector<std::vector<Sums>> drawable;
-    for (const auto& [name, own] : packings) {
-        std::vector<Sums>& sums = drawable.emplace_back(points.size());
-        for (const StrengthPoint& test : own) {
-            const auto at = std::ranges::lower_bound(points, test.confinement, {}, &WeightedPoint::confinement);
-            Sums& sum = sums[static_cast<std::size_t>(at - points.begin())];
-            sum.strength += test.strength;
-            sum.tests += 1.0;
-        }
-    }
-    // Fits the six numbers to the given packings, each counted as often as it is listed; empty if no line can be
-    // fitted.
-    const auto numbers_with = [&](const std::vector<std::size_t>& named) -> std::optional<Numbers> {
-        std::vector<Sums> sums(points.size());
-        for (const std::size_t packing : named) {
-            const std::vector<Sums>& own = drawable[packing];
-            for (std::size_t at = 0; at < sums.size(); ++at) {
-                sums[at].strength += own[at].strength;
-                sums[at].tests += own[at].tests;
-            }
-        }
-        WeightedPoints again;
-        for (std::size_t at = 0; at < sums.size(); ++at) {
-            if (sums[at].tests == 0.0) continue;
-            again.push_back({points[at].confinement, sums[at].strength / sums[at].tests,
-                             std::sqrt(sums[at].tests) / envelope.strengths[at].mean});
-        }
-        if (again.size() < 2) return std::nullopt;
-        return numbers_of(again);
-    };
+    const DrawnPackings numbers_with(packings, points, envelope.strengths);
     if (packings.size() < fewest_of_bootstrap)
         state_by_leaving_out(fitted, packings.size(), numbers_with);
     else
         state_by_drawing(fitted, packings.size(), numbers_with);
-    double line_squares = 0.0, law_squares = 0.0;
-    for (const StrengthAt& at : envelope.strengths) {
-        const double by_line = envelope.mohr_coulomb(at.confinement) / at.mean - 1.0,
-                     by_law = envelope.hoek_brown(at.confinement) / at.mean - 1.0;
-        line_squares += by_line * by_line;
-        law_squares += by_law * by_law;
-    }
-    const auto confinements = static_cast<double>(envelope.strengths.size());
-    envelope.misfit = std::sqrt(line_squares / confinements);
-    envelope.hoek_brown_misfit = std::sqrt(law_squares / confinements);
+    state_misfits(envelope);
     return envelope;
 }
 

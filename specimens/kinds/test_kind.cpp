@@ -32,6 +32,16 @@ double Notch::distance(Vec2 place) const {
     return norm(from - std::clamp(dot(from, way) / dot(way, way), 0.0, 1.0) * way);
 }
 
+double Shape::area(const Domain& box) const {
+    if (outline.empty()) return (box.x2 - box.x1) * (box.y2 - box.y1);
+    double twice = 0.0;
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        const Vec2 a = outline[k], b = outline[k + 1 == outline.size() ? 0 : k + 1];
+        twice += a.x * b.y - b.x * a.y;
+    }
+    return 0.5 * twice;
+}
+
 bool Shape::holds(Vec2 place) const {
     for (std::size_t k = 0; k < outline.size(); ++k)
         if (side_of(outline[k], outline[k + 1 == outline.size() ? 0 : k + 1], place) < 0.0) return false;

@@ -54,6 +54,8 @@ struct Shape {
 
     /// Whether the whole packing is tested.
     bool whole() const { return outline.empty() && !notch; }
+    /// Area, m2. @param box  the box of the packing
+    double area(const Domain& box) const;
     /// Whether a point lies inside the shape; always true for the whole packing.
     bool holds(Vec2 place) const;
 };
@@ -86,7 +88,7 @@ struct SurfacePoint {
 
 /// Input from which a kind derives the specimen's shape and the apparatus.
 struct KindRequest {
-    const ResolvedCase& test;
+    const parts::Procedure& test;
     Domain packing;           ///< the box of the packing
     double particle = 0.0;    ///< m, mean particle size: square root of a cell's area, or diameter of a circle
     double offset = 0.0;      ///< m, distance from a face of the packing to the face of a bonded part

@@ -113,7 +113,7 @@ std::optional<CompanionFigures> run_one(const CompanionPlan& plan, const Virtual
     done.peak_stress = other.state.failure.peak_stress;
     done.peak_strain = other.state.failure.peak_strain;
     done.post_peak_difference = post_peak_difference(test, other);
-    if (const auto cracks = crack_thresholds_of(other.description, other.setup.apparatus, other.state)) {
+    if (const auto cracks = crack_thresholds_of(other.description.loading, other.setup.apparatus, other.state)) {
         done.crack_initiation_stress = cracks->count_break;
         done.crack_damage_stress = cracks->damage;
     }
@@ -211,7 +211,7 @@ std::optional<NumericalErrors> run_companions(const VirtualTest& test, const Tes
     figures.peak_stress = error_of(f.peak_stress, resolved_stress(test), companions, &CompanionFigures::peak_stress);
     figures.peak_strain = error_of(f.peak_strain, resolved_strain(test), companions, &CompanionFigures::peak_strain);
     if (const std::optional<CrackThresholds> own =
-            crack_thresholds_of(test.description, test.setup.apparatus, test.state)) {
+            crack_thresholds_of(test.description.loading, test.setup.apparatus, test.state)) {
         const auto error = [&](double stress, Number CompanionFigures::*value) {
             return error_of(stress, resolved_before_peak(test, stress), companions, value);
         };

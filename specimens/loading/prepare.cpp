@@ -15,6 +15,7 @@
 #include "specimens/loading/press.hpp"
 #include "specimens/loading/quasi_static_start.hpp"
 #include "specimens/loading/unlikely_numbers.hpp"
+#include "specimens/making/make_specimen.hpp"
 #include "specimens/setup/bonded_specimen.hpp"
 #include "specimens/setup/lateral_control.hpp"
 #include "specimens/setup/platen_hold.hpp"
@@ -134,7 +135,7 @@ bool bears(const VirtualTest& refused, const ResolvedCase& lower, const Specimen
     VirtualTest attempt;
     attempt.description = lower;
     attempt.small_strain = refused.small_strain;
-    BondedSpecimen bonded = bond_specimen(specimen, lower, twin.while_solving);
+    BondedSpecimen bonded = bond_specimen(specimen, lower.bond, lower, twin.while_solving);
     attempt.world = std::move(bonded.world);
     compute_forces(attempt.world);
     attempt.setup = record_setup(attempt.world, specimen, bonded.platens, lower.loading.kind, lower.loading.grip);
@@ -200,7 +201,7 @@ NewTest make_and_bond(const ResolvedCase& description, const TestHooks& hooks) {
         made.while_solving = [asked = hooks.interrupted] {
             if (asked()) throw TestInterrupted();
         };
-    BondedSpecimen bonded = bond_specimen(made.specimen, description, made.while_solving);
+    BondedSpecimen bonded = bond_specimen(made.specimen, description.bond, description, made.while_solving);
     test.world = std::move(bonded.world);
     test.world.bonds.watch_slips = description.output.slips;
     made.platens = std::move(bonded.platens);
@@ -233,9 +234,9 @@ VirtualTest measure_at_rest(NewTest made, const ResolvedCase& description, const
         if (description.confined()) confine_or_advise(test, specimen, {nullptr, nullptr, while_solving});
         if (test.setup.apparatus.normal_force > 0.0 || test.setup.apparatus.normal_spring > 0.0) press(test);
     } else {
-        ResolvedCase held = description;
+        parts::Procedure held = description;
         held.loading.platens = PlatenKind::bonded;
-        BondedSpecimen twin = bond_specimen(specimen, held, while_solving);
+        BondedSpecimen twin = bond_specimen(specimen, description.bond, held, while_solving);
         compute_forces(twin.world);
         const TestSetup own = record_setup(twin.world, specimen, twin.platens, kind, grip);
         try {

@@ -32,7 +32,7 @@ Scene part_of(const Scene& scene, const Keep& keep) {
 
 }  // namespace
 
-void cut_shape(Scene& scene, const Shape& shape, bool polygons, const ResolvedCase& test) {
+void cut_shape(Scene& scene, const Shape& shape, bool polygons, bool meshed, const parts::Procedure& test) {
     if (shape.whole()) return;
     if (polygons && !shape.outline.empty()) {
         throw InputError(
@@ -40,7 +40,7 @@ void cut_shape(Scene& scene, const Shape& shape, bool polygons, const ResolvedCa
                         "\"{}\", since polygons cannot be cut",
                         test.at(CaseKey::particles_file), name_of(test.loading.kind)));
     }
-    const bool slot = shape.notch && !test.mesh && !polygons;
+    const bool slot = shape.notch && !meshed && !polygons;
     scene = polygons ? scene : part_of(scene, [&](const Body& body) {
         const Vec2 centre = mass_properties(scene, body).centroid;
         if (!shape.holds(centre)) return false;

@@ -12,8 +12,9 @@
 namespace crackle {
 
 /// Keeps the bodies inside the shape; circles that the notch crosses are removed.
+/// @param meshed  whether the bodies that remain are the seeds of a mesh
 /// @throws InputError if too few bodies remain, or if polygons would have to be cut
-void cut_shape(Scene& scene, const Shape& shape, bool polygons, const ResolvedCase& test);
+void cut_shape(Scene& scene, const Shape& shape, bool polygons, bool meshed, const parts::Procedure& test);
 
 /// Ids of the bodies that lie within a region.
 std::vector<int> bodies_within(const Scene& scene, const Region& region);

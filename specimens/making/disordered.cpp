@@ -7,7 +7,7 @@
 #include <random>
 
 #include "solver/base/errors.hpp"
-#include "specimens/making/open_scene.hpp"
+#include "specimens/making/materials.hpp"
 #include "specimens/statistics/random_numbers.hpp"
 
 namespace crackle {

@@ -14,7 +14,6 @@ namespace crackle {
 
 struct Packing;
 struct PackingRequest;
-struct ResolvedCase;
 struct VirtualTest;
 
 /// Progress of a test; stresses in stress_unit.
@@ -53,10 +52,9 @@ struct TestHooks {
     std::function<AfterLook(VirtualTest&)> look;
     std::int64_t look_every = 0;  ///< number of steps between calls of `look`; 0: at rows
 
-    /// Returns the packing for a case, either from a store or made by calling `make`. If the callback is empty, every
-    /// packing is made.
-    std::function<Packing(const ResolvedCase&, const PackingRequest&, const std::function<Packing()>& make)>
-        keep_packing;
+    /// Returns the packing for a request, either from a store or made by calling `make`. If the callback is empty,
+    /// every packing is made.
+    std::function<Packing(const PackingRequest&, const std::function<Packing()>& make)> keep_packing;
 
     /// Calls `stage`, if there is one.
     void report_stage(const std::string& line) const {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "solver/base/correctly_rounded.hpp"
-#include "specimens/making/open_scene.hpp"
+#include "specimens/making/materials.hpp"
 
 namespace crackle {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A material for scenes made in memory.
+// A material and a scene for specimens made in memory.
 // Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
@@ -16,6 +16,14 @@ inline Material undamped_rock(double normal_stiffness, double friction_angle, do
     material.shear_stiffness = shear_share * normal_stiffness;
     material.friction_angle = friction_angle;
     return material;
+}
+
+/// A scene without bodies and walls, with a single material.
+inline Scene open_scene(const Material& material) {
+    Scene scene;
+    scene.materials = {material};
+    scene.domain.wall_present = {false, false, false, false};
+    return scene;
 }
 
 }  // namespace crackle

@@ -11,9 +11,8 @@
 #include "solver/scene/scene.hpp"
 #include "specimens/joints/joint_trace.hpp"
 #include "specimens/kinds/test_kind.hpp"
-#include "specimens/making/hooks.hpp"
 #include "specimens/making/minerals.hpp"
-#include "specimens/parts/resolved_case.hpp"
+#include "specimens/parts/rock.hpp"
 
 namespace crackle {
 
@@ -40,6 +39,8 @@ struct Specimen {
     std::int64_t segments = 0;          ///< number of edges of all polygons
     std::int64_t centres = 0;           ///< number of circles from which polygons were meshed; 0 if none were meshed
     std::vector<SpecimenTrace> traces;  ///< ordered by index
+    parts::Material material;       ///< what its rock is made of
+    parts::Minerals mineral_parts;  ///< the minerals of its rock, if it has any
     /// Minerals in the order in which the case lists them; empty for a rock with a single material.
     std::vector<MineralShare> minerals;
     /// m, by body of the scene: the centre around which a Voronoi cell was formed; NaN for triangles, and for cells that
@@ -55,14 +56,5 @@ struct Specimen {
 /// Names passed to hooks.made(): for the circles, including those from which polygons are meshed, and for the polygons.
 inline constexpr const char* circles_file = "specimen_circles.dat";
 inline constexpr const char* polygons_file = "specimen_polygons.dat";
-
-/// The circles of a case with [packing], obtained through hooks.keep_packing if set.
-/// @throws InputError that names the case's key if the circles cannot be packed; TestInterrupted
-Packing packing_of(const ResolvedCase& test, const TestHooks& hooks);
-
-/// Creates or reads the specimen that the case describes.
-/// @throws InputError that names the case's key if the specimen cannot be read, packed, meshed or tested;
-/// TestInterrupted
-Specimen make_specimen(const ResolvedCase& test, const TestHooks& hooks);
 
 }  // namespace crackle

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -15,6 +16,36 @@
 #include "specimens/packing/packing.hpp"
 
 namespace crackle {
+
+namespace {
+
+/// Counts the contacts of all circles in the report. @return forces on the walls at stiffness 1, m; indexed by Wall
+std::array<double, 4> count_contacts(const DiscAssembly& assembly, PackingReport& report) {
+    std::array<double, 4> wall_force{};
+    for (std::size_t i = 0; i < assembly.discs.size(); ++i) {
+        const Disc& disc = assembly.discs[i];
+        bool touched = false;
+        for (const std::uint32_t* j = assembly.neighbours_begin(i); j != assembly.neighbours_end(i); ++j) {
+            const Disc& other = assembly.discs[*j];
+            const double apart = disc.radius + other.radius;
+            const double dx = other.x - disc.x, dy = other.y - disc.y;
+            if (dx * dx + dy * dy >= apart * apart) continue;
+            touched = true;
+            if (*j > i) ++report.circle_contacts;
+        }
+        const double distance[4] = {disc.x, report.width - disc.x, disc.y, report.height - disc.y};  // indexed by Wall
+        for (std::size_t wall = 0; wall < 4; ++wall) {
+            if (distance[wall] >= disc.radius) continue;
+            touched = true;
+            ++report.wall_contacts[wall];
+            wall_force[wall] += disc.radius - distance[wall];
+        }
+        if (!touched) ++report.floating;
+    }
+    return wall_force;
+}
+
+}  // namespace
 
 PackingReport measure_packing(const Scene& scene, const SizeDistribution& sizes) {
     std::vector<Disc> discs;
@@ -43,27 +74,7 @@ PackingReport measure_packing(const Scene& scene, const SizeDistribution& sizes)
     report.mean_overlap = sums.mean_platen_overlap();
 
     const double stiffness = scene.materials.at(0).normal_stiffness;
-    double wall_force[4] = {0.0, 0.0, 0.0, 0.0};  // m, at stiffness 1
-    for (std::size_t i = 0; i < assembly.discs.size(); ++i) {
-        const Disc& disc = assembly.discs[i];
-        bool touched = false;
-        for (const std::uint32_t* j = assembly.neighbours_begin(i); j != assembly.neighbours_end(i); ++j) {
-            const Disc& other = assembly.discs[*j];
-            const double apart = disc.radius + other.radius;
-            const double dx = other.x - disc.x, dy = other.y - disc.y;
-            if (dx * dx + dy * dy >= apart * apart) continue;
-            touched = true;
-            if (*j > i) ++report.circle_contacts;
-        }
-        const double distance[4] = {disc.x, report.width - disc.x, disc.y, report.height - disc.y};  // indexed by Wall
-        for (int wall = 0; wall < 4; ++wall) {
-            if (distance[wall] >= disc.radius) continue;
-            touched = true;
-            ++report.wall_contacts[wall];
-            wall_force[wall] += disc.radius - distance[wall];
-        }
-        if (!touched) ++report.floating;
-    }
+    const std::array<double, 4> wall_force = count_contacts(assembly, report);
     const auto count = static_cast<double>(report.circles);
     const auto carrying = static_cast<double>(report.circles - report.floating);
     std::int64_t walls = 0;

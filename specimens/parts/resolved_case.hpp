@@ -56,28 +56,33 @@ struct Output {
     bool operator==(const Output&) const = default;
 };
 
-}  // namespace parts
-
-/// One virtual test. Its parts are independent of how they were written.
-struct ResolvedCase {
-    std::string title;
-    std::variant<parts::Packing, parts::ParticleFile> source;
-    std::optional<parts::Mesh> mesh;  ///< empty: the test uses the particles as they are
-    parts::Material material;
-    parts::Minerals minerals;
+/// What the particles are and consist of.
+struct Particles {
+    std::variant<Packing, ParticleFile> source;
+    std::optional<Mesh> mesh;  ///< empty: the test uses the particles as they are
+    Material material;
+    Minerals minerals;
     JointRequest joints;
-    parts::Bonds bond;
-    parts::Shape shape;
-    parts::Loading loading;
-    std::optional<parts::Confinement> confinement;
-    parts::Numerics numerics;
-    parts::Output output;
-
     double damping_scale = 1.0;  ///< factor on the damping of every material, applied after packing
-    double step_scale = 1.0;     ///< factor on the derived time step
 
-    std::vector<std::filesystem::path> case_files;  ///< the case file and the files that it includes
-    std::vector<std::filesystem::path> data_files;  ///< files that its parts name
+    /// The packing to be made; null if the particles are read from a file.
+    const Packing* packing() const { return std::get_if<Packing>(&source); }
+    Packing* packing() { return std::get_if<Packing>(&source); }
+    /// Whether stiffness and strengths are given per area, in Pa.
+    bool area_units() const { return material.units == StiffnessUnits::area; }
+    /// Unit of stresses and moduli: force per length, or force per area.
+    const char* stress_unit() const { return area_units() ? "Pa" : "N/m"; }
+
+    bool operator==(const Particles&) const = default;
+};
+
+/// How particles are held, driven and stepped.
+struct Procedure {
+    Shape shape;
+    Loading loading;
+    std::optional<Confinement> confinement;
+    Numerics numerics;
+    double step_scale = 1.0;  ///< factor on the derived time step
     Places places;
 
     /// Halves the time step. Halving the safety factor might not halve the step, which other bounds can limit.
@@ -86,9 +91,6 @@ struct ResolvedCase {
         step_scale *= 0.5;
     }
 
-    /// The packing to be made; null if the particles are read from a file.
-    const parts::Packing* packing() const { return std::get_if<parts::Packing>(&source); }
-    parts::Packing* packing() { return std::get_if<parts::Packing>(&source); }
     /// Pressure on the sides, N/m or Pa; 0 without confinement.
     double pressure() const { return confinement ? confinement->pressure : 0.0; }
     /// Whether a pressure acts on the sides.
@@ -97,14 +99,21 @@ struct ResolvedCase {
     bool pressed() const { return test_kind(loading.kind).pressed(); }
     /// Whether the whole packing lies between platens, so that stress and strain are those of the rock.
     bool uniaxial() const { return test_kind(loading.kind).uniaxial; }
-    /// Properties of the test's bond law.
-    const BondLawFacts& bond_facts() const { return facts_of(bond.law); }
-    /// Whether stiffness and strengths are given per area, in Pa.
-    bool area_units() const { return material.units == StiffnessUnits::area; }
-    /// Unit of stresses and moduli: force per length, or force per area.
-    const char* stress_unit() const { return area_units() ? "Pa" : "N/m"; }
     /// «file:line: table.key» for errors. @param key  the value that is wrong
     std::string at(CaseKey key) const { return places.at(key); }
+
+    bool operator==(const Procedure&) const = default;
+};
+
+}  // namespace parts
+
+/// One virtual test. Its parts are independent of how they were written; each stage takes those that it needs.
+struct ResolvedCase : parts::Particles, parts::Procedure {
+    std::string title;
+    parts::Bonds bond;
+    parts::Output output;
+    std::vector<std::filesystem::path> case_files;  ///< the case file and the files that it includes
+    std::vector<std::filesystem::path> data_files;  ///< files that its parts name
 
     bool operator==(const ResolvedCase&) const = default;
 };

@@ -134,6 +134,9 @@ struct Bonds {
     std::optional<double> tensile_factor, cohesion_factor;
     std::optional<RandomStrengths> random;  ///< empty: all bonds have the strengths of their materials
 
+    /// What is true of bonds by their law.
+    const BondLawFacts& facts() const { return facts_of(law); }
+
     bool operator==(const Bonds&) const = default;
 };
 

@@ -137,8 +137,8 @@ void confinement(ConfinementFigures& c, const PlacedApparatus& apparatus, const 
 }
 
 /// Adds the stresses at which cracks start to form and to coalesce, for a compression test.
-void cracking(CrackingFigures& c, const ResolvedCase& test, const TestSetup& setup, const TestState& state) {
-    const std::optional<CrackThresholds> t = crack_thresholds_of(test, setup.apparatus, state);
+void cracking(CrackingFigures& c, const parts::Loading& loading, const TestSetup& setup, const TestState& state) {
+    const std::optional<CrackThresholds> t = crack_thresholds_of(loading, setup.apparatus, state);
     if (!t) return;
     const double peak = state.failure.peak_stress;
     c.crack_initiation_stress = t->count_break;
@@ -293,13 +293,13 @@ void counts(SpecimenFigures& s, const TestSetup& setup, const World& world) {
 
 /// Stress carried by the dashpots at the start of loading, divided by the largest stress; NaN unless the case gives
 /// rate_tolerance.
-double viscous_share(const ResolvedCase& test, const TestState& state) {
+double viscous_share(const parts::Procedure& test, const TestState& state) {
     if (test.loading.rate_tolerance() == nullptr || state.rows.empty()) return NAN;
     const double confined = test.pressure();
     return (state.rows.front().axial_stress - confined) / (state.failure.largest_stress - confined);
 }
 
-void numerics(NumericsFigures& n, const ResolvedCase& test, const TestSetup& setup, const TestState& state,
+void numerics(NumericsFigures& n, const parts::Procedure& test, const TestSetup& setup, const TestState& state,
               const World& world) {
     const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
     const bool rounded = world.settings.segment_law == SegmentLaw::rounded;
@@ -327,7 +327,6 @@ void numerics(NumericsFigures& n, const ResolvedCase& test, const TestSetup& set
     n.steps = world.stepping.steps;
     n.simulated_time = world.stepping.time;
     n.list_builds = world.list.builds;
-    n.seed = test.packing() != nullptr ? std::optional(test.packing()->seed) : std::nullopt;
 }
 
 PackingFigures packing(const Provenance& origin) {
@@ -388,15 +387,15 @@ void run(RunFigures& r, const TestSetup& setup, const TestState& state, const Wo
 
 }  // namespace
 
-FirstLoading judged_rows(const ResolvedCase& test, const TestState& state) {
-    return test.loading.unloads() ? first_loading(state.rows, state.failure.peak_row)
-                                  : FirstLoading{state.rows, state.failure.peak_row};
+FirstLoading judged_rows(const parts::Loading& loading, const TestState& state) {
+    return loading.unloads() ? first_loading(state.rows, state.failure.peak_row)
+                             : FirstLoading{state.rows, state.failure.peak_row};
 }
 
-std::optional<CrackThresholds> crack_thresholds_of(const ResolvedCase& test, const PlacedApparatus& apparatus,
+std::optional<CrackThresholds> crack_thresholds_of(const parts::Loading& loading, const PlacedApparatus& apparatus,
                                                    const TestState& state) {
     if (!apparatus.compression || !apparatus.uniaxial) return std::nullopt;
-    const FirstLoading first = judged_rows(test, state);
+    const FirstLoading first = judged_rows(loading, state);
     return find_crack_thresholds(first.rows, first.peak_row, state.youngs_modulus, state.poissons_ratio,
                                  apparatus.confining_pressure);
 }
@@ -404,13 +403,13 @@ std::optional<CrackThresholds> crack_thresholds_of(const ResolvedCase& test, con
 Summary make_summary(const ResolvedCase& test, const TestSetup& setup, const TestState& state, const World& world,
                      const TestTiming& timing, const NumericalErrors* errors) {
     Summary s;
-    const FirstLoading first = judged_rows(test, state);
+    const FirstLoading first = judged_rows(test.loading, state);
     s.about = describe(test, setup.specimen, state);
     strength(s.strength, setup.apparatus, state, first);
     nominal(s.nominal, setup, state, first);
     validity(s.validity, setup, state, first);
     confinement(s.confinement, setup.apparatus, state, world);
-    cracking(s.cracking, test, setup, state);
+    cracking(s.cracking, test.loading, setup, state);
     if (test.loading.unloads()) s.cycles = cycles(setup.apparatus, state);
     damage(s.damage, setup, state, world);
     s.crack_rose = directions(setup, state, world);
@@ -419,12 +418,13 @@ Summary make_summary(const ResolvedCase& test, const TestSetup& setup, const Tes
     energies(s, state);
     counts(s.specimen, setup, world);
     numerics(s.numerics, test, setup, state, world);
+    s.numerics.seed = test.packing() != nullptr ? std::optional(test.packing()->seed) : std::nullopt;
     numerical_errors(s, setup.apparatus, state, errors);
     if (!setup.origin.packing.empty()) s.packing = packing(setup.origin);
     if (!setup.origin.minerals.empty()) s.minerals = minerals(setup.origin);
     frames(s.frames, state);
     s.out_of_plane_thickness = test.output.out_of_plane_thickness;
-    s.notices = notices_of(test, setup, state, world, viscous_share(test, state));
+    s.notices = notices_of(test.loading, test.stress_unit(), setup, state, world, viscous_share(test, state));
     if (errors != nullptr) {
         const std::string notice = notice_of_companions(state.failure, *errors);
         if (!notice.empty()) s.notices->push_back(notice);

@@ -27,11 +27,12 @@ struct TestTiming {
 
 /// The rows from which peak, moduli and thresholds are computed: all rows, or those without unloading cycles if the
 /// case unloads.
-FirstLoading judged_rows(const ResolvedCase& test, const TestState& state);
+FirstLoading judged_rows(const parts::Loading& loading, const TestState& state);
 /// Crack thresholds of a compression test between platens; empty for other tests.
-std::optional<CrackThresholds> crack_thresholds_of(const ResolvedCase& test, const PlacedApparatus& apparatus,
+std::optional<CrackThresholds> crack_thresholds_of(const parts::Loading& loading, const PlacedApparatus& apparatus,
                                                    const TestState& state);
 
+/// Makes the summary, which states values of all parts of the case.
 /// @param errors  the numerical errors from companion runs; null if there are none
 Summary make_summary(const ResolvedCase& test, const TestSetup& setup, const TestState& state, const World& world,
                      const TestTiming& timing, const NumericalErrors* errors = nullptr);

@@ -12,30 +12,35 @@
 
 namespace crackle {
 
-std::vector<std::string> notices_of(const ResolvedCase& test, const TestSetup& setup, const TestState& state,
-                                    const World& world, double viscous_share) {
-    constexpr std::int64_t rows_that_resolve = 100;
-    // Twice the largest value found for the DEMseg guide's example rock with default values.
-    constexpr double closing_error_to_mention = 2e-3;
-    constexpr double share_above_to_mention = 0.25;
-    constexpr double excess_to_mention = 0.1;
-    std::vector<std::string> notices = setup.origin.notices;
+namespace {
+
+constexpr std::int64_t rows_that_resolve = 100;
+// Twice the largest value found for the DEMseg guide's example rock with default values.
+constexpr double closing_error_to_mention = 2e-3;
+constexpr double share_above_to_mention = 0.25;
+constexpr double excess_to_mention = 0.1;
+
+using Notices = std::vector<std::string>;
+
+/// Notices on the peak, and on a curve that goes beyond the requested strain.
+void note_curve(Notices& notices, const parts::Loading& loading, const char* stress_unit, const TestSetup& setup,
+                const TestState& state, const World& world) {
     const FailureTracker& f = state.failure;
     if (f.failed && f.peak_row < rows_that_resolve) {
         notices.push_back(fmt::format(
             "only {} rows of the curve lie before the peak, so the peak and the moduli are poorly resolved; "
             "lower loading.max_axial_strain = {} to about {:.2g}",
-            f.peak_row, test.loading.max_axial_strain, 10.0 * f.peak_strain));
+            f.peak_row, loading.max_axial_strain, 10.0 * f.peak_strain));
     }
     if (f.failed && f.larger_after_peak()) {
         notices.push_back(
             fmt::format("the largest stress, {:.4g} {} at a strain of {:.4g}, occurs after the peak of {:.4g} {} at a "
                         "strain of {:.4g}. Between them the stress stayed below the peak by more than the fraction "
                         "loading.strength_drop = {}. The broken specimen carries load again; its strength is the peak",
-                        f.largest_stress, test.stress_unit(), f.strain_at_largest, f.peak_stress, test.stress_unit(),
-                        f.peak_strain, test.loading.strength_drop));
+                        f.largest_stress, stress_unit, f.strain_at_largest, f.peak_stress, stress_unit, f.peak_strain,
+                        loading.strength_drop));
     }
-    if (const double most = test.loading.max_axial_strain;
+    if (const double most = loading.max_axial_strain;
         state.ended_by == ended_by_strain && setup.apparatus.axial_strain(world) > (1.0 + excess_to_mention) * most) {
         notices.push_back(fmt::format(
             "the test ended at a strain of {:.3g}, beyond loading.max_axial_strain = {:g}, because {} strained "
@@ -43,6 +48,10 @@ std::vector<std::string> notices_of(const ResolvedCase& test, const TestSetup& s
             setup.apparatus.axial_strain(world), most,
             world.stepping.steps == 1 ? "the first step" : "the last steps"));
     }
+}
+
+/// Notices on an unstable time step and on an energy account that does not close.
+void note_numerics(Notices& notices, const TestSetup& setup, const TestState& state, const World& world) {
     if (world.stepping.time_step > setup.stable_time_step) {
         notices.push_back(
             fmt::format("the time step of {:.3g} s exceeds the stable limit of {:.3g} s; this run can only demonstrate "
@@ -56,13 +65,17 @@ std::vector<std::string> notices_of(const ResolvedCase& test, const TestSetup& s
                         "halve numerics.safety_factor or lower the loading rate, and compare the results",
                         last.energy_error / last.platen_work));
     }
+}
+
+/// Notices on what the specimen did to the parts that hold it.
+void note_holding(Notices& notices, const TestSetup& setup, const TestState& state, const World& world) {
     if (world.membrane.open > 0) {
         notices.emplace_back(
             "the specimen separated so far that the membrane could not be wrapped around it again; the pressure then "
             "acted along the last membrane");
     }
     const std::optional<Parting> parting = find_parting(setup, state.history);
-    if (f.failed && setup.apparatus.uniaxial && !setup.apparatus.compression && parting &&
+    if (state.failure.failed && setup.apparatus.uniaxial && !setup.apparatus.compression && parting &&
         parting->place != PartingPlace::gauge) {
         notices.push_back(
             fmt::format("the specimen broke at a {}, so the strength is not that of the rock: {} of the {} broken "
@@ -80,15 +93,14 @@ std::vector<std::string> notices_of(const ResolvedCase& test, const TestSetup& s
                         "negative; increase loading.normal_stress, or reduce loading.normal_stiffness",
                         -deepest->lateral_strain * setup.specimen.height));
     }
-    if (const parts::Loading& loading = test.loading; loading.unloads()) {
-        const std::vector<double>& asked = loading.unloading.at;
-        if (state.path.unloaded < std::ssize(asked)) {
-            notices.push_back(
-                fmt::format("the test ended after {} of {} unloadings", state.path.unloaded, asked.size()));
-        }
-    }
-    const double* tolerance = test.loading.rate_tolerance();
-    if (tolerance == nullptr) return notices;
+}
+
+/// Notices on unloadings that were not reached, and on the error of the loading rate.
+void note_loading(Notices& notices, const parts::Loading& loading, const TestState& state, double viscous_share) {
+    if (const std::size_t asked = loading.unloading.at.size(); state.path.unloaded < static_cast<std::int64_t>(asked))
+        notices.push_back(fmt::format("the test ended after {} of {} unloadings", state.path.unloaded, asked));
+    const double* tolerance = loading.rate_tolerance();
+    if (tolerance == nullptr) return;
     const double above = state.share_above_tolerance();
     if (above > share_above_to_mention) {
         notices.push_back(
@@ -103,6 +115,17 @@ std::vector<std::string> notices_of(const ResolvedCase& test, const TestSetup& s
                         "loading.rate_tolerance = {}; lower the tolerance or the damping",
                         viscous_share, *tolerance));
     }
+}
+
+}  // namespace
+
+std::vector<std::string> notices_of(const parts::Loading& loading, const char* stress_unit, const TestSetup& setup,
+                                    const TestState& state, const World& world, double viscous_share) {
+    Notices notices = setup.origin.notices;
+    note_curve(notices, loading, stress_unit, setup, state, world);
+    note_numerics(notices, setup, state, world);
+    note_holding(notices, setup, state, world);
+    note_loading(notices, loading, state, viscous_share);
     return notices;
 }
 

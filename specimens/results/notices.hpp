@@ -14,8 +14,8 @@ namespace crackle {
 
 /// Notices from the setup of the test, and notices on its results.
 /// @param viscous_share  the fraction of the largest stress that dashpots carry when loading begins
-std::vector<std::string> notices_of(const ResolvedCase& test, const TestSetup& setup, const TestState& state,
-                                    const World& world, double viscous_share);
+std::vector<std::string> notices_of(const parts::Loading& loading, const char* stress_unit, const TestSetup& setup,
+                                    const TestState& state, const World& world, double viscous_share);
 
 /// A sentence stating that companions disagree about the peak; empty if they agree or have not run.
 std::string notice_of_companions(const FailureTracker& failure, const NumericalErrors& errors);

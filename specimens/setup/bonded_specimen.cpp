@@ -21,7 +21,7 @@ namespace {
 constexpr double circle_thick_share = 0.1;  // thickness relative to the mean radius
 
 /// Applies the case's time step. Its stability can be checked only once there are bonds.
-void apply_given_step(World& world, const ResolvedCase& test) {
+void apply_given_step(World& world, const parts::Procedure& test) {
     if (!test.numerics.time_step) return;
     try {
         set_time_step(world, *test.numerics.time_step);
@@ -37,11 +37,10 @@ void apply_given_step(World& world, const ResolvedCase& test) {
 /// more than this.
 constexpr double overhang_share = 0.05;
 
-Bonding bonding_of(const Specimen& specimen, const ResolvedCase& test, double thick) {
+Bonding bonding_of(const Specimen& specimen, const parts::Bonds& bonds, double thick) {
     Bonding bonding;
     bonding.thick = thick;
-    if (!test.bond_facts().bonds_across_gaps) return bonding;
-    const parts::Bonds& bonds = test.bond;
+    if (!bonds.facts().bonds_across_gaps) return bonding;
     if (specimen.polygons) bonding.gap = bonds.gap.value_or(overhang_share * thick);
     // Pairs of circles use `range`; this gap applies between circles and the parts that hold them.
     if (!specimen.polygons && !specimen.shape.outline.empty()) bonding.gap = cut_circles_offset * specimen.particle;
@@ -75,14 +74,28 @@ std::function<bool(Vec2, BodyIndex, BodyIndex)> grips_of(const World& world, con
     };
 }
 
+/// Polygons of a particle file are bonded if the thickness exceeds the gap that the file states.
+void check_thick(const Specimen& specimen, const parts::Bonds& bonds, const Places& places) {
+    if (!specimen.polygons || specimen.centres > 0) return;
+    const bool across_gaps = bonds.facts().bonds_across_gaps;
+    if (across_gaps ? bonds.thick && *bonds.thick < specimen.mesh_gap
+                    : !bonds.thick || *bonds.thick <= specimen.mesh_gap) {
+        throw InputError(
+            fmt::format("{}: found {}, expected {} the particle file's thick = {} m; the excess is the "
+                        "overlap that bonds the polygons",
+                        places.at(CaseKey::bond_thick), bonds.thick ? fmt::format("{} m", *bonds.thick) : "nothing",
+                        across_gaps ? "at least" : "more than", specimen.mesh_gap));
+    }
+}
+
 /// The scene to be bonded, without platens.
-Scene scene_of(const Specimen& specimen, const ResolvedCase& test) {
+Scene scene_of(const Specimen& specimen, const parts::Bonds& bonds, const parts::Procedure& test) {
+    check_thick(specimen, bonds, test.places);
     Scene scene = specimen.scene;
-    scene.thick = test.bond.thick     ? *test.bond.thick
+    scene.thick = bonds.thick         ? *bonds.thick
                   : specimen.polygons ? specimen.mesh_gap
                                       : circle_thick_share * specimen.mean_radius;
-    scene.bond_law = test.bond.law;
-    scene.units = test.material.units;
+    scene.bond_law = bonds.law;
     scene.segment_law = test.numerics.contact_law;
     scene.integrator = test.numerics.integrator;
     scene.time_step = 0.0;  // the time step in a particle file was chosen for packing
@@ -95,65 +108,63 @@ Scene scene_of(const Specimen& specimen, const ResolvedCase& test) {
     return scene;
 }
 
-void bond(World& world, const ResolvedCase& test, const Bonding& bonding) {
+void bond(World& world, const Places& places, const Bonding& bonding) {
     try {
         bond_all(world, bonding);
     } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: {}", test.at(CaseKey::bond_law), error.what()));
+        throw InputError(fmt::format("{}: {}", places.at(CaseKey::bond_law), error.what()));
     }
 }
 
-void bond_faces_of(World& world, const ResolvedCase& test, const FaceBonding& faces) {
+void bond_faces_of(World& world, const Places& places, const FaceBonding& faces) {
     try {
         bond_by_faces(world, faces);
     } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: {}", test.at(CaseKey::bond_law), error.what()));
+        throw InputError(fmt::format("{}: {}", places.at(CaseKey::bond_law), error.what()));
     }
 }
 
 }  // namespace
 
-BondedSpecimen bond_specimen(const Specimen& specimen, const ResolvedCase& test, std::function<void()> while_solving) {
-    Scene scene = scene_of(specimen, test);
+BondedSpecimen bond_specimen(const Specimen& specimen, const parts::Bonds& bonds, const parts::Procedure& test,
+                             std::function<void()> while_solving) {
+    Scene scene = scene_of(specimen, bonds, test);
     BondedSpecimen bonded;
     bonded.platens = add_platens(scene, specimen, test, scene.thick);
     const double thick = scene.thick;
     bonded.world = build_world(std::move(scene));
     bonded.world.workers.while_solving = std::move(while_solving);
     forget_point_forces(bonded.world);  // not needed: platens give the stress, and curve rows the energy of the springs
-    Bonding bonding = bonding_of(specimen, test, thick);
+    Bonding bonding = bonding_of(specimen, bonds, thick);
     const TestKind& kind = test_kind(test.loading.kind);
     bonding.pressed = kind.compression || kind.shear_box;
     if (test.loading.platens == PlatenKind::glued)
         bonding.holds = grips_of(bonded.world, specimen, bonded.platens, test.loading.grip);
     if (specimen.shape.notch && specimen.polygons) bonding.leaves = parted_by(bonded.world, *specimen.shape.notch);
-    if (test.bond_facts().by_faces) {
-        FaceBonding faces = face_bonding_of(bonded.world, specimen, test.material, test.minerals, test.bond,
-                                            test.loading.platens, thick);
+    if (bonds.facts().by_faces) {
+        FaceBonding faces = face_bonding_of(bonded.world, specimen, bonds, test.loading.platens, thick);
         faces.holds = bonding.holds;
         faces.leaves = bonding.leaves;
-        bond_faces_of(bonded.world, test, faces);
+        bond_faces_of(bonded.world, test.places, faces);
     } else {
-        bond(bonded.world, test, bonding);
+        bond(bonded.world, test.places, bonding);
     }
     apply_given_step(bonded.world, test);
     place_platens(bonded.world, bonded.platens);
     return bonded;
 }
 
-World bond_alone(const Specimen& specimen, const ResolvedCase& test, Traces traces) {
-    Scene scene = scene_of(specimen, test);
+World bond_alone(const Specimen& specimen, const parts::Bonds& bonds, const parts::Procedure& test, Traces traces) {
+    Scene scene = scene_of(specimen, bonds, test);
     scene.domain.wall_present = {false, false, false, false};
     if (traces == Traces::as_rock) std::ranges::fill(scene.trace_joints, -1);
     if (traces == Traces::welded) std::ranges::fill(scene.joints, Joint{});
     const double thick = scene.thick;
     World world = build_world(std::move(scene));
-    if (test.bond_facts().by_faces)
-        bond_faces_of(world, test,
-                      face_bonding_of(world, specimen, test.material, test.minerals, test.bond, PlatenKind::bonded,
-                                      thick));
+    if (bonds.facts().by_faces)
+        bond_faces_of(world, test.places, face_bonding_of(world, specimen, bonds, PlatenKind::bonded, thick));
     else
-        bond(world, test, bonding_of(specimen, test, thick));
+        bond(world, test.places, bonding_of(specimen, bonds, thick));
     return world;
 }
 

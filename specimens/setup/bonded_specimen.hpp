@@ -20,10 +20,10 @@ struct BondedSpecimen {
 };
 
 /// Adds platens, builds the world, creates bonds and moves the platens to their initial positions. Forces are not yet
-/// computed. @param loading  the test's own loading, or a copy with other platens @param while_solving  passed to the
-/// world (Workers)
-/// @throws InputError if the time step exceeds the exact stable step; the error names the case's key
-BondedSpecimen bond_specimen(const Specimen& specimen, const ResolvedCase& test,
+/// computed. @param while_solving  passed to the world (Workers)
+/// @throws InputError if the time step exceeds the exact stable step, or if the bonds do not reach from polygon to
+/// polygon; the error names the case's key
+BondedSpecimen bond_specimen(const Specimen& specimen, const parts::Bonds& bonds, const parts::Procedure& test,
                              std::function<void()> while_solving = {});
 
 /// How the traces of joints are treated.
@@ -34,6 +34,7 @@ enum class Traces : std::uint8_t {
 };
 
 /// The bonded specimen alone, without platens and walls.
-World bond_alone(const Specimen& specimen, const ResolvedCase& test, Traces traces = Traces::as_they_are);
+World bond_alone(const Specimen& specimen, const parts::Bonds& bonds, const parts::Procedure& test,
+                 Traces traces = Traces::as_they_are);
 
 }  // namespace crackle

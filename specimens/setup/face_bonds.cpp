@@ -35,9 +35,8 @@ std::vector<Vec2> references_of(const World& world, const Specimen& specimen) {
 
 }  // namespace
 
-FaceBonding face_bonding_of(const World& world, const Specimen& specimen, const parts::Material& rock,
-                            const parts::Minerals& minerals, const parts::Bonds& bonds, PlatenKind platens,
-                            double gap) {
+FaceBonding face_bonding_of(const World& world, const Specimen& specimen, const parts::Bonds& bonds,
+                            PlatenKind platens, double gap) {
     // The moduli of bodies are those of their materials, so that contacts and faces have the same.
     const auto moduli_of = [](const parts::MaterialValues& values) {
         return FaceModuli{*values.normal_stiffness, values.face_moduli(0.0).pressure,
@@ -45,10 +44,12 @@ FaceBonding face_bonding_of(const World& world, const Specimen& specimen, const 
     };
     FaceBonding bonding;
     for (std::size_t m = 0; m < world.settings.materials.size(); ++m) {
-        const parts::MaterialValues& values = m < minerals.list.size() ? minerals.list[m].material : rock;
+        const std::vector<parts::Mineral>& minerals = specimen.mineral_parts.list;
+        const parts::MaterialValues& values = m < minerals.size() ? minerals[m].material : specimen.material;
         bonding.materials.push_back({moduli_of(values), values.face_law()});
+        bonding.materials.back().law.damping_ratio = world.settings.materials[m].damping_ratio.value_or(0.0);
     }
-    for (const MaterialPair& pair : minerals.pairs) {
+    for (const MaterialPair& pair : specimen.mineral_parts.pairs) {
         const auto a = static_cast<std::size_t>(pair.a), b = static_cast<std::size_t>(pair.b);
         bonding.pairs.push_back(
             {a, b, law_of_pair(weaker_law(bonding.materials[a].law, bonding.materials[b].law), pair)});

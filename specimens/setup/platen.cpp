@@ -78,7 +78,7 @@ double part_offset(const Specimen& specimen, double thick) {
 int next_id(const Scene& scene) { return std::ranges::max_element(scene.bodies, {}, &Body::id)->id + 1; }
 
 /// Adds the parts for a kind of test without platens.
-void add_parts(Scene& scene, const Specimen& specimen, const ResolvedCase& test, double thick, Platens& platens) {
+void add_parts(Scene& scene, const Specimen& specimen, const parts::Procedure& test, double thick, Platens& platens) {
     KindRequest request{test, scene.domain, specimen.particle};
     request.offset = part_offset(specimen, thick);
     // Circles selected by their centres extend beyond the outline. The offset of half a radius prevents a circle from
@@ -107,8 +107,8 @@ void add_parts(Scene& scene, const Specimen& specimen, const ResolvedCase& test,
 
 /// Adds the blocks beside the specimen that are driven by the pressure; they extend beyond both platens.
 /// @param sides  extent of the particles alone
-void add_walls(Scene& scene, const Specimen& specimen, const ResolvedCase& test, double thick, const Platens& platens,
-               const Extent& sides) {
+void add_walls(Scene& scene, const Specimen& specimen, const parts::Procedure& test, double thick,
+               const Platens& platens, const Extent& sides) {
     const int material = material_with_friction(scene, specimen, 0.0);
     const double force = test.pressure() * specimen.height;
     const double depth = platen_depth_ratio * specimen.width, beyond = platen_depth_ratio * specimen.height;
@@ -131,7 +131,7 @@ void add_walls(Scene& scene, const Specimen& specimen, const ResolvedCase& test,
 
 }  // namespace
 
-Platens add_platens(Scene& scene, const Specimen& specimen, const ResolvedCase& test, double thick) {
+Platens add_platens(Scene& scene, const Specimen& specimen, const parts::Procedure& test, double thick) {
     const parts::Loading& loading = test.loading;
     const Extent extent = extent_along(scene, &Vec2::y), sides = extent_along(scene, &Vec2::x);
     const Domain& domain = scene.domain;

@@ -55,7 +55,7 @@ inline constexpr double cut_circles_offset = 0.25;
 /// that increases linearly from the lower to the upper platen, so that loading starts without a shock. In kinds of test
 /// with other parts the particles start at rest.
 /// @param thick  segment thickness when bonds are made, m
-Platens add_platens(Scene& scene, const Specimen& specimen, const ResolvedCase& test, double thick);
+Platens add_platens(Scene& scene, const Specimen& specimen, const parts::Procedure& test, double thick);
 
 /// Moves frictional platens and walls from their parked positions to those where loading starts. Bonded ones are
 /// already there.

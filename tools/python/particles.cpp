@@ -17,12 +17,14 @@
 #include "solver/files/output_path.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
+#include "specimens/making/make_specimen.hpp"
 #include "specimens/packing/packing.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/python/arrays.hpp"
 #include "tools/python/parts.hpp"
 #include "tools/python/reports.hpp"
+#include "tools/python/state.hpp"
 
 namespace crackle::python {
 namespace {
@@ -52,7 +54,8 @@ py::dtype circle_dtype() {
     return parts.dtype(sizeof(CircleElement));
 }
 
-std::string text_of(const Scene& scene) {
+std::string text_of(Scene scene) {
+    for (Material& material : scene.materials) material.damping_ratio.reset();  // not part of the file format
     std::ostringstream text;
     write_geometry(text, scene);
     return text.str();
@@ -105,6 +108,21 @@ std::shared_ptr<Particles> mesh(const std::string& name, const std::string& text
     return made;
 }
 
+/// The particles of a case, before they are bonded.
+std::shared_ptr<Particles> specimen(ResolvedCase test, int threads, const py::object& report) {
+    if (threads > 0) test.numerics.threads = threads;
+    refuse_threads_after_fork(test.numerics.threads);
+    Interrupts interrupts;
+    const TestHooks hooks = reporting_hooks(report, interrupts);
+    auto made = std::make_shared<Particles>();
+    run_free(interrupts, [&] {
+        Specimen unbonded = make_specimen(test, hooks);
+        made->scene = std::move(unbonded.scene);
+        made->notices = std::move(unbonded.notices);
+    });
+    return made;
+}
+
 py::dict facts(const Particles& particles) {
     py::dict all;
     if (const auto& p = particles.packing) {
@@ -135,6 +153,8 @@ py::dict facts(const Particles& particles) {
         all["cells_destroyed"] = m->cells_destroyed;
         all["area_before_inset"] = m->area_before_inset;
         all["area_after_inset"] = m->area_after_inset;
+        all["notices"] = particles.notices;
+    } else if (!particles.notices.empty()) {
         all["notices"] = particles.notices;
     }
     return all;
@@ -185,6 +205,7 @@ void bind_particles(py::module_& module) {
                                p.scene.circles.size(), p.scene.vertices.size());
         });
     module.def("pack", &pack, py::arg("words"), py::arg("report"));
+    module.def("specimen", &specimen, py::arg("case"), py::arg("threads"), py::arg("report"));
     module.def("mesh", &mesh, py::arg("name"), py::arg("text"), py::arg("words"), py::arg("report"));
     module.def(
         "read_particles",

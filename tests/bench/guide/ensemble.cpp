@@ -23,6 +23,7 @@
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
+#include "specimens/making/make_specimen.hpp"
 #include "specimens/measures/curve_analysis.hpp"
 #include "specimens/results/sha256.hpp"
 #include "tests/bench/guide/experiments.hpp"

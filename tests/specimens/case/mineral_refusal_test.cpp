@@ -9,7 +9,7 @@
 
 #include "solver/base/errors.hpp"
 #include "specimens/case/case_file.hpp"
-#include "specimens/making/specimen.hpp"
+#include "specimens/making/make_specimen.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/small_rock.hpp"
 

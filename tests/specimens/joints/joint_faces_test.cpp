@@ -15,7 +15,7 @@
 #include "solver/geometry/across_joint.hpp"
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
-#include "specimens/making/specimen.hpp"
+#include "specimens/making/make_specimen.hpp"
 #include "tests/specimens/joints/cases.hpp"
 #include "tests/support/refusal.hpp"
 

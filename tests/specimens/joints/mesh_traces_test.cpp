@@ -6,7 +6,7 @@
 
 #include "specimens/elastic/moduli.hpp"
 #include "specimens/loading/prepare.hpp"
-#include "specimens/making/specimen.hpp"
+#include "specimens/making/make_specimen.hpp"
 #include "tests/specimens/joints/cases.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/refusal.hpp"

@@ -5,6 +5,7 @@
 #include "specimens/case/case_file.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
+#include "specimens/making/make_specimen.hpp"
 
 #include <gtest/gtest.h>
 

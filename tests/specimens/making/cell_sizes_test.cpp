@@ -13,7 +13,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/scene/scene.hpp"
-#include "specimens/making/specimen.hpp"
+#include "specimens/making/make_specimen.hpp"
 #include "tests/support/claim.hpp"
 
 namespace crackle {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tests the effect of a case's keys on particles that it packs or reads.
 
-#include "specimens/making/specimen.hpp"
+#include "specimens/making/make_specimen.hpp"
 
 #include <gtest/gtest.h>
 

@@ -130,6 +130,17 @@ class Particles(InScratch):
             self.assertAlmostEqual(made.facts["smallest_angle"], min(angles), delta=1e-6)
             self.assertEqual((made.facts["segments"], made.facts["cells_destroyed"]), (len(edges), 0))
 
+    def test_a_specimen_is_the_tests(self):
+        for mesh, kind in (({}, "circles"), ({"kind": "voronoi", "thick": 1e-3}, "polygons")):
+            case = small(loading={"max_axial_strain": 1e-5}, **({"mesh": mesh, "bond": {"thick": 1.1e-3}} if mesh else {}))
+            crackle.test(case, f"out_{kind}")
+            made = crackle.specimen(case)
+            self.assertEqual(made.text(), Path(f"out_{kind}", f"specimen_{kind}.dat").read_text())
+            self.assertEqual(len(made.vertices) > 0, kind == "polygons")
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.specimen(small(packing={"mean_overlap": 0.5}))
+        self.assertIn("packing.mean_overlap", str(refused.exception))
+
     def test_a_mesh_of_centres(self):
         centres = numpy.array([[-0.25, 0.5], [0.25, 0.5], [0.25, 1.5], [-0.25, 1.5]])
         made = crackle.mesh(centres, kind="voronoi", thick=0.0, domain=(-0.5, 0.5, 0.0, 2.0), density=2000.0)

@@ -7,7 +7,8 @@
 
 A case is a dict, a TOML text or the path of a file; `case_keys()` lists its keys.
 
-    pack, mesh, joints          specimens: circles, polygons made from them, traces of joints
+    pack, mesh, joints          circles, polygons made from them, traces of joints
+    specimen                    the particles of a case, before they are bonded
     check, elastic              estimates of a test's results, the linear solution
     test, resume                one virtual test; call=f observes and controls it while it runs
     World                       a specimen that is stepped and loaded from Python
@@ -37,11 +38,11 @@ from ._engine import Case, Particles, State
 from ._errors import InputError, OutputError, SystemFailure, UnstableRun
 from ._results import Calibration, Campaign, Recording, Result, Table, read
 from ._tests import (Elastic, calibrate, campaign, check, elastic, envelope, joints, mesh, pack, plot, report, resume,
-                     test, view)
+                     specimen, test, view)
 from ._world import World
 
 __all__ = ["Calibration", "Campaign", "Case", "Elastic", "InputError", "OutputError", "Particles", "Recording",
            "Result", "State", "SystemFailure", "Table", "UnstableRun", "World", "calibrate", "campaign", "case_keys",
            "check", "elastic", "envelope", "joints", "mesh", "pack", "plot", "read", "read_case", "report", "resume",
-           "test", "view"]
+           "specimen", "test", "view"]
 setattr(test, "__test__", False)  # pytest must not collect it as a test

@@ -97,6 +97,16 @@ def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, ki
     return made
 
 
+def specimen(case: _Case, *, threads: int | None = None, progress: _Progress = None) -> _engine.Particles:
+    """Makes the specimen of a case: packed or read, cut to the shape of its test, meshed if the case has a mesh.
+
+    Nothing is bonded yet: World(case) does that. threads: number of threads; results do not depend on it.
+    Returns Particles. Raises InputError.
+    """
+    with reporting(progress) as report:
+        return _engine.specimen(read_case(case), _threads(threads), report)
+
+
 def joints(case: _Case, *, seed: int | None = None, box_width: float | None = None, box_height: float | None = None,
            grain: float | None = None, traces: _Path | None = None, output: _Path | None = None,
            columns: int | None = None, width: float | None = None, font: str | None = None,

@@ -9,6 +9,7 @@
 
 #include "specimens/elastic/compliance.hpp"
 #include "specimens/joints/joint_network.hpp"
+#include "specimens/making/make_specimen.hpp"
 #include "specimens/setup/bonded_specimen.hpp"
 #include "tests/bench/verify/groups.hpp"
 #include "tests/bench/verify/joints/jointed_rock.hpp"
@@ -35,7 +36,7 @@ double softness_along(const Compliance& s, double angle) {
 }
 
 Compliance compliance(const Specimen& specimen, const ResolvedCase& test, Traces traces) {
-    return compliance_of(bond_alone(specimen, test, traces), specimen.scene.domain, 0.5 * specimen.mesh_gap);
+    return compliance_of(bond_alone(specimen, test.bond, test, traces), specimen.scene.domain, 0.5 * specimen.mesh_gap);
 }
 
 Joint stiffnesses(double normal, double shear) {

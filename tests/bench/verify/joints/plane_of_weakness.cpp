@@ -16,6 +16,7 @@
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/making/make_specimen.hpp"
 #include "tests/bench/verify/groups.hpp"
 #include "tests/bench/verify/joints/jointed_rock.hpp"
 #include "tests/bench/verify/rows.hpp"

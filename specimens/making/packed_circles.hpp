@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The first stage of a specimen: its circles, packed as the case asks.
+// Tested by tests/specimens/making/cell_sizes_test.cpp.
+#pragma once
+
+#include "specimens/making/hooks.hpp"
+#include "specimens/packing/packing.hpp"
+#include "specimens/parts/resolved_case.hpp"
+
+namespace crackle {
+
+/// The circles of particles that are to be packed, obtained through hooks.keep_packing if set.
+/// @param places  where the values were written, for errors
+/// @throws InputError that names the case's key if the circles cannot be packed; TestInterrupted
+Packing packing_of(const parts::Particles& particles, int threads, const Places& places, const TestHooks& hooks);
+
+}  // namespace crackle
