@@ -215,7 +215,7 @@ class Pass {
     void record(FaceIndex k, bool in_shear, const FaceForces& forces, double energy) {
         const auto [i, j] = faces_.bodies[k];
         const BondFaceMotion m = faces_.motion[k];
-        const Vec2 arm = rotated_by(bodies_[i], faces_.place[k].arm_i) + (0.5 * m.opening) * m.normal +
+        const Vec2 arm = turned_by(bodies_[i], faces_.place[k].arm_i) + (0.5 * m.opening) * m.normal +
                          (0.5 * m.sliding) * perpendicular(m.normal);
         auto event = event_at<BreakEvent>(world_, i, j, Vec2{bodies_[i].x, bodies_[i].y} + arm, m.normal);
         const FaceStrength<double> strength(faces_.law_of(k), faces_.strength_share[k]);

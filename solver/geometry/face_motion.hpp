@@ -94,7 +94,7 @@ CRACKLE_INLINE MotionOf<Number> motion_of(const PlaceOf<Number>& place, const Fa
     return {normal, dot(apart, normal), dot(apart, perpendicular(normal)), (j.angle - i.angle) - place.rest_turn};
 }
 /// A vector of a body's frame in world axes.
-inline Vec2 rotated_by(const BodyState& body, Vec2 v) {
+inline Vec2 turned_by(const BodyState& body, Vec2 v) {
     return {body.shape[0] * v.x - body.shape[1] * v.y, body.shape[1] * v.x + body.shape[0] * v.y};
 }
 inline BondFaceMotion motion_of(const FacePlace& place, const BodyState& i, const BodyState& j) {

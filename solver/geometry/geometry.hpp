@@ -97,7 +97,7 @@ inline ContactGeometry contact_geometry(const BodyView& bodies, const ContactPoi
         const FacePlace place = bodies.bond_faces->place[point.element_i];
         const BondFaceMotion m = motion_of(place, i, j);
         const Vec2 half = (0.5 * m.opening) * m.normal + (0.5 * m.sliding) * perpendicular(m.normal);
-        const Vec2 arm_i = rotated_by(i, place.arm_i) + half, arm_j = rotated_by(j, place.arm_j) - half;
+        const Vec2 arm_i = turned_by(i, place.arm_i) + half, arm_j = turned_by(j, place.arm_j) - half;
         return {-m.opening, m.normal.x, m.normal.y, arm_i.x, arm_i.y, arm_j.x, arm_j.y};
     } else if constexpr (by_guide(K)) {
         DiscResultant resultant;

@@ -20,7 +20,7 @@ MotionGradients gradients_of(const World& world, FaceIndex k) {
     const BodyState &i = world.bodies.state[faces.bodies[k].body_i], &j = world.bodies.state[faces.bodies[k].body_j];
     const FacePlace& place = faces.place[k];
     const BondFaceMotion m = motion_of(place, i, j);
-    const Vec2 arm_i = rotated_by(i, place.arm_i), arm_j = rotated_by(j, place.arm_j);
+    const Vec2 arm_i = turned_by(i, place.arm_i), arm_j = turned_by(j, place.arm_j);
     const Vec2 n = m.normal, t = perpendicular(n);
     // The normal turns by half the rotation of each body.
     return {{-n.x, -n.y, -cross(arm_i, n) + 0.5 * m.sliding, n.x, n.y, cross(arm_j, n) + 0.5 * m.sliding},

@@ -75,7 +75,7 @@ LinearBond linear_face(const World& world, FaceIndex k, const FaceForces& growth
     LinearBond bond;
     bond.body_i = world.bodies.info(i).id;
     bond.body_j = world.bodies.info(j).id;
-    bond.position = Vec2{body.x, body.y} + rotated_by(body, world.faces.place[k].arm_i);
+    bond.position = Vec2{body.x, body.y} + turned_by(body, world.faces.place[k].arm_i);
     bond.closing = -growth.normal / world.faces.springs[k].normal * strain;
     bond.normal_force = -growth.normal * strain;
     bond.shear_force = growth.shear * strain;

@@ -99,8 +99,8 @@ std::optional<TraceFace> trace_face_of(const World& world, FaceIndex k) {
     face.trace = *trace;
     face.bonds = world.faces.broken_at[k] == no_face ? 1 : 0;
     face.length = world.faces.springs[k].length;
-    face.normal = rotated_by(body, place.normal_i);
-    face.middle = Vec2{body.x, body.y} + rotated_by(body, place.arm_i);
+    face.normal = turned_by(body, place.normal_i);
+    face.middle = Vec2{body.x, body.y} + turned_by(body, place.arm_i);
     return face;
 }
 
