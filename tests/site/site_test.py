@@ -65,12 +65,19 @@ class Site(unittest.TestCase):
 
     def test_reference_is_what_the_program_prints(self):
         program = BUILD / "tools" / "crackle"
+        anchors = self.pages[SITE / "reference/keys.html"].anchors
         for command in ("test", "campaign", "calibrate"):
             printed = subprocess.run([program, command, "--keys"], capture_output=True, text=True, check=True).stdout
             keys = re.findall(r"^  (\w+) ", printed, re.MULTILINE)
             self.assertGreater(len(keys), 10)
             page = self.text("reference/keys.html")
             self.assertEqual([key for key in keys if f'<span class="pre">{key}</span>' not in page], [])
+            what = {"test": "case", "campaign": "plan", "calibrate": "rock"}[command]
+            self.assertEqual([key for key in keys if not any(name.startswith(f"{what}-") and name.endswith(key) for name in anchors)], [])
+        page = self.text("reference/keys.html")
+        self.assertIn("case-packing-seed", anchors)
+        self.assertRegex(page, r"(?s)radius_median.{0,400}needs sizes = \W+(quot;)?lognormal")
+        self.assertRegex(page, r"(?s)case-material-contact_modulus.{0,400}needs units = \W+(quot;)?area")
         page = self.text("reference/commands.html")
         for expected in ("crackle-calibrate", "130 interrupted", "--verify", "--magnify"):
             self.assertIn(expected, page)

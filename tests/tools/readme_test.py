@@ -2,17 +2,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests the Markdown pages: their commands run, their tables name what the program writes, and their links lead to existing targets.
 
+  tests/tools/readme_test.py Pages        everything except what follows
+  tests/tools/readme_test.py SlowPages    pages with blocks marked `sh slow`
   CRACKLE_PROGRAM, CRACKLE_BENCH_PROGRAM    the programs
+  CRACKLE_RECORD=1    replaces committed pictures by those that the commands make, in place of comparing them
 Pages are all Markdown files of the tree. A page's blocks marked `sh` run in order in one shell, those of the README first. All run in one
 folder, which contains specimens/, tools/recount and the built programs at the places that the README states. Then a page's blocks marked
 `python` run as one script. Commands of blocks marked `sh ci` must be part of .ci/run. Commands that take long or need more packages are
 marked `sh long`, or written as «Made by `...`» and «Run: `...`». They must name existing programs, options and folders.
+Blocks marked `sh slow` take up to minutes. SlowPages runs them with the page's blocks marked `sh`, in the page's order. The tutorial
+and the pages of concepts make their own pictures: `-o out/FOLDER/NAME.svg` makes FOLDER/NAME.svg, which must have the same bytes.
 """
 import functools
 import json
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -25,11 +31,17 @@ PROGRAM = Path(os.environ["CRACKLE_PROGRAM"]).resolve()
 BENCH_PROGRAM = Path(os.environ["CRACKLE_BENCH_PROGRAM"]).resolve()  # crackle_bench is in the same folder as crackle
 ROOMS = ("solver", "mesher", "specimens", "tools", "tests")
 AT_MOST = {"README.md": 9000, "CONTRIBUTING.md": 9000}  # bytes
+TUTORIAL = "specimens/TUTORIAL.md"
+CONCEPTS = "specimens/concepts/"
+TWO_SCREENS = 6000  # bytes of a page of concepts
+LARGEST_PICTURE = 150_000  # bytes
 PAGES = {name: (TOP / name).read_text(encoding="utf-8") for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")} | {
     str(path.relative_to(TOP)): path.read_text(encoding="utf-8")
     for room in ROOMS for path in sorted((TOP / room).rglob("*.md")) if "node_modules" not in path.parts}
 README = PAGES["README.md"]
 FILES = PAGES["specimens/results/FILES.md"]
+ILLUSTRATED = [page for page in PAGES if page == TUTORIAL or page.startswith(CONCEPTS)]
+RECORD = os.environ.get("CRACKLE_RECORD") == "1"
 LONE = re.compile(r"(?:Made by|Run:) `([^`]+)`")
 
 
@@ -40,6 +52,15 @@ def blocks(mark, page):
 def lines(mark, page):
     found = (line.split(" #")[0].strip() for block in blocks(mark, page) for line in block.splitlines())
     return [line for line in found if line]
+
+
+def pictures_shown(page):
+    return re.findall(r"!\[[^\]]+\]\(([^)]+)\)", PAGES[page])
+
+
+def pictures_made(mark, page):
+    """Names, in specimens/, of the pictures that a page's commands make below out/."""
+    return re.findall(r"-o out/((?:tutorial|concepts)/[\w-]+\.(?:svg|png))\b", "\n".join(blocks(mark, page)))
 
 
 def table(text, heading):
@@ -178,9 +199,12 @@ CONTAINERS = {"files.*", "crack_rose.*", "numerical_errors.*", "numerical_errors
 JOINTED = "plane"  # a folder that commands of a page make
 
 
-class Pages(unittest.TestCase):
+class RunPages(unittest.TestCase):
+    """Runs the commands of pages in a folder that has what the README's reader has."""
+    runs: dict
+
     @classmethod
-    def setUpClass(cls):
+    def prepare(cls):
         cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         (cls.folder / "tools").mkdir()
         (cls.folder / "tools" / "recount").symlink_to(TOP / "tools" / "recount")
@@ -189,10 +213,63 @@ class Pages(unittest.TestCase):
         (cls.folder / "build" / "release" / "tools").symlink_to(PROGRAM.parent)
         (cls.folder / "build" / "release" / "python").symlink_to(PROGRAM.parents[1] / "python")
         cls.runs = {}
+
+    @classmethod
+    def run_page(cls, page, mark="sh"):
+        """Runs a page's blocks marked `mark` as one script, then those marked `python`."""
+        before = "" if page == "README.md" else 'export PATH="$PWD/build/release/tools:$PATH"\n'
+        cls.run_of(page, mark, ["bash", "-eux", "-c", before + "\n".join(blocks(mark, page))])
+        cls.run_of(page, "python", [sys.executable, "-c", "\n".join(blocks("python", page))])
+
+    @classmethod
+    def run_of(cls, page, mark, words):
+        if not blocks(mark, page):
+            return
+        environment = os.environ | {"PYTHONPATH": str(cls.folder / "build" / "release" / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
+        done = subprocess.run(words, cwd=cls.folder, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL, env=environment)
+        print(f"== {page}, {mark}", done.stdout, done.stderr, sep="\n")
+        cls.runs[page, mark] = done
+
+    def expect_success(self):
+        for where, done in self.runs.items():
+            self.assertEqual(done.returncode, 0, f"{where}: {done.stderr[-2000:]}")
+
+    def compare_pictures(self, mark):
+        """Compares the pictures that a page's commands have made with those that it shows."""
+        for page in ILLUSTRATED:
+            for name in pictures_made(mark, page):
+                made, shown = self.folder / "out" / name, TOP / "specimens" / name
+                with self.subTest(page=page, picture=name):
+                    self.assertLessEqual(made.stat().st_size, LARGEST_PICTURE)
+                    if RECORD:
+                        shown.parent.mkdir(exist_ok=True)
+                        shutil.copy(made, shown)
+                    self.assertTrue(shown.is_file() and shown.read_bytes() == made.read_bytes(),
+                                    f"{shown.relative_to(TOP)} is not what the page's command makes; CRACKLE_RECORD=1 replaces it")
+
+
+class SlowPages(RunPages):
+    @classmethod
+    def setUpClass(cls):
+        cls.prepare()
         for page in PAGES:
-            before = "" if page == "README.md" else 'export PATH="$PWD/build/release/tools:$PATH"\n'
-            cls.run_of(page, "sh", ["bash", "-eux", "-c", before + "\n".join(blocks("sh", page))])
-            cls.run_of(page, "python", [sys.executable, "-c", "\n".join(blocks("python", page))])
+            if blocks("sh slow", page):
+                cls.run_page(page, "sh(?: slow)?")
+
+    def test_commands_run(self):
+        self.assertIn((TUTORIAL, "sh(?: slow)?"), self.runs)
+        self.expect_success()
+
+    def test_pictures_are_those_that_the_commands_make(self):
+        self.compare_pictures("sh slow")
+
+
+class Pages(RunPages):
+    @classmethod
+    def setUpClass(cls):
+        cls.prepare()
+        for page in PAGES:
+            cls.run_page(page)
         (cls.folder / "unfailed.toml").write_text(UNFAILED.format(top=TOP), encoding="utf-8")
         cls.unfailed = subprocess.run([PROGRAM, "test", "unfailed.toml", "-o", "out/unfailed", "--verify", "--profile", "-q"], cwd=cls.folder,
                                       capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
@@ -209,20 +286,10 @@ class Pages(unittest.TestCase):
             cls.others.append(subprocess.run([PROGRAM, "test", f"{name}.toml", "-o", f"out/{name}", "-q", *flags], cwd=cls.folder, capture_output=True,
                                              text=True, check=False, stdin=subprocess.DEVNULL))
 
-    @classmethod
-    def run_of(cls, page, mark, words):
-        if not blocks(mark, page):
-            return
-        environment = os.environ | {"PYTHONPATH": str(cls.folder / "build" / "release" / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
-        done = subprocess.run(words, cwd=cls.folder, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL, env=environment)
-        print(f"== {page}, {mark}", done.stdout, done.stderr, sep="\n")
-        cls.runs[page, mark] = done
-
     def test_commands_run(self):
         self.assertGreaterEqual(len(blocks("sh", "README.md")), 6)
         self.assertGreaterEqual(len(self.runs), 3)
-        for where, done in self.runs.items():
-            self.assertEqual(done.returncode, 0, f"{where}: {done.stderr[-2000:]}")
+        self.expect_success()
         for made in ("out/in_gm.dat", "out/in_gm_volo.dat", "out/pulled/summary.json", "out/squeezed/curve.csv",
                      "out/report.html", "out/triangle/output.dat"):
             self.assertTrue((self.folder / made).is_file(), f"{made}: found nothing, expected what the README's commands make")
@@ -245,7 +312,24 @@ class Pages(unittest.TestCase):
     def test_every_block_is_tested_or_of_another_language(self):
         for page, text in PAGES.items():
             for mark in re.findall(r"^```(.+)$", text, re.MULTILINE):
-                self.assertIn(mark, ("sh", "sh ci", "sh long", "python", "toml"), f"{page}: a block that no test reads")
+                self.assertIn(mark, ("sh", "sh ci", "sh long", "sh slow", "python", "toml"), f"{page}: a block that no test reads")
+
+    def test_pictures_are_those_that_the_commands_make(self):
+        self.compare_pictures("sh")
+
+    def test_pages_of_concepts_are_short_listed_and_have_a_picture_of_their_own(self):
+        pages = {page for page in ILLUSTRATED if page not in (TUTORIAL, CONCEPTS + "README.md")}
+        listed = {CONCEPTS + link for link in re.findall(r"\]\((\w+\.md)\)", PAGES[CONCEPTS + "README.md"])}
+        self.assertEqual(listed, pages)
+        self.assertGreaterEqual(len(pages), 8)
+        for page in pages:
+            self.assertLessEqual(len(PAGES[page].encode()), TWO_SCREENS, page)
+            self.assertEqual(len(pictures_shown(page)), 1, page)
+
+    def test_pictures_are_made_by_the_page_that_shows_them(self):
+        for page in ILLUSTRATED:
+            made = pictures_made("sh(?: slow)?", page)
+            self.assertCountEqual([str(Path(page).parent.joinpath(name).relative_to("specimens")) for name in pictures_shown(page)], made, page)
 
     def test_doors_are_short(self):
         for page, most in AT_MOST.items():
