@@ -20,7 +20,8 @@ constexpr double first_share = 0.01;  // fraction of the bonds broken at the pea
 constexpr double counted_to = 0.8;    // relative to the peak stress
 constexpr double quiet_to = 0.25;     // from the confining pressure (0) to the peak (1); assumed free of cracks
 constexpr double deviations_of_noise = 3.0;
-constexpr std::size_t fewest_quiet_rows = 10, fewest_rows_to_damage = 10;
+constexpr std::size_t fewest_quiet_rows = 10;
+constexpr std::size_t fewest_rows_to_damage = 10;
 constexpr std::size_t opening_places = 200;   // number of trial stresses of the opening, and of stresses of its fit
 constexpr double compliance_of_cracks = 1.2;  // relative to the elastic lateral compliance
 constexpr double near_largest = 0.98;         // of the area strain
