@@ -123,6 +123,19 @@ class Calibration {
         hooks_.stage("  off by: " + text);
     }
 
+    /// Reports tests whose stress still grew when they ended.
+    void say_without_peak(const Measurements& tests, const VectorXd& x, PackingRange packings) const {
+        if (!hooks_.stage) return;
+        for (std::size_t t = 0; t < rock_.targets.size(); ++t) {
+            const std::int64_t count = tests.without_peak(space_.values_at(x), packings, t);
+            if (count == 0) continue;
+            hooks_.stage(
+                fmt::format("  no peak: {} in {} of {} packings, which are left out; their stress still grew at "
+                            "loading.max_axial_strain",
+                            rock_.targets[t].name(rock_.tests), count, packings.count));
+        }
+    }
+
     PackingRange fit_packings() const { return {0, rock_.fit}; }
     PackingRange polish_packings() const { return {0, rock_.polish}; }
     PackingRange fresh_packings() const { return {rock_.polish, rock_.fresh}; }
@@ -138,6 +151,7 @@ class Calibration {
     Measured measured_at(const VectorXd& x, PackingRange packings) {
         measure({x}, packings);
         Measured point;
+        say_without_peak(search_, x, packings);
         point.rows = complete_rows(search_.figures(space_.values_at(x), packings));
         if (!are_enough(point.rows.rows(), packings.count)) refuse_point(x, packings);
         const VectorXd mean = point.rows.colwise().mean();
@@ -164,14 +178,20 @@ class Calibration {
             worst = t;
             negative = static_cast<Index>((figures.col(t).array() <= 0.0).count());
         }
+        const std::int64_t peakless = search_.without_peak(values, packings, static_cast<std::size_t>(worst));
+        const char* remedy = "see which tests went wrong";
+        if (negative > 0) remedy = "take another target";
+        if (peakless > 0)
+            remedy =
+                "such specimens are ductile: raise loading.max_axial_strain, or take largest_stress, the stress up to "
+                "there, as the figure";
         throw InputError(fmt::format(
-            "{}: found {} of {} above 0 in only {} of {} packings (0 or less in {}; missing in {}, which went wrong or "
-            "did not fail) at {}, expected all targets' figures of half the packings or more; {}; see `crackle "
+            "{}: found {} of {} above 0 in only {} of {} packings (0 or less in {}; without a peak in {}; missing in "
+            "{}, "
+            "which went wrong) at {}, expected all targets' figures of half the packings or more; {}; see `crackle "
             "campaign show {}`",
             space_.target(worst).where, space_.target(worst).quantity(), space_.target(worst).source(rock_.tests),
-            fewest, packings.count, negative, packings.count - fewest - negative, at,
-            negative > 0 ? "take another target"
-                         : "if specimens do not fail, raise loading.max_axial_strain or start from a weaker rock",
+            fewest, packings.count, negative, peakless, packings.count - fewest - negative - peakless, at, remedy,
             search_.options().folder.string()));
     }
 
@@ -280,6 +300,7 @@ class Calibration {
     void judge() {
         begin(counted(rock_.fresh, "fresh packing"));
         fresh_.measure({space_.values_at(x_)}, fresh_packings());
+        say_without_peak(fresh_, x_, fresh_packings());
         const MatrixXd figures = complete_rows(fresh_.figures(space_.values_at(x_), fresh_packings()));
         const VectorXd expected = expected_off();
         const bool at_rest = is_at_rest();
@@ -287,6 +308,8 @@ class Calibration {
             ReachedTarget& reached = outcome_.targets[static_cast<std::size_t>(t)];
             const Target& target = space_.target(t);
             reached.fresh = mean_of_column(figures, t);
+            reached.without_peak =
+                fresh_.without_peak(space_.values_at(x_), fresh_packings(), static_cast<std::size_t>(t));
             const bool within_reach = std::abs(expected[t]) <= std::max(space_.widths[t], 2.0 * polished_.errors[t]);
             crackle::judge(reached, target.value, target.tolerance,
                            {are_enough(figures.rows(), rock_.fresh), within_reach, at_rest});

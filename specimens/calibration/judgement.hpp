@@ -37,6 +37,7 @@ struct ReachedTarget {
     /// larger.
     double limit = 0.0;
     TargetVerdict verdict = TargetVerdict::missed;
+    std::int64_t without_peak = 0;  ///< number of fresh packings without a figure because their stress still grew
 
     /// Whether the target counts as reached, either within the tolerance or within the scatter of both means.
     bool reached() const { return verdict == TargetVerdict::reached || verdict == TargetVerdict::reached_within_error; }

@@ -96,6 +96,7 @@ void Measurements::read(const Plan& plan) {
     // Strengths to which the law of a target is fitted: by point and packing, then by target.
     std::map<std::pair<std::size_t, std::int64_t>, std::map<std::size_t, std::vector<StrengthPoint>>> strengths;
     for (auto& [place, figures] : known_) figures.assign(rock_.targets.size(), std::nan(""));
+    peakless_.clear();
     std::vector<bool> any(rock_.targets.size(), false), done(rock_.tests.size(), false);
     for (std::size_t r = 0; r < results.rows.size(); ++r) {
         const auto& row = results.rows[r];
@@ -109,8 +110,13 @@ void Measurements::read(const Plan& plan) {
         for (std::size_t t = 0; t < rock_.targets.size(); ++t) {
             const Target& target = rock_.targets[t];
             double value = number_in(row, columns[t]);
+            const bool peakless = number_in(row, failed) == 0.0;
             if (target.of_law()) {
-                if (std::ranges::find(target.tests, test) == target.tests.end() || !std::isfinite(value)) continue;
+                if (std::ranges::find(target.tests, test) == target.tests.end()) continue;
+                if (!std::isfinite(value)) {
+                    if (peakless) peakless_[place].insert(t);
+                    continue;
+                }
                 const double confined = number_in(row, pressure);
                 strengths[place][t].push_back({"", std::isfinite(confined) ? confined : 0.0, value});
                 continue;
@@ -118,9 +124,12 @@ void Measurements::read(const Plan& plan) {
             if (target.test != test) continue;
             if (divisors[t] != no_column) value /= number_in(row, divisors[t]);
             any[t] = any[t] || std::isfinite(value);
-            if (number_in(row, failed) == 0.0 && (refers_to_peak(target.figure) || refers_to_peak(target.over)))
-                continue;
-            figures[t] = value;
+            const bool at_peak = refers_to_peak(target.figure) || refers_to_peak(target.over);
+            const bool of_peak = target.figure.starts_with("peak_") || target.over.starts_with("peak_");
+            if (peakless && (at_peak || (of_peak && !std::isfinite(value))))
+                peakless_[place].insert(t);
+            else
+                figures[t] = value;
         }
     }
     // A law is fitted only to packings with all strengths; others would not be comparable.
@@ -157,6 +166,17 @@ Eigen::MatrixXd Measurements::figures(const std::vector<double>& point, PackingR
         for (std::size_t t = 0; t < row.size(); ++t) all(k, static_cast<Eigen::Index>(t)) = row[t];
     }
     return all;
+}
+
+std::int64_t Measurements::without_peak(const std::vector<double>& point, PackingRange packings,
+                                        std::size_t target) const {
+    const auto place = static_cast<std::size_t>(std::find(points_.begin(), points_.end(), point) - points_.begin());
+    std::int64_t count = 0;
+    for (std::int64_t k = packings.first; k < packings.first + packings.count; ++k) {
+        const auto at = peakless_.find({place, k});
+        if (at != peakless_.end() && at->second.contains(target)) ++count;
+    }
+    return count;
 }
 
 }  // namespace crackle

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,6 +36,10 @@ class Measurements {
     /// result, or if it refers to the peak and the specimen has not failed.
     Eigen::MatrixXd figures(const std::vector<double>& point, PackingRange packings) const;
 
+    /// Number of packings that lack a target's figure because the stress still grew when the test ended: a ductile
+    /// specimen has no peak.
+    std::int64_t without_peak(const std::vector<double>& point, PackingRange packings, std::size_t target) const;
+
     std::int64_t tests() const { return tests_; }  ///< number of tests in the campaign
     /// Total processor time of all tests that were run, s.
     double processor_seconds() const { return processor_seconds_; }
@@ -50,6 +55,8 @@ class Measurements {
     CampaignHooks hooks_;
     std::vector<std::vector<double>> points_;
     std::map<std::pair<std::size_t, std::int64_t>, std::vector<double>> known_;  // (point, packing) → figures
+    /// Targets of (point, packing) whose figure is missing because a test has no peak.
+    std::map<std::pair<std::size_t, std::int64_t>, std::set<std::size_t>> peakless_;
     std::int64_t tests_ = 0;
     double processor_seconds_ = 0.0;
 };

@@ -92,6 +92,12 @@ std::string packings_text(const Rock& rock, const CalibrationOutcome& outcome) {
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const Target& target = rock.targets[k];
         const ReachedTarget& reached = outcome.targets[k];
+        if (reached.without_peak > 0)
+            text += fmt::format(
+                "\n{}: {} of {} fresh packings have no peak, since their stress still grew at "
+                "loading.max_axial_strain, "
+                "and are left out; largest_stress, the stress up to there, is a figure of every test\n",
+                target_name(rock, k), reached.without_peak, rock.fresh);
         if (reached.limit <= target.tolerance || std::abs(reached.off) > reached.limit) continue;
         // The half-width is about two standard errors of a difference between means over equal numbers of packings.
         const double wanted = 2.0 * packings_for(reached.fresh.deviation, 0.5 * target.tolerance * target.value);
@@ -149,6 +155,7 @@ Json calibration_json(const Rock& rock, const CalibrationOutcome& outcome) {
                                   {"polish", json_of(reached.polish)},
                                   {"off", reached.off},
                                   {"limit", reached.limit},
+                                  {"without_peak", reached.without_peak},
                                   {"verdict", name_of(reached.verdict)}});
     }
     for (std::size_t k = 0; k < rock.free.size(); ++k) {

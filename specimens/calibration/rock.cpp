@@ -48,7 +48,8 @@ constexpr DeclaredKey rock_keys[]{
     {"[[free]]", "from", "a number",
      "Lower bound; required. If it is above 0, the search uses a logarithmic scale, otherwise a linear one."},
     {"[[free]]", "to", "a number > from", "Upper bound; required."},
-    {"[[free]]", "start", "a number between", "Start of the search; the middle of the bounds by default."},
+    {"[[free]]", "start", "a number between",
+     "Start of the search; by default a guess from the targets, otherwise the middle of the bounds."},
     {"[[curve]]", "test", "the name of a test",
      "Test to which the measured curve belongs; required if there are several tests."},
     {"[[curve]]", "file", "a file", "CSV with columns axial_strain and axial_stress; required."},
@@ -175,6 +176,7 @@ FreeKey read_free(const Rock& rock, const KeyedTable& table) {
     free.to = *to;
     const double middle = 0.5 * (free.to_variable(*from) + free.to_variable(*to));
     free.start = start.value_or(free.to_value(middle));
+    free.start_given = start.has_value();
     if (free.start < *from || free.start > *to) table.refuse("start", shown(*table.get("start")));
     return free;
 }

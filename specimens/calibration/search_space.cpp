@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "specimens/calibration/linear_figures.hpp"
+#include "specimens/calibration/starting_guess.hpp"
 
 namespace crackle {
 namespace {
@@ -42,10 +43,11 @@ SearchSpace::SearchSpace(const Rock& of)
     logs.resize(targets);
     widths.resize(targets);
     bool elastic = false, moduli = false;
+    const std::vector<double> starts = starting_values(rock);
     for (Index k = 0; k < keys; ++k) {
         low[k] = key(k).to_variable(key(k).from);
         high[k] = key(k).to_variable(key(k).to);
-        start[k] = key(k).to_variable(key(k).start);
+        start[k] = key(k).to_variable(starts[static_cast<std::size_t>(k)]);
         elastic = elastic || is_elastic_key(key(k).key);
     }
     for (Index t = 0; t < targets; ++t) {

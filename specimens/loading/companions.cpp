@@ -114,7 +114,7 @@ std::optional<CompanionFigures> run_one(const CompanionPlan& plan, const Virtual
     done.peak_strain = other.state.failure.peak_strain;
     done.post_peak_difference = post_peak_difference(test, other);
     if (const auto cracks = crack_thresholds_of(other.description.loading, other.setup.apparatus, other.state)) {
-        done.crack_initiation_stress = cracks->count_break;
+        done.crack_initiation_stress = cracks->initiation();
         done.crack_damage_stress = cracks->damage;
     }
     return done;
@@ -215,7 +215,7 @@ std::optional<NumericalErrors> run_companions(const VirtualTest& test, const Tes
         const auto error = [&](double stress, Number CompanionFigures::*value) {
             return error_of(stress, resolved_before_peak(test, stress), companions, value);
         };
-        figures.crack_initiation_stress = error(own->count_break, &CompanionFigures::crack_initiation_stress);
+        figures.crack_initiation_stress = error(own->initiation(), &CompanionFigures::crack_initiation_stress);
         figures.crack_damage_stress = error(own->damage, &CompanionFigures::crack_damage_stress);
     }
     if (f.failed) errors.peak_converged = on_one_branch(*figures.peak_stress, *figures.peak_strain);

@@ -141,11 +141,15 @@ void cracking(CrackingFigures& c, const parts::Loading& loading, const TestSetup
     const std::optional<CrackThresholds> t = crack_thresholds_of(loading, setup.apparatus, state);
     if (!t) return;
     const double peak = state.failure.peak_stress;
-    c.crack_initiation_stress = t->count_break;
-    c.crack_initiation_interval = std::vector<double>{t->low, t->high};
-    c.crack_initiation_over_peak = t->count_break / peak;
-    c.crack_initiation = OtherInitiation{t->first_percent, t->crack_strain, t->lateral_strain, t->spread()};
+    c.crack_initiation_stress = t->initiation();
+    c.crack_initiation_error = t->initiation_error();
+    c.crack_initiation_over_peak = t->initiation() / peak;
+    c.crack_initiation =
+        OtherInitiation{t->lateral_compliance, t->first_percent,  t->count_break, std::vector<double>{t->low, t->high},
+                        t->crack_strain,       t->lateral_strain, t->spread()};
     c.crack_damage_stress = t->damage;
+    c.crack_damage_error = t->damage_error;
+    c.crack_damage_reversal = t->reversal;
     c.crack_damage_strain = t->damage_strain;
     c.crack_damage_over_peak = t->damage / peak;
 }

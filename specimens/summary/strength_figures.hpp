@@ -180,39 +180,53 @@ CRACKLE_FIGURES(
      "them"));
 
 /// Crack initiation by other definitions.
-CRACKLE_FIGURES(OtherInitiation,
-                (Number, first_percent, "N/m",
-                 "axial stress at which the number of broken bonds reaches 1 % of its value at the peak"),
-                (Number, crack_strain, "N/m",
-                 "axial stress at which the inelastic area strain, area strain - (1 - nu) stress/E, leaves a band of "
-                 "three standard deviations about its initial mean and stays outside until crack damage. The band is "
-                 "that of the rows below a quarter of the peak"),
-                (Number, lateral_strain, "N/m",
-                 "axial stress at which the curve of lateral strain against stress is farthest from its chord between "
-                 "the start and crack damage"),
-                (Number, spread, "N/m",
-                 "difference between the largest and the smallest of the four crack initiation stresses"));
+CRACKLE_FIGURES(
+    OtherInitiation,
+    (Number, lateral_compliance, "N/m",
+     "axial stress beyond which the lateral strain grows at more than 1.2 times its elastic rate nu/E. There it is "
+     "farthest below a line of that slope, up to the largest area strain"),
+    (Number, first_percent, "N/m",
+     "axial stress at which the number of broken bonds reaches 1 % of its value at the peak"),
+    (Number, count_break, "N/m",
+     "axial stress at which the slope of the number of broken bonds against stress changes, by a fit of "
+     "two lines up to 80 % of the peak stress",
+     "null if there are fewer than ten bursts of bond breakage in this range"),
+    (List<double>, count_interval, "N/m",
+     "lower and upper ends of the 95 % confidence interval of count_break, by resampling the bursts of "
+     "bond breakage"),
+    (Number, crack_strain, "N/m",
+     "axial stress at which the inelastic area strain, area strain - (1 - nu) stress/E, leaves a band of "
+     "three standard deviations about its initial mean and stays outside until crack damage. The band is "
+     "that of the rows below a quarter of the peak"),
+    (Number, lateral_strain, "N/m",
+     "axial stress at which the curve of lateral strain against stress is farthest from its chord between "
+     "the start and the largest area strain"),
+    (Number, spread, "N/m", "difference between the largest and the smallest of all six crack initiation stresses"));
 
 /// Stresses at which cracks form and coalesce, in a compression test.
 CRACKLE_FIGURES(CrackingFigures,
                 (Stress, crack_initiation_stress, "N/m",
-                 "crack initiation stress: axial stress at which the slope of the number of broken bonds against "
-                 "stress changes, by a fit of two lines up to 80 % of the peak stress",
-                 "only for compression tests, as are all keys of `crack_initiation` and `crack_damage`. Null if there "
-                 "are fewer than ten bursts of bond breakage in this range"),
-                (List<double>, crack_initiation_interval, "N/m",
-                 "lower and upper ends of the 95 % confidence interval of crack_initiation_stress, by resampling the "
-                 "bursts of bond breakage"),
+                 "crack initiation stress: axial stress beyond which the lateral strain exceeds the elastic one, nu "
+                 "stress/E, by a parabola, by a fit up to the largest area strain",
+                 "only for compression tests, as are all keys of `crack_initiation` and `crack_damage`. Null if the "
+                 "specimen has no side particles, or if its area strain is largest among the first ten rows"),
+                (Number, crack_initiation_error, "N/m",
+                 "error of crack_initiation_stress: its distance from crack_initiation.lateral_compliance"),
                 (Number, crack_initiation_over_peak, "-", "crack_initiation_stress divided by the peak stress"),
                 (Stated<OtherInitiation>, crack_initiation, "N/m",
-                 "crack initiation stresses by three other definitions, and the spread of all four",
+                 "crack initiation stresses by five other definitions, and the spread of all six",
                  "a definition that cannot be evaluated is null"),
                 (Stress, crack_damage_stress, "N/m",
-                 "crack damage stress: axial stress at the largest area strain up to the peak",
-                 "null if the specimen has no side particles"),
-                (Number, crack_damage_strain, "-", "axial strain at crack_damage_stress"),
-                (Number, crack_damage_over_peak, "-",
-                 "crack_damage_stress divided by the peak stress; 1 if the specimen's area decreased up to the peak"));
+                 "crack damage stress: middle of the stretch of axial stresses up to the peak in which the area strain "
+                 "is within 2 % of its largest value",
+                 "null as crack_initiation_stress"),
+                (Number, crack_damage_error, "N/m",
+                 "error of crack_damage_stress: half the length of this stretch of stresses"),
+                (Number, crack_damage_reversal, "N/m",
+                 "axial stress at the largest area strain up to the peak; the peak stress if the specimen's area "
+                 "decreased up to there"),
+                (Number, crack_damage_strain, "-", "axial strain at which crack_damage_stress is first reached"),
+                (Number, crack_damage_over_peak, "-", "crack_damage_stress divided by the peak stress"));
 
 /// One unloading and reloading.
 CRACKLE_FIGURES(

@@ -73,43 +73,79 @@ def recount_stick(stress, broken, peak):
     return places[int(np.argmin(misfit))], places[1] - places[0]
 
 
+def recount_opening(stress, lateral, compliance):
+    """Where the lateral strain begins to exceed the elastic one by a parabola, from fits with many trial places. Columns up to the largest area
+    strain. @return the best place, and the distance between the program's places"""
+    rise = np.maximum.accumulate(stress)
+    levels = np.linspace(stress[0], rise[-1], 201)
+    if not rise[-1] > stress[0]:
+        return math.nan, 0.0
+    fresh = np.flatnonzero(np.append(True, np.diff(rise) > 0))  # rows in which the stress is larger than ever before
+    reached = np.searchsorted(rise[fresh], levels).clip(0, len(fresh) - 1)
+    row = fresh[reached]
+    before = np.maximum(row - 1, 0)
+    part = np.where(row > before, (levels - stress[before]) / np.where(row > before, stress[row] - stress[before], 1.0), 0.0)
+    beyond = lateral[before] + part * (lateral[row] - lateral[before]) - lateral[0] - compliance * (levels - stress[0])
+    places = np.linspace(levels[0], levels[-4], 1971)
+    misfit = []
+    for place in places:
+        parabola = np.maximum(0.0, levels - place) ** 2
+        parabola /= parabola.max()
+        opens = np.dot(parabola, beyond) / np.dot(parabola, parabola)
+        misfit.append(np.sum((beyond - opens * parabola) ** 2) if opens > 0 else math.inf)
+    best = int(np.argmin(misfit))
+    return (places[best] if math.isfinite(misfit[best]) else math.nan), levels[1] - levels[0]
+
+
 def recount_thresholds(r, strain, stress, lateral, broken):
     """Crack initiation and damage of a compression. Columns up to the peak."""
     peak = stress[-1]
     one = math.nan if broken[-1] == 0 else stress[first(broken >= 0.01 * broken[-1])]
     r.key("crack_initiation.first_percent", one, 0.0)
     knee, apart = recount_stick(stress, broken, peak)
-    r.key("crack_initiation_stress", knee, 0.0, apart)
-    stated = r.summary["crack_initiation_stress"]
-    r.key("crack_initiation_over_peak", math.nan if stated is None else stated / peak)
-    low, high = (math.nan if end is None else end for end in r.summary["crack_initiation_interval"])
-    r.true("crack_initiation_interval: within what was loaded", math.isnan(low) or 0 <= low <= high <= 0.8 * peak)
+    r.key("crack_initiation.count_break", knee, 0.0, apart)
+    stated = {name: math.nan if value is None else value for name, value in r.summary["crack_initiation"].items() if name != "count_interval"}
+    low, high = (math.nan if end is None else end for end in r.summary["crack_initiation"]["count_interval"])
+    r.true("crack_initiation.count_interval: within what was loaded", math.isnan(low) or 0 <= low <= high <= 0.8 * peak)
     shrunk = strain - lateral
-    damage = departed = farthest = where = math.nan
-    if not np.any(np.isnan(lateral)):
-        at = int(np.argmax(shrunk))
-        damage, where = stress[at], strain[at]
+    damage = half = where = reversal = departed = farthest = compliant = opened = math.nan
+    step = 0.0
+    at = 0 if np.any(np.isnan(lateral)) else int(np.argmax(shrunk))
+    if at >= 9:
+        near = np.flatnonzero(shrunk >= shrunk[0] + 0.98 * (shrunk[at] - shrunk[0]))
+        ends = stress[: near[0] + 1].max(), stress[: near[-1] + 1].max()
+        damage, half, reversal = (ends[0] + ends[1]) / 2, (ends[1] - ends[0]) / 2, stress[at]
+        where = strain[first(stress >= damage)]
         rows = slice(0, at + 1)
         chord = lateral[0] + (lateral[at] - lateral[0]) * (stress[rows] - stress[0]) / (stress[at] - stress[0])
-        if at > 0:
-            farthest = stress[int(np.argmax(chord - lateral[rows]))]
+        farthest = stress[int(np.argmax(chord - lateral[rows]))]
         modulus, ratio = r.summary["youngs_modulus"], r.summary["poissons_ratio"]
         if modulus is not None and ratio is not None:
             p = r.results.key("confinement", "pressure", 0.0)
-            opened = (shrunk - (1 - ratio) * (stress - p) / modulus)[rows]
+            inelastic = (shrunk - (1 - ratio) * (stress - p) / modulus)[rows]
             quiet = first(stress[rows] >= p + 0.25 * (peak - p))
             quiet = at + 1 if quiet is None else quiet
             if quiet >= 10:
-                band = opened[:quiet].mean() - 3 * opened[:quiet].std(ddof=1)
-                inside = np.flatnonzero(~(opened[quiet:] < band))
+                band = inelastic[:quiet].mean() - 3 * inelastic[:quiet].std(ddof=1)
+                inside = np.flatnonzero(~(inelastic[quiet:] < band))
                 after = quiet + (int(inside[-1]) + 1 if len(inside) else 0)
                 departed = stress[after] if after <= at else math.nan
-    r.key("crack_damage_stress", damage, 0.0)
+            if broken[at] > 0:
+                opened, step = recount_opening(stress[rows], lateral[rows], ratio / modulus)
+                compliant = stress[int(np.argmax(1.2 * ratio / modulus * (stress - stress[0])[rows] - lateral[rows]))]
+    initiation = math.nan if r.summary["crack_initiation_stress"] is None else r.summary["crack_initiation_stress"]
+    r.key("crack_initiation_stress", opened, 0.0, step)
+    r.key("crack_initiation_over_peak", initiation / peak)
+    r.key("crack_initiation_error", abs(initiation - stated["lateral_compliance"]))
+    r.key("crack_damage_stress", damage, 1e-15)
+    r.key("crack_damage_error", half, 1e-9)
+    r.key("crack_damage_reversal", reversal, 0.0)
     r.key("crack_damage_strain", where, 0.0)
     r.key("crack_damage_over_peak", damage / peak)
+    r.key("crack_initiation.lateral_compliance", compliant, 0.0)
     r.key("crack_initiation.crack_strain", departed, 0.0)
     r.key("crack_initiation.lateral_strain", farthest, 0.0)
-    known = [x for x in (one, stated, departed, farthest) if x is not None and not math.isnan(x)]
+    known = [x for x in (one, stated["count_break"], departed, farthest, compliant, initiation) if not math.isnan(x)]
     r.key("crack_initiation.spread", max(known) - min(known) if len(known) > 1 else math.nan)
 
 

@@ -17,6 +17,7 @@
 #include "solver/files/text_table.hpp"
 #include "specimens/calibration/calibrate.hpp"
 #include "specimens/calibration/outcome_files.hpp"
+#include "specimens/calibration/starting_guess.hpp"
 #include "specimens/making/hooks.hpp"
 #include "specimens/statistics/spoken.hpp"
 #include "tools/calibrate/calibration_page.hpp"
@@ -53,8 +54,11 @@ void print_plan(const Rock& rock) {
     for (const Target& target : rock.targets)
         table.add(
             {target.name(rock.tests), fmt::format("{:.6g} within {:.3g} %", target.value, 100.0 * target.tolerance)});
-    for (const FreeKey& free : rock.free)
-        table.add({free.name(), fmt::format("{:.4g} to {:.4g}, from {:.4g}", free.from, free.to, free.start)});
+    const std::vector<double> starts = starting_values(rock);
+    for (std::size_t k = 0; k < rock.free.size(); ++k) {
+        const FreeKey& free = rock.free[k];
+        table.add({free.name(), fmt::format("{:.4g} to {:.4g}, from {:.4g}", free.from, free.to, starts[k])});
+    }
     print_out("{}", table.text());
     const auto tests = static_cast<std::int64_t>(rock.tests.size());
     print_out("  two to ten rounds of up to {} each; then {} up to three times, and {} on fresh packings\n",

@@ -112,12 +112,16 @@ TEST_F(CalibrationTest, APackingThatLacksAStrengthHasNeitherLawNorModulusAtHalfT
         testing::strength_keys);
     const CampaignOptions options{.folder = folder_ / "out", .workers = 2};
     const std::vector<double> here{true_tensile, true_cohesion};
+    std::vector<std::int64_t> without_peak;  // of each target
     const auto measured = [&] {
         Measurements tests(rock, Keep::figures, options, {});
         tests.measure({here}, {0, 4});
+        without_peak.clear();
+        for (std::size_t t = 0; t < 3; ++t) without_peak.push_back(tests.without_peak(here, {0, 4}, t));
         return tests.figures(here, {0, 4});
     };
     const Eigen::MatrixXd before = measured();
+    EXPECT_EQ(without_peak, (std::vector<std::int64_t>{0, 0, 0}));
     ASSERT_TRUE(before.array().isFinite().all());
     {
         CampaignLedger ledger = CampaignLedger::open(ledger_file(options.folder));
@@ -140,6 +144,7 @@ TEST_F(CalibrationTest, APackingThatLacksAStrengthHasNeitherLawNorModulusAtHalfT
         unfailed(2, "compression");
     }
     const Eigen::MatrixXd after = measured();
+    EXPECT_EQ(without_peak, (std::vector<std::int64_t>{1, 0, 2})) << "the law lacks two packings";
     for (Eigen::Index k = 0; k < 4; ++k) {
         EXPECT_EQ(std::isnan(after(k, 0)), k == 2) << "no window at half the peak: " << k;
         EXPECT_EQ(after(k, 1), before(k, 1)) << "the largest stress does not require failure: " << k;

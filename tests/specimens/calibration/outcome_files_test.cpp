@@ -34,6 +34,7 @@ class OutcomeFiles : public testing::KnownRock {
         target.polish = mean_of(polish);
         target.off = 0.04;
         target.limit = 0.123;
+        target.without_peak = 2;
         target.verdict = TargetVerdict::reached_within_error;
         all.targets = {target};
         all.keys = {{.value = 2e7, .low = 1e6, .high = 1e8, .determined = false},
@@ -54,6 +55,7 @@ TEST_F(OutcomeFiles, TableHasMeanErrorScatterAndWhatIsAllowed) {
     const std::vector<std::string> expected{"100", "104", "4.5", "10", "+4.0", "%", "12.3", "%", "reached"};
     EXPECT_EQ(words, expected) << text;
     EXPECT_NE(text.find("5 of 8 fresh packings have all targets' figures"), std::string::npos) << text;
+    EXPECT_NE(text.find("2 of 8 fresh packings have no peak"), std::string::npos) << text;
     // 200 packings in each group: (10/1)² for each mean to be known to half the tolerance, times 2 for the error of a
     // difference.
     EXPECT_NE(text.find("leaves an error of ±12.30 %, more than the tolerance of 2.00 %; 200 of each"),

@@ -25,13 +25,13 @@ TEST(Summary, StatesWhatIsAssignedAndNullWhereItIsNotKnown) {
     s.strength.peak_stress = 2.0;
     s.strength.peak_stress.converted = 4.0;
     s.strength.peak_strain = std::numeric_limits<double>::quiet_NaN();
-    s.cracking.crack_initiation_interval = std::vector<double>{1.0, std::numeric_limits<double>::infinity()};
+    s.numerics.axial_strain_rate_range = std::vector<double>{1.0, std::numeric_limits<double>::infinity()};
     s.damage.largest_crack = LargestCrack{.bonds = 3, .height = 0.5};
     s.notices = std::vector<std::string>{"so"};
     s.files.begin_table().emplace_back("curve.csv", FileFigures{7, "0f"});
     EXPECT_EQ(text_of(s), R"({"kind":"tension","ended_by":null,"peak_stress":2.0,"peak_stress_pa":4.0,)"
-                          R"("peak_strain":null,"crack_initiation_interval":[1.0,null],)"
-                          R"("largest_crack":{"bonds":3,"height":0.5},"notices":["so"],)"
+                          R"("peak_strain":null,"largest_crack":{"bonds":3,"height":0.5},)"
+                          R"("axial_strain_rate_range":[1.0,null],"notices":["so"],)"
                           R"("files":{"curve.csv":{"bytes":7,"xxh3":"0f"}}})");
     EXPECT_EQ(text_of(parse_summary(text_of(s))), text_of(s));
 }
@@ -39,11 +39,11 @@ TEST(Summary, StatesWhatIsAssignedAndNullWhereItIsNotKnown) {
 TEST(Summary, TakesNoValueOfAnotherType) {
     const Summary s = parse_summary(R"({"kind": "torsion", "failed": "yes", "steps": 7.5, 
         "peak_strain": "large", "validity": {"claim": "it holds"}, "emission": [1], "notices": ["so", 3],
-        "threads": 1e300, "crack_initiation_interval": [null, 2], "beauty": 1, "membrane": {"points": null}})");
+        "threads": 1e300, "axial_strain_rate_range": [null, 2], "beauty": 1, "membrane": {"points": null}})");
     EXPECT_TRUE(s.about.kind.stated() && !s.about.kind);
     EXPECT_TRUE(s.about.failed.stated() && !s.about.failed);
     EXPECT_TRUE(s.numerics.steps.stated() && !s.numerics.steps);
-    EXPECT_TRUE(std::isnan(s.cracking.crack_initiation_interval->at(0)));
+    EXPECT_TRUE(std::isnan(s.numerics.axial_strain_rate_range->at(0)));
     EXPECT_TRUE(s.strength.peak_strain.stated() && !s.strength.peak_strain);
     EXPECT_TRUE(s.validity.validity.stated() && !s.validity.validity);
     EXPECT_TRUE(s.emission.stated() && !s.emission);

@@ -94,16 +94,6 @@ function verdictOf(test: TestData): string | undefined {
     return valid === true ? 'yes' : 'not known yet';
 }
 
-/// Row with both ends of an interval, in per cent of the value to which it belongs.
-function within(name: string, interval: string, of: string): Row {
-    const shares = (test: TestData): string | undefined => {
-        const ends = test.summary[interval], value = numberOf(test.summary, of);
-        if (!Array.isArray(ends) || value === undefined) return undefined;
-        return ends.map((end) => (typeof end === 'number' ? significant(100 * end / value, 3) : missing)).join(' to ');
-    };
-    return {name, cells: (tests) => ({unit: '%', values: tests.map(shares)})};
-}
-
 /// Row with a value for each unloading, in order.
 function eachCycle(name: string, figure: string, factor: number, unit: string, note: string): Row {
     const read = (test: TestData): string | undefined => {
@@ -188,11 +178,12 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         strains('Strain at peak', either('peak_strain', 'peak_strain_so_far')),
         ...inPlaneAndSpace('Larger stress after the peak', later('largest_stress'), later('largest_stress_pa'), 'carried by pieces that are loaded again after the drop, so not the strength'),
         strains('Strain there', later('strain_at_largest_stress')),
-        ...stress('Crack initiation σci', ['crack_initiation_stress'], 'stress at which the slope of the number of broken bonds against stress changes'),
-        within('95 % interval, relative to crack initiation', 'crack_initiation_interval', 'crack_initiation_stress'),
+        ...stress('Crack initiation σci', ['crack_initiation_stress'], 'stress beyond which the lateral strain exceeds the elastic one by a parabola'),
+        percent('Error of crack initiation', (test) => ratio(numberOf(test.summary, 'crack_initiation_error'), numberOf(test.summary, 'crack_initiation_stress')), 'difference from a second definition, over σci'),
         percent('Crack initiation over the peak', key('crack_initiation_over_peak')),
-        percent('Spread of four definitions of σci', (test) => ratio(numberIn(test, 'crack_initiation', 'spread'), numberOf(test.summary, 'crack_initiation_stress')), '(largest − smallest)/σci'),
-        ...stress('Crack damage σcd', ['crack_damage_stress'], 'stress at the largest area strain'),
+        percent('Spread of six definitions of σci', (test) => ratio(numberIn(test, 'crack_initiation', 'spread'), numberOf(test.summary, 'crack_initiation_stress')), '(largest − smallest)/σci'),
+        ...stress('Crack damage σcd', ['crack_damage_stress'], 'middle of the stresses at which the area strain is within 2 % of its largest value'),
+        percent('Error of crack damage', (test) => ratio(numberOf(test.summary, 'crack_damage_error'), numberOf(test.summary, 'crack_damage_stress')), 'half the stretch of these stresses, over σcd'),
         percent('Crack damage over the peak', key('crack_damage_over_peak')),
         ...stress('Normal stress', ['normal_stress'], 'on the upper half box'),
         ...stress('Residual shear stress', ['residual_stress'], 'mean over the last tenth of the strain'),
