@@ -207,7 +207,6 @@ class Pass {
         faces_.broken.push_back(result.face);
         record(k, in_shear, forces, result.energy);
         store(k, result.forces);
-        if (!face_replaces_points(world_, pair.body_i, pair.body_j)) world_.list.valid = false;
         return losses;
     }
 

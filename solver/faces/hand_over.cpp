@@ -16,6 +16,7 @@ namespace {
 // Rotations between which a face is handed over, rad. The springs of a face take 2 sin(φ/2) for φ: at φ₁ the ends of
 // an edge of length L are wrong by L φ₁³/48, which is 1e-6 L.
 constexpr double first_turn = 0.02, last_turn = 0.04;
+constexpr double turn_ahead = 0.005;  // rad, before first_turn, at which points are listed
 
 /// Share of their stiffness that points keep if a face has all, so that quotients by it stay finite.
 constexpr float least_share = 1e-6F;
@@ -78,17 +79,20 @@ bool face_replaces_points(const World& world, BodyIndex i, BodyIndex j) {
     const FaceSprings s = faces.springs[k];
     const BondFaceMotion m = motion_of(faces.place[k], world.bodies.state[faces.bodies[k].body_i],
                                        world.bodies.state[faces.bodies[k].body_j]);
-    // Until the next list, no surface moves by more than its half skin.
-    const double skin = world.list.half_skin_of(i) + world.list.half_skin_of(j);
+    // A little ahead, so that few lists are made because a face hands over.
     BondFaceMotion least = m;
-    least.sliding = std::abs(m.sliding) + skin;
-    least.turn = std::abs(m.turn) + skin / std::min(world.bodies.info(i).reach, world.bodies.info(j).reach);
+    least.sliding = std::abs(m.sliding) + world.list.half_skin_of(i) + world.list.half_skin_of(j);
+    least.turn = std::abs(m.turn) + turn_ahead;
     return share_of_points(s, least, world.settings.thick) <= 0.0;
 }
 
 void list_hand_over(World& world) {
     constexpr auto kind = static_cast<std::size_t>(PointKind::element_outline);
     Faces& faces = world.faces;
+    for (BrokenFace& face : faces.broken) {
+        const auto [i, j] = faces.bodies[face.face];
+        face.alone = face_replaces_points(world, i, j);
+    }
     faces.hand_over.clear();
     faces.whole_share.clear();
     const PointIndex last = world.points.kind_begin[kind + 1];
@@ -109,8 +113,10 @@ void list_hand_over(World& world) {
 
 void hand_over(World& world) {
     Faces& faces = world.faces;
-    for (BrokenFace& face : faces.broken)
+    for (BrokenFace& face : faces.broken) {
         face.taken = share_of_points(faces.springs[face.face], faces.motion[face.face], world.settings.thick);
+        if (face.alone && face.taken > 0.0) world.list.valid = false;  // its points are missing
+    }
     if (faces.hand_over.empty()) return;
     const BodyView bodies(world);
     double lost = 0.0;

@@ -11,8 +11,8 @@
 //
 // Points start without force, with a rest overlap: the rock that the face had compressed is free at its end.
 //
-// The points of a pair are listed only where q may become less than 1 before the next neighbour list. An intact face
-// has all of q. Source: solver/MODEL.md 5.5. Tested by tests/solver/faces/hand_over_test.cpp.
+// The points of a pair are listed only where q is less than 1 or will soon be. A face that reaches this between two
+// neighbour lists asks for a new one, which comes a step later. An intact face has all of q. Source: solver/MODEL.md 5.5. Tested by tests/solver/faces/hand_over_test.cpp.
 #pragma once
 
 #include <functional>
@@ -25,7 +25,7 @@ namespace crackle {
 /// is_new whether a point was not in the list before
 void rest_new_points(World& world, const std::function<bool(PointIndex)>& is_new);
 
-/// Whether the face between two bodies replaces all of their contact points until the next neighbour list.
+/// Whether the face between two bodies replaces all of their contact points, and will for a while.
 bool face_replaces_points(const World& world, BodyIndex i, BodyIndex j);
 
 /// 1 - q of a broken face. @param thick thickness of segments, m

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Springs between any number of bodies: each row r stores the energy ½k (r·u)², u the motions of all bodies. The
-// pressure of a cell is such a spring between the cell and all of its neighbours (faces/face_rows.hpp).
+// pressure of a cell is such a spring between the cell and all of its neighbours (linear/face_rows.hpp).
 // Tested by tests/solver/linear/face_rows_test.cpp.
 #pragma once
 

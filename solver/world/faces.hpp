@@ -152,6 +152,7 @@ struct BrokenState {
 struct BrokenFace {
     FaceIndex face = no_face;
     bool in_shear = false;  // how it failed
+    bool alone = true;      // whether the neighbour list leaves out the points between its bodies (faces/hand_over.hpp)
     double slip = 0.0;      // u_p, m
     double slipped = 0.0;   // Σ|Δu_p|, m
     double glued = 0.0;     // b_c, m: least closed length since a failure in shear
@@ -160,7 +161,7 @@ struct BrokenFace {
     double taken = 0.0;     // share that the contact points between its bodies have taken over (faces/hand_over.hpp)
     BrokenState last;       // of the last force pass
 
-    CRACKLE_FIELDS(face, in_shear, slip, slipped, glued, held, energy, taken, last);
+    CRACKLE_FIELDS(face, in_shear, alone, slip, slipped, glued, held, energy, taken, last);
 };
 
 /// Pressure of a broken face's edges at a given pressure of its cells.

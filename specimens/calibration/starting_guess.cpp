@@ -52,7 +52,7 @@ Known known_values(const Rock& rock, const std::vector<ResolvedCase>& tests) {
 
 bool is_known_kind(const ResolvedCase& test) {
     return test.mesh && test.mesh->kind == MeshKind::voronoi && test.area_units() &&
-           test.bond_facts().strengths_are_given && test.minerals.list.empty();
+           test.bond.facts().strengths_are_given && test.minerals.list.empty();
 }
 
 }  // namespace

@@ -211,7 +211,8 @@ std::vector<ClaimRow> physics_does_not_depend_on_the_axes() {
               },
               1.0));
     rows.at_least("bonded pairs with i and j exchanged", traded(scene, mirrored), 10.0, "swapped");
-    Scene turned = mapped(scene, perpendicular, 1.0);
+    Scene turned = mapped(
+        scene, [](Vec2 v) { return perpendicular(v); }, 1.0);
     turned.controls[0].x = {Drive::force, -30.0};
     turned.controls[0].y = {Drive::velocity, 0.02};
     check(rows, "turned by 90 degrees",
