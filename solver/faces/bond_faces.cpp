@@ -213,7 +213,7 @@ class Bonder {
                            : rigid_i ? springs_with_rigid(face.j, face.middle, -1.0 * face.normal, face.length, false)
                                      : springs_between(face));
         std::size_t law = rigid_i || rigid_j ? world_.settings.pair_count() + material(rigid_i ? face.j : face.i)
-                                                   : pair_number(material(face.i), material(face.j));
+                                             : pair_number(material(face.i), material(face.j));
         if (bonding_.holds && bonding_.holds(face.middle, face.i, face.j)) law += first_held_law_;
         faces_.law.push_back(static_cast<std::uint16_t>(law));
         faces_.strength_share.push_back(

@@ -17,9 +17,9 @@
 #include <functional>
 #include <vector>
 
-#include "solver/world/faces.hpp"
 #include "solver/faces/find_faces.hpp"
 #include "solver/scene/bond_strength.hpp"
+#include "solver/world/faces.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -51,9 +51,9 @@ FaceLaw weaker_law(const FaceLaw& a, const FaceLaw& b);
 struct FaceBonding {
     std::vector<FaceMaterial> materials;  ///< as in Settings::materials; two materials have the smaller strengths
     std::vector<FacePair> pairs;
-    double gap = 0.0;                     ///< m, distance between facing edges of the mesh
-    Outlines outlines;                    ///< m, by body, before the inset; recovered from the gap if empty
-    std::vector<Vec2> reference;          ///< m, by body; where NaN, or if empty, circumcentres and centroids
+    double gap = 0.0;             ///< m, distance between facing edges of the mesh
+    Outlines outlines;            ///< m, by body, before the inset; recovered from the gap if empty
+    std::vector<Vec2> reference;  ///< m, by body; where NaN, or if empty, circumcentres and centroids
     PlatenFaces platens = PlatenFaces::smooth;
     double platen_friction = 0.0;  ///< tan φ of PlatenFaces::rubbing
     /// Whether the faces between two bodies start broken, without cohesion. If not set, all are intact.

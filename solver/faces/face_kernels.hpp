@@ -5,8 +5,8 @@
 #pragma once
 
 #include "solver/base/instruction_set.hpp"
-#include "solver/world/faces.hpp"
 #include "solver/world/bodies.hpp"
+#include "solver/world/faces.hpp"
 
 namespace crackle {
 

@@ -252,8 +252,7 @@ class Pass {
             step_broken(face, faces_.springs[k], faces_.law_of(k), faces_.strength_share[k], faces_.lag[k],
                         faces_.motion[k], faces_.late[n], faces_.pressure_at(k), faces_.skewing_at(k));
         if (faces_.damped())
-            step.losses.add(damp(k, step.forces, step.closed / faces_.springs[k].length,
-                                 face.last.slip != 0.0));
+            step.losses.add(damp(k, step.forces, step.closed / faces_.springs[k].length, face.last.slip != 0.0));
         store(k, step.forces);
         return step.losses;
     }

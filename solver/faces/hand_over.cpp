@@ -39,8 +39,8 @@ double change_share(World& world, const BodyView& bodies, PointIndex p, float sh
     double lost = 0.0;
     if ((points.state[p].flags & point_touching) != 0) {
         const ContactLaw law = law_of(world, p);
-        const double overlap = std::max(0.0, overlap_at<PointKind::element_outline>(bodies, points.contact[p]) -
-                                                 points.bond_overlap[p]);
+        const double overlap =
+            std::max(0.0, overlap_at<PointKind::element_outline>(bodies, points.contact[p]) - points.bond_overlap[p]);
         const double shear = points.shear_force[p];
         const double energy = 0.5 * law.normal_stiffness * overlap * overlap +
                               (law.shear_stiffness > 0.0 ? 0.5 * shear * shear / law.shear_stiffness : 0.0);

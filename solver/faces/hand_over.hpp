@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where a broken face ends and the contact points between its two bodies begin.
 //
-// The springs of a face know two straight edges that lap. Corners that meet other edges, and edges that have turned far,
-// are contact points. With q the share of the face, the energy of a pair is
+// The springs of a face know two straight edges that lap. Corners that meet other edges, and edges that have turned
+// far, are contact points. With q the share of the face, the energy of a pair is
 //     U = q U_face + (1 - q) U_points     q = min(1, lap/(2t)) · clamp((φ₁ - |δ_φ|)/(φ₁ - φ₀), 0, 1)
 // t is the thickness of segments, or half the face's length if that is less, so that neither force jumps. The shear
 // springs of the points grow with their stiffness. What U changes with q at fixed places counts as friction. q is a
@@ -12,7 +12,8 @@
 // Points start without force, with a rest overlap: the rock that the face had compressed is free at its end.
 //
 // The points of a pair are listed only where q is less than 1 or will soon be. A face that reaches this between two
-// neighbour lists asks for a new one, which comes a step later. An intact face has all of q. Source: solver/MODEL.md 5.5. Tested by tests/solver/faces/hand_over_test.cpp.
+// neighbour lists asks for a new one, which comes a step later. An intact face has all of q. Source:
+// solver/MODEL.md 5.5. Tested by tests/solver/faces/hand_over_test.cpp.
 #pragma once
 
 #include <functional>

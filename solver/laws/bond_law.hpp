@@ -56,8 +56,8 @@ struct BondLawFacts {
 /// Facts of a law of a scene. Kernels read them from the law's type.
 const BondLawFacts& facts_of(BondLaw law);
 
-/// The law by which kernels treat points in a world of this law. With faces it is that of points whose bonds have broken:
-/// they start without force where they take over from a face.
+/// The law by which kernels treat points in a world of this law. With faces it is that of points whose bonds have
+/// broken: they start without force where they take over from a face.
 constexpr BondLaw law_of_points(BondLaw law) { return law == BondLaw::face ? BondLaw::coulomb : law; }
 
 /// Constants of all laws, each key once.

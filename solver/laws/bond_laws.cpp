@@ -14,9 +14,7 @@ const BondConstant* BondLawFacts::constant(std::string_view key) const {
     return found == constants.end() ? nullptr : &*found;
 }
 
-const BondLawFacts& facts_of(BondLaw law) {
-    return known_facts(law);
-}
+const BondLawFacts& facts_of(BondLaw law) { return known_facts(law); }
 
 const std::vector<BondConstant>& all_bond_constants() {
     static const std::vector<BondConstant> all = [] {

@@ -95,7 +95,8 @@ std::vector<FaceForces> face_force_rates(const World& world, const std::vector<B
         const MotionGradients gradients = gradients_of(world, k);
         const auto times = [&](const std::array<double, 6>& row) {
             double sum = 0.0;
-            for (std::size_t a = 0; a < 6; ++a) sum += row[a] * component(motion[a < 3 ? i : j], static_cast<int>(a % 3));
+            for (std::size_t a = 0; a < 6; ++a)
+                sum += row[a] * component(motion[a < 3 ? i : j], static_cast<int>(a % 3));
             return sum;
         };
         of_face[k] = {{}, times(gradients.opening), times(gradients.sliding), times(gradients.turn)};
@@ -109,7 +110,8 @@ std::vector<FaceForces> face_force_rates(const World& world, const std::vector<B
         const auto [i, j] = faces.bodies[k];
         const FaceSprings s = faces.springs[k];
         const double p_i = faces.cells[i].per_area * dilation[i], p_j = faces.cells[j].per_area * dilation[j];
-        forces.push_back(intact_forces(s, of_face[k], s.share_i * p_i + s.share_j * p_j, s.skew_i * p_i - s.skew_j * p_j));
+        forces.push_back(
+            intact_forces(s, of_face[k], s.share_i * p_i + s.share_j * p_j, s.skew_i * p_i - s.skew_j * p_j));
     }
     return forces;
 }

@@ -202,8 +202,8 @@ void add_row(Block& block, const Roots& roots, const Spring& row, bool second, d
     block.add(share * row.stiffness, roots.x * row.push[d], roots.y * row.push[d + 1], roots.r * row.push[d + 2]);
 }
 
-/// Law and root mass of a contact point at its stiffest before the neighbour list is rebuilt. Flat faces that slide have
-/// their largest lap (shared length) then, and points that take over from a broken face have all of its share.
+/// Law and root mass of a contact point at its stiffest before the neighbour list is rebuilt. Flat faces that slide
+/// have their largest lap (shared length) then, and points that take over from a broken face have all of its share.
 struct StiffestPoint {
     ContactLaw law;
     double root_mass;  // sqrt(kg)

@@ -38,7 +38,7 @@ struct Joint {
     double dilation_angle = 0.0;
     double dilation_slip =
         std::numeric_limits<double>::infinity();  ///< m, > 0; accumulated slip at which dilation ends
-    double aperture = 0.0;  ///< m, >= 0; open joints only: gap that must close before the faces touch
+    double aperture = 0.0;                    ///< m, >= 0; open joints only: gap that must close before the faces touch
     std::optional<double> residual_cohesion;  ///< Pa, >= 0, of faces after a failure in shear; if not given, the rock's
                                               ///< value, but at most the joint's cohesion
     std::optional<double> softening_slip;     ///< m, >= 0, over which the cohesion falls to it
@@ -49,7 +49,8 @@ struct Joint {
     bool has_stiffness() const { return normal_stiffness || shear_stiffness; }
 
     CRACKLE_FIELDS(bonded, strength_factor, tensile_strength, cohesion, friction_angle, residual_friction_angle,
-                   normal_stiffness, shear_stiffness, dilation_angle, dilation_slip, aperture, residual_cohesion, softening_slip);
+                   normal_stiffness, shear_stiffness, dilation_angle, dilation_slip, aperture, residual_cohesion,
+                   softening_slip);
 };
 
 /// One side of a trace, as a number: twice the index of the trace, plus one for the right side (looking along its

@@ -9,10 +9,10 @@
 #include "solver/stepping/record_breaks.hpp"
 
 #include "solver/contact/point_motion.hpp"
+#include "solver/geometry/event_place.hpp"
 #include "solver/geometry/geometry.hpp"
 #include "solver/laws/bond_laws.hpp"
 #include "solver/measure/point_view.hpp"
-#include "solver/geometry/event_place.hpp"
 
 namespace crackle {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "solver/stepping/record_slips.hpp"
 
-#include "solver/measure/point_view.hpp"
 #include "solver/geometry/event_place.hpp"
+#include "solver/measure/point_view.hpp"
 
 namespace crackle {
 

@@ -82,8 +82,8 @@ void update_neighbours(World& world) {
     refresh_neighbours(world);
 }
 
-/// Divides the points among threads, clears the summed forces, opens joints that slide, and adds the forces of faces and
-/// of the membrane.
+/// Divides the points among threads, clears the summed forces, opens joints that slide, and adds the forces of faces
+/// and of the membrane.
 void prepare_forces(World& world) {
     plan_sweep(world);
     clear_forces(world);

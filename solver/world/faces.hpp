@@ -144,8 +144,7 @@ struct BrokenState {
     double whole = 0.0;                               // J, Ψ at the late pressure as if q were 1
 
     CRACKLE_FIELDS(opening, sliding, turn, half_lap, pressure, skewing, stretch, shear, slip, late_pressure, late_force,
-                   late_moment, end_closure, held, pull,
-                   taken, whole);
+                   late_moment, end_closure, held, pull, taken, whole);
 };
 
 /// What a broken face remembers.
@@ -213,7 +212,7 @@ struct Faces {
     bool has_pressure = false;  // whether any cell has a pressure
     std::vector<BrokenFace> broken;
     std::vector<HandOver> hand_over;
-    Array<float> whole_share;           // by point, its stiffness_share if it had all; empty if no face hands over
+    Array<float> whole_share;  // by point, its stiffness_share if it had all; empty if no face hands over
     double stiffness_bound = 0.0, damping_bound = 0.0;  // 1/s² and 1/s, at least the largest eigenvalues of M^-½KM^-½
                                                         // and M^-½CM^-½, of all faces as if none were broken
     FaceColumns<FaceDashpots> dashpots,
@@ -245,8 +244,8 @@ struct Faces {
     }
 
     CRACKLE_FIELDS(bodies, place, springs, law, strength_share, lag, broken_at, laws, first_face, face_ends, cells,
-                   has_pressure, broken, hand_over, whole_share, stiffness_bound, damping_bound, dashpots, dashpot_force, lag_loss, motion, dilation_i, dilation_j,
-                   force, late, losses);
+                   has_pressure, broken, hand_over, whole_share, stiffness_bound, damping_bound, dashpots,
+                   dashpot_force, lag_loss, motion, dilation_i, dilation_j, force, late, losses);
 };
 
 }  // namespace crackle

@@ -45,7 +45,9 @@ constexpr bool by_guide(PointKind kind) {
 
 /// Whether the consistent integrator applies contact/opening.hpp to points of this kind. This requires a force with a
 /// potential that depends on the overlap alone.
-constexpr bool has_opening(PointKind kind) { return !by_guide(kind) && kind != PointKind::face_face && kind != PointKind::bonded_face; }
+constexpr bool has_opening(PointKind kind) {
+    return !by_guide(kind) && kind != PointKind::face_face && kind != PointKind::bonded_face;
+}
 
 /// State of a contact point, as bits.
 enum PointFlag : std::uint16_t {

@@ -32,7 +32,7 @@ struct World {
     Bonds bonds;
     EnergyAccount account;
     Membrane membrane;
-    Faces faces;  // empty unless its bonds are faces
+    Faces faces;      // empty unless its bonds are faces
     Workers workers;  // not part of the saved state
 
     /// Groups of the state that a checkpoint saves and a state hash covers; also `faces`, if there are any.

@@ -73,8 +73,8 @@ std::optional<LinearFigure> linear_figure_of(std::string_view figure) {
 bool is_elastic_key(std::string_view key) {
     const std::size_t dot = key.rfind('.');
     const std::string_view name = dot == std::string_view::npos ? key : key.substr(dot + 1);
-    return name == "youngs_modulus" || name == "poissons_ratio" || name == "contact_modulus" || name == "stiffness_ratio" || name == "normal_stiffness" ||
-           name == "shear_stiffness";
+    return name == "youngs_modulus" || name == "poissons_ratio" || name == "contact_modulus" ||
+           name == "stiffness_ratio" || name == "normal_stiffness" || name == "shear_stiffness";
 }
 
 std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& request, std::span<const double> values) {

@@ -174,8 +174,7 @@ class ConsistencyCheck {
     void faces() const {
         if (!test_.bond_facts().by_faces) {
             for (const FaceConstant& constant : face_constants)
-                expect_materials_beside(constant.key,
-                                        fmt::format("bond.law = {}", laws_with(&BondLawFacts::by_faces)));
+                expect_materials_beside(constant.key, fmt::format("bond.law = {}", laws_with(&BondLawFacts::by_faces)));
             return;
         }
         if (!test_.area_units())
@@ -208,8 +207,8 @@ class ConsistencyCheck {
         try {
             static_cast<void>(m.face_moduli(0.0));
         } catch (const InputError& error) {
-            throw InputError(fmt::format("{}: {}", test_.at(key(m.stiffness_ratio ? "stiffness_ratio" : "poissons_ratio")),
-                                         error.what()));
+            throw InputError(fmt::format(
+                "{}: {}", test_.at(key(m.stiffness_ratio ? "stiffness_ratio" : "poissons_ratio")), error.what()));
         }
         if (!m.tensile_strength || !m.cohesion || !m.friction_angle) return;
         try {

@@ -67,10 +67,11 @@ void add_mechanics(std::vector<Parameter>& all, const char* table, List list) {
                       "Closure of an open joint's faces without force; at most the gap of the mesh, or the radius of "
                       "the smallest circle.")
                       .above(0));
-    all.push_back(key(&Keys::residual_cohesion, "residual_cohesion", "Pa",
-                      "Cohesion of the joint's faces after their failure in shear, with bond.law = \"face\"; the rock's "
-                      "if not given, but at most the joint's cohesion.")
-                      .at_least(0));
+    all.push_back(
+        key(&Keys::residual_cohesion, "residual_cohesion", "Pa",
+            "Cohesion of the joint's faces after their failure in shear, with bond.law = \"face\"; the rock's "
+            "if not given, but at most the joint's cohesion.")
+            .at_least(0));
     all.push_back(key(&Keys::softening_slip, "softening_slip", "m",
                       "Slip over which the cohesion of the joint's faces falls to residual_cohesion; the rock's if not "
                       "given.")

@@ -116,14 +116,14 @@ struct TestCase : WrittenPlaces {
 
     /// Mechanical properties of a joint that differ from the rock's; a missing key keeps the rock's value.
     struct JointKeys : BondConstants {
-        std::optional<bool> bonded;              // true if absent
-        std::optional<double> strength_factor;   // -
-        std::optional<double> friction_angle;    // degrees
-        std::optional<double> normal_stiffness;  // Pa/m
-        std::optional<double> shear_stiffness;   // Pa/m
-        std::optional<double> dilation_angle;    // degrees
-        std::optional<double> dilation_slip;     // m
-        std::optional<double> aperture;          // m
+        std::optional<bool> bonded;               // true if absent
+        std::optional<double> strength_factor;    // -
+        std::optional<double> friction_angle;     // degrees
+        std::optional<double> normal_stiffness;   // Pa/m
+        std::optional<double> shear_stiffness;    // Pa/m
+        std::optional<double> dilation_angle;     // degrees
+        std::optional<double> dilation_slip;      // m
+        std::optional<double> aperture;           // m
         std::optional<double> residual_cohesion;  // Pa
         std::optional<double> softening_slip;     // m
 

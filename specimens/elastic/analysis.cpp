@@ -121,8 +121,8 @@ std::vector<LinearBond> linear_bonds(const World& world, const PlacedApparatus& 
     const std::vector<FaceForces> growth = face_force_rates(world, moduli.solution.displacement);
     for (FaceIndex k = 0; k < growth.size(); ++k) {
         if (world.faces.broken_at[k] != no_face) continue;
-        bonds.push_back(
-            linear_face(world, k, {sense * growth[k].normal, sense * growth[k].shear, sense * growth[k].moment}, strain));
+        bonds.push_back(linear_face(
+            world, k, {sense * growth[k].normal, sense * growth[k].shear, sense * growth[k].moment}, strain));
     }
     return bonds;
 }

@@ -80,7 +80,8 @@ double mean_field_shear_modulus(const World& world, const TestSetup& setup) {
 EmissionRule emission_rule(const World& world, const TestSetup& setup, double youngs_modulus, double poissons_ratio,
                            double thickness) {
     if (world.faces.size() > 0)
-        throw InputError("found bonds that are faces, expected bonds of points; clusters of breaks are found among points");
+        throw InputError(
+            "found bonds that are faces, expected bonds of points; clusters of breaks are found among points");
     EmissionRule rule;
     rule.mean_field = !setup.apparatus.uniaxial || std::isnan(youngs_modulus) || std::isnan(poissons_ratio);
     const double shear_modulus =

@@ -31,7 +31,7 @@ struct BondRecord {
     std::vector<StartPlace> start;  ///< initial positions, by body
     /// The bonded points, sorted by kind and then in the world's order of points (point_order.hpp).
     ContactList points;
-    std::vector<double> overlaps;                          ///< m, initial overlap δ0 of each bond
+    std::vector<double> overlaps;                         ///< m, initial overlap δ0 of each bond
     std::array<PointIndex, bond_kinds + 1> kind_begin{};  ///< for each kind, index of its first bond
     std::vector<float> shares;  ///< for each bond, fraction of the law's stiffness; empty if all are 1
 

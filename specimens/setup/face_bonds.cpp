@@ -35,8 +35,8 @@ std::vector<Vec2> references_of(const World& world, const Specimen& specimen) {
 
 }  // namespace
 
-FaceBonding face_bonding_of(const World& world, const Specimen& specimen, const parts::Bonds& bonds,
-                            PlatenKind platens, double gap) {
+FaceBonding face_bonding_of(const World& world, const Specimen& specimen, const parts::Bonds& bonds, PlatenKind platens,
+                            double gap) {
     // The moduli of bodies are those of their materials, so that contacts and faces have the same.
     const auto moduli_of = [](const parts::MaterialValues& values) {
         return FaceModuli{*values.normal_stiffness, values.face_moduli(0.0).pressure,

@@ -11,9 +11,9 @@
 
 namespace crackle {
 
-/// The request for the faces of a world made from a specimen. Platens that are not bonded have none. @param gap distance
-/// between facing edges, m
-FaceBonding face_bonding_of(const World& world, const Specimen& specimen, const parts::Bonds& bonds,
-                            PlatenKind platens, double gap);
+/// The request for the faces of a world made from a specimen. Platens that are not bonded have none. @param gap
+/// distance between facing edges, m
+FaceBonding face_bonding_of(const World& world, const Specimen& specimen, const parts::Bonds& bonds, PlatenKind platens,
+                            double gap);
 
 }  // namespace crackle

@@ -22,8 +22,8 @@ namespace {
 
 using testing::within;
 
-constexpr double gap = 0.02;        // m, of cells of 1 m
-constexpr double pressing = 1e-3;   // N
+constexpr double gap = 0.02;       // m, of cells of 1 m
+constexpr double pressing = 1e-3;  // N
 constexpr int base_cells = 5, top_id = 100;
 
 /// A row of cells on a held block, and one cell that lies on the second of them, without a bond, under a force.
@@ -94,7 +94,8 @@ TEST(HandOver, HasNoJumpOfForceOverASlipOfThreeCells) {
     EXPECT_EQ(taken, 1.0);
     fmt::print("  {} steps, largest force {:.3g} of {:.3g} N\n", steps, largest, pressing);
     EXPECT_TRUE(within("largest change of force in a step, of the largest force", jump / largest, 0.0, 0.01));
-    EXPECT_TRUE(within("closing error, of the energy", ledger.closing_error / (ledger.kinetic + ledger.strain), 0.0, 0.02));
+    EXPECT_TRUE(
+        within("closing error, of the energy", ledger.closing_error / (ledger.kinetic + ledger.strain), 0.0, 0.02));
 }
 
 TEST(HandOver, HasNoJumpOfForceOverATurnOf90Degrees) {
@@ -117,8 +118,7 @@ TEST(HandOver, HasNoJumpOfForceOverATurnOf90Degrees) {
         bodies_moved(world);
         compute_forces(world);
         const BodyForce& force = world.bodies.force[top];
-        if (n > 0)
-            jump = std::max({jump, std::abs(force.fy - last_force), std::abs(force.torque - last_torque)});
+        if (n > 0) jump = std::max({jump, std::abs(force.fy - last_force), std::abs(force.torque - last_torque)});
         largest = std::max(largest, std::abs(force.fy));
         last_force = force.fy, last_torque = force.torque;
         for (const BrokenFace& face : world.faces.broken) taken = std::max(taken, face.taken);

@@ -104,8 +104,8 @@ double bending_stiffness(int depth, double ratio, double correction) {
         const BodyState& body = cells.world.bodies.state[b];
         return BodyMotion{-angle * (body.y - y), angle * (body.x - 0.5), angle};
     };
-    const ElasticSolution solution =
-        solve_elastic(cells.world, {{low, about_end(low, 0.0, -0.5 * turn)}, {high, about_end(high, span, 0.5 * turn)}});
+    const ElasticSolution solution = solve_elastic(
+        cells.world, {{low, about_end(low, 0.0, -0.5 * turn)}, {high, about_end(high, span, 0.5 * turn)}});
     // Energy ½Mφ, with M = EIφ/span and I = 1/12.
     return solution.energy / (0.5 * turn * turn / (12.0 * span));
 }

@@ -9,8 +9,8 @@
 #include <random>
 
 #include "solver/faces/face_pass.hpp"
-#include "solver/measure/ledger.hpp"
 #include "solver/linear/critical_step.hpp"
+#include "solver/measure/ledger.hpp"
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/step.hpp"
