@@ -11,8 +11,10 @@ namespace crackle {
 namespace {
 
 /// Distance at which two edges lie on each other, relative to the root of the smaller cell's area. It allows for the
-/// round-off of the inset and of its reversal.
-constexpr double flush_share = 1e-6;
+/// round-off of the inset and of its reversal, and for jaws whose chords lie a little closer than half the gap.
+constexpr double flush_share = 1e-4;
+/// Sides shorter than this, relative to the root of the cell's area, are round-off.
+constexpr double shortest_side_share = 1e-6;
 
 struct Box {
     Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
@@ -92,7 +94,7 @@ void add_sides(FaceNet& net, Cell& cell, BodyIndex body) {
         covered.push_back({edge.length, edge.length});
         double from = 0.0;
         for (const FacingPart& part : covered) {
-            if (part.from - from > flush_share * cell.size)
+            if (part.from - from > shortest_side_share * cell.size)
                 net.sides.push_back(
                     {body, edge.start + 0.5 * (from + part.from) * edge.along, edge.outwards(), part.from - from});
             from = std::max(from, part.to);

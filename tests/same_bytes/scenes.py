@@ -4,6 +4,7 @@
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+FACES = ROOT / "specimens/rocks/faces"
 
 # Small cases: a shipped case, and keys that make it small or use another part of the program.
 CIRCLES = "[packing]\ncount = 60\n[output]\nframes = 3\n"
@@ -22,6 +23,8 @@ SMALL = {
                                 '[bond]\nstrength_distribution = "normal"\n',
     "granite_lognormal_strengths": 'include = "granite_tension.toml"\n[packing]\nwidth = 0.018\nheight = 0.036\n[output]\nframes = 3\n'
                                    '[bond]\nstrength_distribution = "lognormal"\n',
+    "face_compression": 'include = "faces/granite_compression.toml"\n[packing]\nwidth = 0.018\nheight = 0.036\n[output]\nframes = 3\n'
+                        '[loading]\nmax_axial_strain = 0.005\n',
 }
 SMALL_DECKS = ("wave_chain", "triangle", "clump", "random_packing", "controlled_segment_force", "embankment")
 PACKING = "pack --count 300 --lognormal-median 0.01 --lognormal-deviation 0.3 --mean-overlap 1e-5 -o in_gm.dat"
@@ -35,12 +38,14 @@ def scenes(small):
         "voronoi_mesh": ({}, [PACKING, "mesh in_gm.dat --kind voronoi --thick 5e-4 --merge -o mesh.dat"]),
     }
     shipped = [case for folder in ("guide_rock", "rocks") for case in sorted((ROOT / "specimens" / folder).glob("*.toml"))]
-    for name, text in SMALL.items() if small else ((case.stem, None) for case in shipped if "_" in case.stem):
-        files = {case.name: case for case in shipped}
+    for name, text in SMALL.items() if small else ((case.stem, None) for case in shipped if "[loading]" in case.read_text()):
+        files = {case.name: case for case in shipped} | {"faces": FACES}
         if small:
             files[f"small_{name}.toml"] = text
             name = "small_" + name
         found[name] = (files, [f"test {name}.toml -o out -q", f"elastic {name}.toml --json"])
+    for case in sorted(FACES.glob("*_*.toml")) if not small else ():
+        found[f"faces_{case.stem}"] = ({"faces": FACES}, [f"test faces/{case.name} -o out -q", f"elastic faces/{case.name} --json"])
     for deck in sorted((ROOT / "specimens/demseg").iterdir()):
         if deck.is_dir() and (not small or deck.name in SMALL_DECKS):
             found[f"deck_{deck.name}"] = ({"deck": deck}, ["run deck -o out -q"])

@@ -30,7 +30,7 @@ TEST(Names, StandInAnErrorInTheirOrder) {
         value_named<BondLaw>("bond.law", "");
         FAIL() << "found a law without a name";
     } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(), "bond.law: found \"\", expected \"back_tension\" or \"coulomb\"");
+        EXPECT_STREQ(error.what(), "bond.law: found \"\", expected \"back_tension\", \"coulomb\" or \"face\"");
     }
 }
 

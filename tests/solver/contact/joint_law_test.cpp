@@ -110,7 +110,7 @@ TEST(JointLaw, ScenesWithJointsThatCannotBeAreRefused) {
     says(refused([](Scene& s) {
              s.bond_law = BondLaw::back_tension, s.materials[0].tensile_strength = 0.0, s.materials[0].cohesion = 0.0;
          }),
-         "expected the bond law \"coulomb\" and area units");
+         "expected the bond law \"coulomb\" or \"face\" and area units");
     says(refused([](Scene& s) { s.joints[0].aperture = 1e-6; }), "joint 1: aperture: found 1e-06, expected 0");
     says(refused([](Scene& s) { s.joints[0].bonded = false, s.joints[0].aperture = 1.0; }), "at most the thickness");
     says(refused([](Scene& s) { s.joints[0].dilation_angle = 31.0; }), "dilation angle: found 31");

@@ -23,7 +23,7 @@ namespace {
 using testing::within;
 
 constexpr double gap = 0.02;       // m, of cells of 1 m
-constexpr double pressing = 1e-3;  // N
+constexpr double pressing = 1e-4;  // N
 constexpr int base_cells = 5, top_id = 100;
 
 /// A row of cells on a held block, and one cell that lies on the second of them, without a bond, under a force.

@@ -48,7 +48,7 @@ TEST(BondConstants, OfALawHaveOneKeyEachAndAMemberOfItsOwn) {
 }
 
 TEST(BondLaws, AreNamedByAFactAsMessagesListThem) {
-    EXPECT_EQ(laws_with(&BondLawFacts::strengths_are_given), "\"coulomb\"");
+    EXPECT_EQ(laws_with(&BondLawFacts::strengths_are_given), "\"coulomb\" or \"face\"");
     EXPECT_EQ(laws_with(&BondLawFacts::with_guide_segments), "\"back_tension\"");
 }
 

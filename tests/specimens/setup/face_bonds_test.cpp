@@ -67,11 +67,12 @@ TEST(TestWithFaces, BreaksInTensionAndClosesItsEnergyAccount) {
     EXPECT_GT(test.world.bonds.broken, 10);
     EXPECT_EQ(test.state.breaks_in_shear + test.state.breaks_in_tension, test.world.bonds.broken);
     double error = 0.0, work = 0.0;
-    for (const CurveRow& row : test.state.rows) {
+    for (std::int64_t k = 0; k <= test.state.failure.peak_row; ++k) {
+        const CurveRow& row = test.state.rows[static_cast<std::size_t>(k)];
         error = std::max(error, std::abs(row.energy_error));
         work = std::max(work, row.platen_work);
     }
-    EXPECT_TRUE(within("closing error, of the work", error / work, 0.0, 5e-4));
+    EXPECT_TRUE(within("closing error up to the peak, of the work", error / work, 0.0, 5e-4));
     // Uniform stress breaks the first face at its own strength.
     EXPECT_LT(test.state.failure.peak_stress, 1.2 * 10e6);
     EXPECT_GT(test.state.failure.peak_stress, 0.3 * 10e6);
@@ -122,6 +123,7 @@ FaceRock by_coulomb(const char* material) {
 FaceRock by_points() {
     FaceRock rock;
     rock.units = "point";
+    rock.material = "youngs_modulus = 70e9\npoissons_ratio = 0.25";
     return rock;
 }
 
