@@ -59,9 +59,11 @@ bool is_known_kind(const ResolvedCase& test) {
 
 std::vector<double> starting_values(const Rock& rock) {
     std::vector<double> starts;
+    starts.reserve(rock.free.size());
     for (const FreeKey& free : rock.free) starts.push_back(free.start);
     if (std::ranges::all_of(rock.free, &FreeKey::start_given)) return starts;
     std::vector<ResolvedCase> tests;
+    tests.reserve(rock.tests.size());
     for (std::size_t test = 0; test < rock.tests.size(); ++test) tests.push_back(rock.case_of(test, starts));
     if (!std::ranges::all_of(tests, is_known_kind)) return starts;
     const Known known = known_values(rock, tests);
