@@ -243,9 +243,11 @@ class Bonder {
     /// Index of the law of a joint's faces. @param law that of the rock
     std::uint16_t law_of_joint(std::int32_t number, std::size_t law) {
         const auto [entry, is_new] = joint_laws_.try_emplace({number, law}, faces_.laws.size());
-        if (is_new)
+        if (is_new) {
             faces_.laws.push_back(
                 law_across(faces_.laws[law], world_.settings.joints[static_cast<std::size_t>(number)]));
+            check_face_law(faces_.laws.back());
+        }
         return static_cast<std::uint16_t>(entry->second);
     }
 

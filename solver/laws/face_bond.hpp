@@ -42,17 +42,12 @@ namespace crackle {
 /// The law as one of the bond laws of scenes and cases. Its strengths are those of coulomb bonds, and more (FaceLaw).
 struct FaceBond {
     static constexpr BondLaw law = BondLaw::face;
-    static constexpr BondLawFacts facts{
-        .meaning = "each face between two polygons has normal, shear and moment springs and breaks as a whole",
-        .constants = CoulombBond::constants,
-        .friction = &ContactLaw::bond_friction,
-        .strengths_are_given = true,
-        .bonds_across_gaps = true,
-        .sticks = true,
-        .from_rest_overlap = true,
-        .own_shares = true,
-        .across_joints = true,
-        .by_faces = true};
+    static constexpr BondLawFacts facts = [] {
+        BondLawFacts own = CoulombBond::facts;
+        own.meaning = "each face between two polygons has normal, shear and moment springs and breaks as a whole";
+        own.by_faces = true;
+        return own;
+    }();
 };
 
 /// Stiffness of rock with faces, Pa.

@@ -183,6 +183,35 @@ bool points_are_whole(const World& world) {
                                [&](const BreakEvent& event) { return is_point_of(world, event.kind, event.point); });
 }
 
+bool faces_are_whole(const World& world) {
+    const Faces& f = world.faces;
+    const std::size_t n = world.bodies.size(), count = f.size();
+    if (count == 0) return true;
+    const auto of_all = [count](const auto& values) { return values.size() == count; };
+    const auto may_be_absent = [&](const auto& values) { return values.size() == 0 || of_all(values); };
+    const auto columns = [](const auto& values) { return values.numbers.size() == values.width * values.count; };
+    if (!columns(f.place) || !columns(f.springs) || !columns(f.motion) || !columns(f.dashpots) ||
+        !columns(f.dashpot_force))
+        return false;
+    const bool sizes = of_all(f.place) && of_all(f.springs) && of_all(f.law) && of_all(f.strength_share) &&
+                       of_all(f.lag) && of_all(f.broken_at) && of_all(f.motion) && of_all(f.force) &&
+                       may_be_absent(f.dashpots) && may_be_absent(f.dashpot_force) && may_be_absent(f.dilation_i) &&
+                       may_be_absent(f.dilation_j) && f.first_face.size() == n + 1 && f.cells.size() == n &&
+                       f.face_ends.size() == 2 * count &&
+                       (f.whole_share.empty() || f.whole_share.size() == world.points.size());
+    return sizes && f.first_face.front() == 0 && f.first_face.back() == f.face_ends.size() &&
+           std::ranges::is_sorted(f.first_face) &&
+           std::ranges::all_of(f.bodies, [n](const BodyPair& pair) { return pair.body_i < n && pair.body_j < n; }) &&
+           std::ranges::all_of(f.face_ends, [count](std::uint32_t end) { return end / 2 < count; }) &&
+           std::ranges::all_of(f.law, [&](std::uint16_t law) { return law < f.laws.size(); }) &&
+           std::ranges::all_of(f.broken_at,
+                               [&](FaceIndex broken) { return broken == no_face || broken < f.broken.size(); }) &&
+           std::ranges::all_of(f.broken, [count](const BrokenFace& face) { return face.face < count; }) &&
+           std::ranges::all_of(f.hand_over, [&](const HandOver& one) {
+               return one.face < count && one.begin <= one.end && one.end <= world.points.size();
+           });
+}
+
 bool membrane_is_whole(const World& world) {
     const Membrane& m = world.membrane;
     const std::size_t n = world.bodies.size(), count = m.points.size();
@@ -225,7 +254,7 @@ void require_whole(const World& world, const std::string& name) {
     const auto is_joint = [&](std::int32_t joint) { return joint >= -1 && joint < std::ssize(settings.joints); };
     if (std::ranges::all_of(settings.trace_joints, is_joint) && world.stepping.steps >= 0 &&
         world.stepping.steps <= most_steps && settings.laws.size() == laws && words_are_known(world) &&
-        bodies_are_whole(world) && points_are_whole(world) && membrane_is_whole(world))
+        bodies_are_whole(world) && points_are_whole(world) && membrane_is_whole(world) && faces_are_whole(world))
         return;
     throw InputError(
         fmt::format("{}: found parts that do not belong together, expected a checkpoint as crackle wrote it", name));

@@ -48,16 +48,12 @@ parts::Mesh mesh_of(const TestCase::Mesh& keys) {
     return mesh;
 }
 
-/// c_κ of faces (laws/face_bond.hpp), means of boxes of cells around the centres of packed circles.
-double face_correction(const TestCase& test) {
-    return test.has_table("mesh") && *test.mesh.kind == MeshKind::delaunay ? 0.79 : 0.3;
-}
-
-/// @param correction as for face_moduli()
+/// @param correction c_κ of the mesh
 parts::MaterialValues values_of(const TestCase::MaterialKeys& keys, double correction) {
     parts::MaterialValues values = keys;
     if (keys.youngs_modulus) {
-        const FaceModuli moduli = values.face_moduli(correction);
+        values.mesh_correction = correction;
+        const FaceModuli moduli = values.face_moduli();
         values.normal_stiffness = moduli.contact;
         values.shear_stiffness = moduli.shear_ratio * moduli.contact;
     }
@@ -69,7 +65,7 @@ parts::MaterialValues values_of(const TestCase::MaterialKeys& keys, double corre
 }
 
 parts::Material material_of(const TestCase& test) {
-    parts::Material material{values_of(test.material, face_correction(test)), test.material.units, false};
+    parts::Material material{values_of(test.material, test.face_correction()), test.material.units, false};
     const bool damped = material.damping_ratio || material.normal_damping || material.shear_damping;
     if (test.has_table("packing") && !damped) {
         material.damping_ratio = default_damping_ratio;
@@ -88,7 +84,7 @@ parts::Minerals minerals_of(const TestCase& test) {
     }
     for (std::size_t k = 0; k < test.mineral.size(); ++k) {
         const TestCase::Mineral& m = test.mineral[k];
-        minerals.list.push_back({m.name, values_of(mineral_material(test, k), face_correction(test)), m.area_share,
+        minerals.list.push_back({m.name, values_of(mineral_material(test, k), test.face_correction()), m.area_share,
                                  !m.area_share ? 1.0 - sum
                                  : open        ? *m.area_share
                                                : *m.area_share / sum});
@@ -97,7 +93,7 @@ parts::Minerals minerals_of(const TestCase& test) {
         return static_cast<int>(std::ranges::find(minerals.list, name, &parts::Mineral::name) - minerals.list.begin());
     };
     for (const auto& [between, own] : test.mineral_pair) {
-        const parts::MaterialValues values = values_of(own, face_correction(test));
+        const parts::MaterialValues values = values_of(own, test.face_correction());
         minerals.pairs.push_back({index(between[0]), index(between[1]), values.normal_stiffness, values.shear_stiffness,
                                   values.friction_angle, values});
     }

@@ -237,6 +237,8 @@ struct TestCase : WrittenPlaces {
     bool uniaxial() const { return test_kind(loading.kind).uniaxial; }
     /// Properties of the case's bond law.
     const BondLawFacts& bond_facts() const { return facts_of(bond.law); }
+    /// c_κ of faces (solver/laws/face_bond.hpp): means of boxes of cells around the centres of packed circles.
+    double face_correction() const { return has_table("mesh") && mesh.kind == MeshKind::delaunay ? 0.79 : 0.3; }
     /// Whether stiffness and strengths are given per area, in Pa.
     bool area_units() const { return material.units == StiffnessUnits::area; }
     /// Path of a file named in the case, resolved relative to the file that names it.

@@ -17,9 +17,9 @@ void MaterialValues::apply_to(crackle::Material& material) const {
     if (shear_damping) material.shear_damping = *shear_damping;
 }
 
-FaceModuli MaterialValues::face_moduli(double correction) const {
-    if (!stiffness_ratio) return face_moduli_without_pressure(*youngs_modulus, *poissons_ratio, correction);
-    return crackle::face_moduli(*youngs_modulus, *poissons_ratio, 1.0 / *stiffness_ratio, correction);
+FaceModuli MaterialValues::face_moduli() const {
+    if (!stiffness_ratio) return face_moduli_without_pressure(*youngs_modulus, *poissons_ratio, mesh_correction);
+    return crackle::face_moduli(*youngs_modulus, *poissons_ratio, 1.0 / *stiffness_ratio, mesh_correction);
 }
 
 FaceLaw MaterialValues::face_law() const {

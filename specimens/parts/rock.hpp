@@ -42,11 +42,12 @@ struct MaterialValues : BondConstants, FaceConstants {
     std::optional<double> damping_ratio;                  // -
     std::optional<double> normal_damping, shear_damping;  // N s/m; either of them replaces a damping ratio
 
-    /// Stiffnesses of faces of this rock. @param correction c_κ of its mesh @throws InputError if Poisson's ratio is
+    /// Stiffnesses of faces of this rock. @throws InputError if Poisson's ratio is
     /// not to be had with this ratio of k_n to k_s
-    FaceModuli face_moduli(double correction) const;
+    FaceModuli face_moduli() const;
     /// Law of faces of this rock.
     FaceLaw face_law() const;
+    double mesh_correction = 0.0;           ///< c_κ of its mesh (solver/laws/face_bond.hpp)
     std::optional<double> stiffness_ratio;  ///< k_n over k_s of faces; empty: cells have no pressure
 
     /// Replaces the values of `material`. Bond constants that are absent become 0, or the friction angle.

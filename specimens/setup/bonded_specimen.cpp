@@ -144,6 +144,7 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const parts::Bonds& bonds
     if (bonds.facts().by_faces) {
         FaceBonding faces = face_bonding_of(bonded.world, specimen, bonds, test.loading.platens, thick);
         faces.holds = bonding.holds;
+        if (test.numerics.intact) faces.holds = [](Vec2, BodyIndex, BodyIndex) { return true; };
         faces.leaves = bonding.leaves;
         bond_faces_of(bonded.world, test.places, faces);
     } else {

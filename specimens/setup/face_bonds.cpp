@@ -37,16 +37,11 @@ std::vector<Vec2> references_of(const World& world, const Specimen& specimen) {
 
 FaceBonding face_bonding_of(const World& world, const Specimen& specimen, const parts::Bonds& bonds, PlatenKind platens,
                             double gap) {
-    // The moduli of bodies are those of their materials, so that contacts and faces have the same.
-    const auto moduli_of = [](const parts::MaterialValues& values) {
-        return FaceModuli{*values.normal_stiffness, values.face_moduli(0.0).pressure,
-                          *values.shear_stiffness / *values.normal_stiffness};
-    };
     FaceBonding bonding;
     for (std::size_t m = 0; m < world.settings.materials.size(); ++m) {
         const std::vector<parts::Mineral>& minerals = specimen.mineral_parts.list;
         const parts::MaterialValues& values = m < minerals.size() ? minerals[m].material : specimen.material;
-        bonding.materials.push_back({moduli_of(values), values.face_law()});
+        bonding.materials.push_back({values.face_moduli(), values.face_law()});
         bonding.materials.back().law.damping_ratio = world.settings.materials[m].damping_ratio.value_or(0.0);
     }
     for (const MaterialPair& pair : specimen.mineral_parts.pairs) {

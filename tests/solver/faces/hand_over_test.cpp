@@ -104,15 +104,17 @@ TEST(HandOver, HasNoJumpOfForceOverATurnOf90Degrees) {
     const BodyState start = world.bodies.state[top];
     // The cell turns about its lower left corner, which is pressed into the cell below.
     const double depth = 1e-4;
-    const Vec2 corner{start.x - 0.5, start.y - 0.5};
+    const double half = 0.5 * (1.0 - gap);  // m, of the cell after the inset; its corners are round
+    const Vec2 corner{start.x - half, start.y - half};
     double last_force = 0.0, last_torque = 0.0, jump = 0.0, largest = 0.0, taken = 0.0;
+    double before = 0.0, jump_between = 0.0, after = 0.0;  // N, about the turns at which the face hands over
     constexpr int turns = 20'000;
     for (int n = 0; n <= turns; ++n) {
         const double angle = 0.5 * std::numbers::pi * n / turns;
         BodyState& body = world.bodies.state[top];
         const double c = std::cos(angle), s = std::sin(angle);
-        body.x = corner.x + 0.5 * c - 0.5 * s;
-        body.y = corner.y + 0.5 * s + 0.5 * c - depth;
+        body.x = corner.x + half * c - half * s;
+        body.y = corner.y + half * s + half * c - depth;
         body.angle = angle;
         body.shape[0] = c, body.shape[1] = s;
         bodies_moved(world);
@@ -120,10 +122,18 @@ TEST(HandOver, HasNoJumpOfForceOverATurnOf90Degrees) {
         const BodyForce& force = world.bodies.force[top];
         if (n > 0) jump = std::max({jump, std::abs(force.fy - last_force), std::abs(force.torque - last_torque)});
         largest = std::max(largest, std::abs(force.fy));
+        if (angle < 0.015) before = std::abs(force.fy);
+        const bool on_corner = angle < 1.4;  // later, the next side of the cell comes to lie on the cells below
+        if (angle >= 0.015 && on_corner) jump_between = std::max(jump_between, std::abs(force.fy - last_force));
+        if (angle > 0.05 && on_corner) after = std::max(after, std::abs(force.fy));
         last_force = force.fy, last_torque = force.torque;
         for (const BrokenFace& face : world.faces.broken) taken = std::max(taken, face.taken);
     }
     EXPECT_EQ(taken, 1.0);
+    // The face's share falls over 0.02 rad, in 255 increments.
+    EXPECT_TRUE(
+        within("change of force in an increment of the hand-over, of that before", jump_between / before, 0.0, 0.02));
+    EXPECT_LE(after, before) << "points begin without force";
     // Where the cell lies flat, a turn of one increment opens a length of φ/depth of it.
     const double opening = 0.5 * std::numbers::pi / turns / depth;
     EXPECT_TRUE(within("largest change of force or moment, of the force", jump / largest, 0.0, opening));

@@ -13,6 +13,8 @@
 #include "specimens/case/case_file.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
+#include "specimens/making/make_specimen.hpp"
+#include "specimens/setup/bonded_specimen.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/small_rock.hpp"
@@ -54,6 +56,22 @@ TEST(TestWithFaces, HasTheModuliOfItsMaterial) {
         // 0.25), and rows at the sides by as much (solver/MODEL.md 5.5).
         EXPECT_TRUE(agrees("Young's modulus", test.state.youngs_modulus, 70e9, 0.04));
         EXPECT_TRUE(within("Poisson's ratio", test.state.poissons_ratio, 0.25, 0.03));
+    }
+}
+
+TEST(FaceRock, HasTheArealModulusOfItsKeysWithTheCorrectionOfItsMesh) {
+    for (const char* mesh : {"voronoi", "delaunay"}) {
+        const testing::ScratchFolder scratch;
+        FaceRock rock;
+        rock.mesh = mesh;
+        const ResolvedCase test = face_case(scratch, rock);
+        const Specimen specimen = make_specimen(test, test, {});
+        const World world = bond_alone(specimen, test.bond, test);
+        const FaceModuli moduli =
+            face_bonding_of(world, specimen, test.bond, PlatenKind::bonded, specimen.mesh_gap).materials.front().moduli;
+        const double expected = 0.5 * 70e9 / (1.0 - 0.25);
+        EXPECT_TRUE(agrees("E_c/2 + lambda", 0.5 * moduli.contact + moduli.pressure, expected, 1e-12));
+        EXPECT_EQ(moduli.contact, *test.material.normal_stiffness) << "contact points have the modulus of faces";
     }
 }
 
@@ -120,6 +138,13 @@ FaceRock by_coulomb(const char* material) {
     return rock;
 }
 
+/// The thickness stands behind the law, whose closing quote is then part of a comment.
+FaceRock with_thickness() {
+    FaceRock rock;
+    rock.law = "face\"\nthick = 1e-4 #";
+    return rock;
+}
+
 FaceRock by_points() {
     FaceRock rock;
     rock.units = "point";
@@ -153,6 +178,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "material.moment_share needs bond.law = \"face\""},
         Refusal{"ResidualCohesionAboveTheCohesion", with_strengths("softening_slip = 1e-6\nresidual_cohesion = 50e6"),
                 "residual cohesion"},
+        Refusal{"ThicknessOfItsOwn", with_thickness(), "bond.thick"},
         Refusal{"UnitsOfPoints", by_points(), "material.units: found \"point\", expected \"area\" with faces"}),
     [](const auto& one) { return one.param.name; });
 
