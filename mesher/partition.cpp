@@ -381,45 +381,23 @@ void Partition::close_with_flat_faces() {
     for (const Foot& foot : on_walls) add(foot.place, foot.beside->face());
 }
 
-// The points in the order in which the triangulation would store them: a new vertex takes the place of the vertex
-// removed last, or comes after all others.
 Triangles Partition::points_with_flat_faces() const {
     Triangles out;
     const auto add = [&out](Point p, int centre) {
         out.points.push_back(p);
         out.centre_of.push_back(centre);
     };
-    std::vector<VertexHandle> centres;
-    std::set<std::pair<double, double>> taken;
+    std::set<std::pair<double, double>> taken;  // places of corners, of feet, and of the centres that have feet
     for (const VertexHandle v : triangulation_.finite_vertex_handles()) {
         if (!is_centre(v)) continue;
-        centres.push_back(v);
+        add(position(v), v->info().index);
         if (v->info().walls != 0) taken.insert({v->point().x(), v->point().y()});
     }
-    std::vector<std::optional<Point>> added(guards_.size() + images_.size());  // images are numbered after the centres
-    std::vector<std::size_t> removed;
-    const auto put = [&](Point p) {
-        if (!taken.insert({p.x, p.y}).second) return;
-        if (removed.empty()) {
-            added.emplace_back(p);
-            return;
-        }
-        added[removed.back()] = p;
-        removed.pop_back();
+    const auto add_on_wall = [&](Point p) {
+        if (taken.insert({p.x, p.y}).second) add(p, -1);
     };
-    for (std::size_t k = guards_.size(); k < added.size(); ++k) removed.push_back(k);
-    for (const Point corner : corners()) put(corner);
-    for (std::size_t k = 0; k < guards_.size(); ++k) removed.push_back(k);
-    for (const Foot& foot : feet()) put(foot.place);
-    out.points.reserve(centres.size() + added.size());
-    out.centre_of.reserve(centres.size() + added.size());
-    const auto add_from = [&](std::size_t first, std::size_t last) {
-        for (std::size_t k = first; k < last; ++k)
-            if (added[k]) add(*added[k], -1);
-    };
-    add_from(0, guards_.size());
-    for (const VertexHandle v : centres) add(position(v), v->info().index);
-    add_from(guards_.size(), added.size());
+    for (const Point corner : corners()) add_on_wall(corner);
+    for (const Foot& foot : feet()) add_on_wall(foot.place);
     return out;
 }
 

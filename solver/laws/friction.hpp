@@ -6,7 +6,7 @@
 // The limit is μ k_n max(δ, 0) in a world without bonds, and in one with back-tension bonds, which do not change the
 // shear strength. In any world with bonds, shear_limit() of the bond law returns it. Energy: the slider dissipates
 // ½(f_t0 + f_t1)(trial - f_t1)/k_s per step. Together with the change of ½f_t²/k_s this is exactly the work of the mean
-// shear force. Forces in N. Source: DEMseg guide; solver/MODEL.md 4.
+// shear force. Faces slide by slip_of_face() of face_bond.hpp. Forces in N. Source: DEMseg guide; solver/MODEL.md 4.
 #pragma once
 
 #include "solver/laws/law.hpp"

@@ -91,7 +91,7 @@ std::vector<FaceForces> face_force_rates(const World& world, const std::vector<B
     std::vector<BondFaceMotion> of_face(faces.size());
     std::vector<double> dilation(faces.cells.size(), 0.0);
     for (FaceIndex k = 0; k < faces.size(); ++k) {
-        const auto [i, j] = faces.bodies[k];
+        const BodyIndex i = faces.bodies[k].body_i, j = faces.bodies[k].body_j;
         const MotionGradients gradients = gradients_of(world, k);
         const auto times = [&](const std::array<double, 6>& row) {
             double sum = 0.0;

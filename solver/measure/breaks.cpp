@@ -27,23 +27,23 @@ const std::vector<BreakColumn>& break_columns() {
          [](Event e) { return written(e.energy); }},
         {{"strength", "N",
           "strength of the bond: the tensile strength k_n δ0 of a back-tension bond; for a coulomb bond, the limit "
-          "that was reached, T or C + μ f_n"},
+          "that was reached, T or C + μ f_n; for a face, the stress limit times the length of the face"},
          [](Event e) { return written(e.strength); }},
         {{"normal_force", "N",
           "elastic normal force, positive if it pushes the bodies apart, in the last step in which the bond carried at "
-          "least half its strength; for a coulomb bond, at failure"},
+          "least half its strength; for a coulomb bond or a face, at failure"},
          [](Event e) { return written(e.normal_force); }},
         {{"shear_force", "N",
           "elastic shear force on body_i in the same step as normal_force, positive along the normal from body_i to "
           "body_j turned by +90°"},
          [](Event e) { return written(e.shear_force); }},
         {{"slid", "0 or 1",
-          "1 if the bond had reached its Coulomb limit before it broke, otherwise 0; coulomb bonds do not slide and "
-          "always have 0"},
+          "1 if the bond had reached its Coulomb limit before it broke, otherwise 0; coulomb bonds and faces do not "
+          "slide while bonded and always have 0"},
          [](Event e) { return written(e.slid ? 1 : 0); }},
         {{"mode", "word",
           "`shear` if the bond had slid and shear_force exceeds normal_force in magnitude, otherwise `tension`; for a "
-          "coulomb bond, the limit that was reached first",
+          "coulomb bond or a face, the limit that was reached first",
           "nearly all back-tension bonds break in `tension`: such a bond breaks when its overlap vanishes, and its "
           "Coulomb limit vanishes with the overlap. `slid` shows whether it slid first"},
          [](Event e) { return std::string(e.shear_mode ? "shear" : "tension"); }},

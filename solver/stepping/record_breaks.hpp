@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Records an event for each bond found broken in the last force pass.
+// Records an event for each bonded point found broken in the last force pass. Faces record their own breaks
+// (faces/face_pass.cpp).
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One step of the simulation.
 //
-// compute_forces() updates the neighbour list, computes the force of every contact point from x(n) and v(n-½), sums the
-// forces on each body in a fixed order, and records broken bonds. Observers may then read the state, since everything
-// is known at time n. advance() is leapfrog: v(n+½) = v(n-½) + a(n)Δt, x(n+1) = x(n) + v(n+½)Δt; driven bodies follow
-// their controls. step() does both in one sweep if nothing is measured in between (solver/stepping/sweep.hpp).
+// compute_forces() updates the neighbour list and computes the forces of bonded faces, of the membrane and of every
+// contact point from x(n) and v(n-½). It sums the forces on each body in a fixed order, and records broken bonds.
+// Observers may then read the state, since everything is known at time n. advance() is leapfrog: v(n+½) = v(n-½) +
+// a(n)Δt, x(n+1) = x(n) + v(n+½)Δt; driven bodies follow their controls. step() does both in one sweep if nothing is
+// measured in between (solver/stepping/sweep.hpp).
 
 #include <omp.h>
 
@@ -50,8 +51,8 @@ Speeds move_bodies(World& world, double kick) {
     return {fastest, excess};
 }
 
-/// Sums the losses of the blocks of the force pass in index order.
-void sum_blocks(World& world) {
+/// Sums the losses of the blocks of the force pass in index order. @return whether a bond of a point has broken
+bool sum_blocks(World& world) {
     std::uint32_t broken = 0, gained = 0;
     for (const LossBlock& block : world.account.blocks) {
         world.account.dashpot_loss += block.dashpot;
@@ -60,8 +61,8 @@ void sum_blocks(World& world) {
         broken += block.broken;
         gained += block.gained;
     }
-    if (broken > 0) record_breaks(world);
     world.stepping.points_gained = gained > 0;
+    return broken > 0;
 }
 
 void sample_geometry(World& world) {
@@ -82,8 +83,8 @@ void update_neighbours(World& world) {
     refresh_neighbours(world);
 }
 
-/// Divides the points among threads, clears the summed forces, opens joints that slide, and adds the forces of faces
-/// and of the membrane.
+/// Divides the points among threads, clears the summed forces, opens joints that slide, and adds the forces of bonded
+/// faces, which may break, and of the membrane.
 void prepare_forces(World& world) {
     plan_sweep(world);
     clear_forces(world);
@@ -102,7 +103,7 @@ void prepare_forces(World& world) {
 /// Records breaks, losses and the work of driven bodies after the force pass, at time n.
 void account_forces(World& world) {
     const PhaseTimer timer(world.workers.profile, Phase::bookkeeping);
-    sum_blocks(world);
+    if (sum_blocks(world)) record_breaks(world);
     if (world.bonds.watch_slips) record_slips(world);
     account_controls(world);
 }
@@ -176,7 +177,7 @@ void step(World& world) {
         return advance(world);
     }
     update_neighbours(world);  // updates the list of contact points and the stable bound
-    prepare_forces(world);     // divides the points among threads and clears forces
+    prepare_forces(world);     // clears forces, then adds those of bonded faces and of the membrane
     const SweepMotion motion = motion_of_sweep(world);
     // Computes and sums forces, and moves free bodies.
     chosen_sweep()(world, {world, features_of(world)}, motion.move, motion.kick);

@@ -15,17 +15,17 @@ namespace crackle {
 /// One broken bond.
 struct BreakEvent {
     std::int64_t step;
-    double time;          // s
-    int body_i, body_j;   // input ids
-    Vec2 position;        // m, position of the contact
-    double orientation;   // rad, direction of the contact normal, in (-π/2, π/2]
-    double energy;        // J, energy released by the break (stepping/record_breaks.cpp)
-    double strength;      // N: k_n δ0; coulomb bond: limit that was reached, T or C + μ f_n
-    double normal_force;  // N, from Points::strong_normal; coulomb bond: force at failure
+    double time;         // s
+    int body_i, body_j;  // input ids
+    Vec2 position;       // m, position of the contact
+    double orientation;  // rad, direction of the contact normal, in (-π/2, π/2]
+    double energy;       // J, energy released by the break (stepping/record_breaks.cpp)
+    double strength;  // N: k_n δ0; otherwise the limit that was reached: T or C + μ f_n, times the length of a face
+    double normal_force;  // N, from Points::strong_normal; coulomb bond or face: elastic force at failure
     double shear_force;   // N
     bool slid;            // whether the point slid before the bond broke; back-tension bonds only
-    // Whether the bond broke in shear. A back-tension bond did if it had slid and |f_t| > |f_n|; a coulomb bond did if
-    // the shear limit was reached first.
+    // Whether the bond broke in shear. A back-tension bond did if it had slid and |f_t| > |f_n|; a coulomb bond or a
+    // face did if the shear limit was reached first.
     bool shear_mode;
     bool last_of_interface;  // whether this was the last bond between the two bodies
     PointKind kind;          // kind of the contact point

@@ -43,7 +43,7 @@ parts::Packing packing_of(const TestCase& test) {
 }
 
 parts::Mesh mesh_of(const TestCase::Mesh& keys) {
-    parts::Mesh mesh{*keys.kind, parts::DerivedGap{}, keys.boundary, keys.merge_destroyed};
+    parts::Mesh mesh{keys, *keys.kind, parts::DerivedGap{}};
     if (keys.thick || keys.inset) mesh.gap = parts::MeshGap{keys.thick ? *keys.thick : 2.0 * *keys.inset, keys.inset};
     return mesh;
 }
@@ -214,8 +214,7 @@ MeasuredTraces traces_of(const TestCase& test, std::size_t number) {
 }
 
 JointRequest joints_of(const TestCase& test, const Places& places) {
-    JointRequest joints{
-        static_cast<std::uint64_t>(test.joints.seed), {}, {}, test.joints.shortest, test.joints.snap, places};
+    JointRequest joints{test.joints, static_cast<std::uint64_t>(test.joints.seed), {}, {}, places};
     for (std::size_t k = 0; k < test.joint_set.size(); ++k) {
         const TestCase::JointSet& keys = test.joint_set[k];
         joints.sets.push_back({keys.name, directions_of(test, k), lengths_of(keys), amount_of(keys), keys.scan_line,
@@ -226,7 +225,7 @@ JointRequest joints_of(const TestCase& test, const Places& places) {
 }
 
 parts::Bonds bonds_of(const TestCase::Bond& keys) {
-    parts::Bonds bonds{keys.law, keys.thick, keys.gap, keys.range, keys.tensile_factor, keys.cohesion_factor, {}};
+    parts::Bonds bonds{keys, {}};
     if (keys.strength_distribution != StrengthDistribution::none)
         bonds.random = parts::RandomStrengths{keys.strength_distribution, *keys.strength_cv, *keys.strength_seed};
     return bonds;
@@ -234,15 +233,11 @@ parts::Bonds bonds_of(const TestCase::Bond& keys) {
 
 parts::Loading loading_of(const TestCase::Loading& keys) {
     parts::Loading loading;
-    loading.kind = keys.kind;
+    static_cast<parts::LoadingValues&>(loading) = keys;
     if (keys.axial_strain_rate)
         loading.rate = parts::StrainRate{*keys.axial_strain_rate};
     else
         loading.rate = parts::RateTolerance{*keys.rate_tolerance};
-    loading.max_axial_strain = keys.max_axial_strain;
-    loading.strength_drop = keys.strength_drop;
-    loading.stop_at_share_of_peak = keys.stop_at_share_of_peak;
-    loading.platens = keys.platens;
     const auto take = [](auto& value, const auto& given) {
         if (given) value = *given;
     };
@@ -253,9 +248,6 @@ parts::Loading loading_of(const TestCase::Loading& keys) {
     take(loading.normal_stress, keys.normal_stress);
     take(loading.normal_stiffness, keys.normal_stiffness);
     take(loading.control, keys.control);
-    loading.span = keys.span;
-    loading.pad_width = keys.pad_width;
-    loading.box_gap = keys.box_gap;
     loading.unloading.by_strain = keys.unload_at_strain.has_value();
     take(loading.unloading.at, keys.unload_at_strain);
     take(loading.unloading.at, keys.unload_at_stress);
@@ -297,7 +289,7 @@ ResolvedCase resolve(const std::shared_ptr<const TestCase>& written) {
     resolved.output = test.output;
     if (resolved.mesh)
         if (const auto* gap = std::get_if<parts::MeshGap>(&resolved.mesh->gap))
-            check_apertures(resolved.joints, gap->thick, true);
+            check_apertures(resolved.joints, gap->between_edges(), true);
     resolved.case_files = test.inputs;
     std::vector<std::filesystem::path>& files = resolved.data_files;
     add_file<parts::ParticleFile>(files, resolved.source);

@@ -68,12 +68,10 @@ struct TestCase : WrittenPlaces {
     } packing;
 
     /// Table [mesh].
-    struct Mesh {
+    struct Mesh : parts::MeshValues {
         std::optional<MeshKind> kind;
         std::optional<double> thick;  // m
         std::optional<double> inset;  // m
-        Boundary boundary = Boundary::domain;
-        bool merge_destroyed = false;
     } mesh;
 
     /// Keys of [material], which minerals and pairs of minerals have, too.
@@ -106,12 +104,10 @@ struct TestCase : WrittenPlaces {
     std::vector<MineralPair> mineral_pair;
 
     /// Table [joints].
-    struct Joints {
+    struct Joints : JointValues {
         std::int64_t seed = 1;
         JointSection section = JointSection::vertical;
         std::optional<double> section_trend;  // degrees from north, clockwise: azimuth of the section's +x axis
-        std::optional<double> shortest;       // m
-        std::optional<double> snap;           // m
     } joints;
 
     /// Mechanical properties of a joint that differ from the rock's; a missing key keeps the rock's value.
@@ -172,13 +168,7 @@ struct TestCase : WrittenPlaces {
     bool jointed() const { return !joint_set.empty() || !trace.empty(); }
 
     /// Table [bond].
-    struct Bond {
-        BondLaw law = BondLaw::back_tension;
-        std::optional<double> thick;            // m
-        std::optional<double> gap;              // m
-        double range = 0.0;                     // -
-        std::optional<double> tensile_factor;   // -
-        std::optional<double> cohesion_factor;  // -
+    struct Bond : parts::BondValues {
         StrengthDistribution strength_distribution = StrengthDistribution::none;
         std::optional<double> strength_cv;  // -
         std::optional<std::int64_t> strength_seed;
@@ -187,23 +177,16 @@ struct TestCase : WrittenPlaces {
     parts::Shape shape;  ///< table [shape]
 
     /// Table [loading].
-    struct Loading {
-        LoadingKind kind = LoadingKind::compression;
+    struct Loading : parts::LoadingValues {
         std::optional<double> axial_strain_rate;  // 1/s; alternative to rate_tolerance
         std::optional<double> rate_tolerance;
-        double max_axial_strain = 0.0;
-        double strength_drop = 0.0;
-        double stop_at_share_of_peak = 0.0;
-        PlatenKind platens = PlatenKind::bonded;
         std::optional<double> grip;                           // -; fraction of the height, for glued platens only
         std::optional<double> platen_friction_angle;          // degrees
         std::optional<double> half_angle;                     // degrees; half the angle spanned by a jaw's arc
         std::optional<JawShape> jaws;                         // an arc if absent
-        std::optional<double> span, pad_width;                // m
         std::optional<double> normal_stress;                  // N/m, or Pa
         std::optional<double> normal_stiffness;               // N/m2, or Pa/m
         std::optional<LoadingControl> control;                // axial if absent
-        std::optional<double> box_gap;                        // m
         std::optional<std::vector<double>> unload_at_strain;  // -; alternative to unload_at_stress
         std::optional<std::vector<double>> unload_at_stress;  // N/m, or Pa
         std::optional<double> unload_to;                      // -; fraction of the stress at which unloading began
@@ -236,7 +219,7 @@ struct TestCase : WrittenPlaces {
     /// Whether the whole packing lies between platens, so that stress and strain are those of the rock.
     bool uniaxial() const { return test_kind(loading.kind).uniaxial; }
     /// Properties of the case's bond law.
-    const BondLawFacts& bond_facts() const { return facts_of(bond.law); }
+    const BondLawFacts& bond_facts() const { return bond.facts(); }
     /// c_κ of faces (solver/laws/face_bond.hpp): means of boxes of cells around the centres of packed circles.
     double face_correction() const { return has_table("mesh") && mesh.kind == MeshKind::delaunay ? 0.79 : 0.3; }
     /// Whether stiffness and strengths are given per area, in Pa.

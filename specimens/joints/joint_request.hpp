@@ -77,15 +77,21 @@ struct MeasuredTraces {
     bool operator==(const MeasuredTraces&) const = default;
 };
 
-/// All joints of a test.
-struct JointRequest {
-    std::uint64_t seed = 1;
-    std::vector<JointSet> sets;
-    std::vector<MeasuredTraces> traces;
+/// Values of joints that are used as a case states them.
+struct JointValues {
     /// Shortest trace that is kept, m; empty: the mean spacing of the cells, if cells follow the traces.
     std::optional<double> shortest;
     /// Distance within which nodes are merged, m; empty: a fraction of the mean spacing of the cells.
     std::optional<double> snap;
+
+    bool operator==(const JointValues&) const = default;
+};
+
+/// All joints of a test.
+struct JointRequest : JointValues {
+    std::uint64_t seed = 1;
+    std::vector<JointSet> sets;
+    std::vector<MeasuredTraces> traces;
     Places places;
 
     /// Whether there are no joints.

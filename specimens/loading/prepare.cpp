@@ -172,45 +172,10 @@ void confine_or_advise(VirtualTest& test, const Specimen& specimen, const Separa
     }
 }
 
-/// A test whose bonds have been made, and what it was made from.
-struct NewTest {
-    VirtualTest test;
-    Specimen specimen;
-    Platens platens;
-    std::function<void()> while_solving;
-};
-
-/// Makes the specimen, its platens, the world and the bonds.
-NewTest make_and_bond(const ResolvedCase& description, const TestHooks& hooks) {
-    NewTest made;
-    VirtualTest& test = made.test;
-    test.description = description;
-    if (description.material.damping_by_default) {
-        hooks.report_stage(
-            fmt::format("damping ratio {:.4g} by default: a particle ringing on its contacts loses 95 % of its "
-                        "energy per period",
-                        default_damping_ratio));
-    }
-    const Clock::time_point begun = Clock::now();
-    made.specimen = make_specimen(description, hooks);
-    test.specimen_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-    if (description.mesh && std::holds_alternative<parts::DerivedGap>(description.mesh->gap))
-        test.description.mesh->gap = parts::MeshGap{made.specimen.mesh_thick, {}};
-    hooks.report_work("bonding");
-    if (hooks.interrupted)
-        made.while_solving = [asked = hooks.interrupted] {
-            if (asked()) throw TestInterrupted();
-        };
-    BondedSpecimen bonded = bond_specimen(made.specimen, description.bond, description, made.while_solving);
-    test.world = std::move(bonded.world);
-    test.world.bonds.watch_slips = description.output.slips;
-    made.platens = std::move(bonded.platens);
-    return made;
-}
-
-/// Measures a test with bonds and forces at rest, and confines it.
-VirtualTest measure_at_rest(NewTest made, const ResolvedCase& description, const TestHooks& hooks,
-                            const SolutionVisitor& visit) {
+/// Sets up the records of a bonded test, solves for small strain, and applies the confining pressure and the normal
+/// force, under which bonds may break.
+VirtualTest measure_and_confine(BondedTest made, const ResolvedCase& description, const TestHooks& hooks,
+                                const SolutionVisitor& visit) {
     VirtualTest test = std::move(made.test);
     const Specimen& specimen = made.specimen;
     const std::function<void()>& while_solving = made.while_solving;
@@ -264,16 +229,48 @@ VirtualTest measure_at_rest(NewTest made, const ResolvedCase& description, const
 
 }  // namespace
 
+BondedTest make_and_bond(const ResolvedCase& description, const TestHooks& hooks) {
+    BondedTest made;
+    VirtualTest& test = made.test;
+    test.description = description;
+    if (description.material.damping_by_default) {
+        hooks.report_stage(
+            fmt::format("damping ratio {:.4g} by default: a particle ringing on its contacts loses 95 % of its "
+                        "energy per period",
+                        default_damping_ratio));
+    }
+    const Clock::time_point begun = Clock::now();
+    made.specimen = make_specimen(description, hooks);
+    test.specimen_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+    if (description.mesh && std::holds_alternative<parts::DerivedGap>(description.mesh->gap))
+        test.description.mesh->gap = parts::MeshGap{made.specimen.mesh_thick, {}};
+    hooks.report_work("bonding");
+    if (hooks.interrupted)
+        made.while_solving = [asked = hooks.interrupted] {
+            if (asked()) throw TestInterrupted();
+        };
+    BondedSpecimen bonded = bond_specimen(made.specimen, description.bond, description, made.while_solving);
+    test.world = std::move(bonded.world);
+    test.world.bonds.watch_slips = description.output.slips;
+    made.platens = std::move(bonded.platens);
+    return made;
+}
+
 VirtualTest bond_test(const ResolvedCase& description, const TestHooks& hooks, const SolutionVisitor& visit) {
-    NewTest made = make_and_bond(description, hooks);
+    BondedTest made = make_and_bond(description, hooks);
     compute_forces(made.test.world);
-    return measure_at_rest(std::move(made), description, hooks, visit);
+    return measure_and_confine(std::move(made), description, hooks, visit);
 }
 
 VirtualTest prepare_test(const ResolvedCase& description, const TestHooks& hooks, const SolutionVisitor& visit) {
-    NewTest made = make_and_bond(description, hooks);
-    compute_forces(made.test.world);
-    VirtualTest test = measure_at_rest(std::move(made), description, hooks, visit);
+    BondedTest bonded = make_and_bond(description, hooks);
+    compute_forces(bonded.test.world);
+    return prepare_test(std::move(bonded), description, hooks, visit);
+}
+
+VirtualTest prepare_test(BondedTest bonded, const ResolvedCase& description, const TestHooks& hooks,
+                         const SolutionVisitor& visit) {
+    VirtualTest test = measure_and_confine(std::move(bonded), description, hooks, visit);
     if (const double* tolerance = description.loading.rate_tolerance()) {
         start_by_tolerance(test);
         hooks.report_stage(

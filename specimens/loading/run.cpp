@@ -17,6 +17,7 @@
 #include "solver/base/version.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "solver/files/read_file.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/case/case_file.hpp"
 #include "specimens/loading/companions.hpp"
 #include "specimens/loading/expected_run.hpp"
@@ -222,7 +223,9 @@ TestOutcome run_test(const ResolvedCase& description, const TestOptions& options
     const int threads = options.threads > 0 ? options.threads : description.numerics.threads;
     ResolvedCase made = description;
     made.numerics.threads = std::min(threads, options.most_threads);
-    VirtualTest test = prepare_test(made, specimen->collecting(hooks));
+    BondedTest bonded = make_and_bond(made, specimen->collecting(hooks));
+    compute_forces(bonded.test.world);
+    VirtualTest test = prepare_test(std::move(bonded), made, hooks);
     choose_threads(test.world, options, threads, hooks);
     const RunEstimate run = expected_run(test, description.loading.max_axial_strain, roughly_steps_per_second(test));
     if (!options.endless) refuse_endless(test, run);

@@ -168,6 +168,7 @@ CellSizes mesh_specimen(Specimen& specimen, const parts::Mesh& asked, const Join
     specimen.mesh_thick = gap != nullptr ? gap->thick : derived_mesh_thick(specimen, asked, places, hooks);
     request.mesh_gap = specimen.mesh_thick;
     if (gap != nullptr) request.inset = gap->inset;
+    specimen.mesh_gap = parts::MeshGap{specimen.mesh_thick, request.inset}.between_edges();
     request.merge_destroyed = asked.merge_destroyed;
     JointNetwork joints;
     if (!asked_joints.empty()) {
@@ -177,13 +178,12 @@ CellSizes mesh_specimen(Specimen& specimen, const parts::Mesh& asked, const Join
     const Mesh mesh = mesh_along_joints(specimen, request, joints, places, hooks);
     take_cells(specimen, mesh, request.kind == MeshKind::voronoi || request.boundary == Boundary::domain);
     if (!request.traces.empty()) {
-        check_apertures(asked_joints, specimen.mesh_thick, true);
+        check_apertures(asked_joints, specimen.mesh_gap, true);
         set_joints(specimen.scene, mesh, joints);
         name_traces(specimen, joints);
     }
     specimen.polygons = true;
     specimen.kind = request.kind == MeshKind::voronoi ? SpecimenKind::voronoi : SpecimenKind::delaunay;
-    specimen.mesh_gap = request.inset ? 2.0 * *request.inset : request.mesh_gap;
     specimen.segments = mesh.report.segments;
     hooks.report_stage(fmt::format("meshed into {} {} cells with {} segments", mesh.report.cells,
                                    name_of(specimen.kind), mesh.report.segments));

@@ -94,15 +94,24 @@ struct MeshGap {
     double thick = 0.0;           // m
     std::optional<double> inset;  ///< m; empty: half of the distance
 
+    /// Distance between facing edges of the inset polygons, m.
+    double between_edges() const { return inset ? 2.0 * *inset : thick; }
+
     bool operator==(const MeshGap&) const = default;
 };
 
-/// The mesh around the centres of circles.
-struct Mesh {
-    MeshKind kind = MeshKind::voronoi;
-    std::variant<DerivedGap, MeshGap> gap;
+/// Values of a mesh that are used as a case states them.
+struct MeshValues {
     Boundary boundary = Boundary::domain;
     bool merge_destroyed = false;
+
+    bool operator==(const MeshValues&) const = default;
+};
+
+/// The mesh around the centres of circles.
+struct Mesh : MeshValues {
+    MeshKind kind = MeshKind::voronoi;
+    std::variant<DerivedGap, MeshGap> gap;
 
     bool operator==(const Mesh&) const = default;
 };

@@ -62,23 +62,29 @@ struct Shape {
     bool operator==(const Shape&) const = default;
 };
 
-/// How the specimen is loaded.
-struct Loading {
+/// Values of a loading that are used as a case states them.
+struct LoadingValues {
     LoadingKind kind = LoadingKind::compression;
-    std::variant<StrainRate, RateTolerance> rate;
     double max_axial_strain = 0.0;
     double strength_drop = 0.0;
     double stop_at_share_of_peak = 0.0;
     PlatenKind platens = PlatenKind::bonded;
+    std::optional<double> span;       ///< m; empty: as usual for the kind of test
+    std::optional<double> pad_width;  ///< m; empty: derived from the size of the specimen and of its particles
+    std::optional<double> box_gap;    ///< m; empty: two mean particles
+
+    bool operator==(const LoadingValues&) const = default;
+};
+
+/// How the specimen is loaded.
+struct Loading : LoadingValues {
+    std::variant<StrainRate, RateTolerance> rate;
     double grip = 0.0;                   ///< fraction of the height at each end; 0 unless platens are glued
     double platen_friction_angle = 0.0;  // friction angle of frictional platens, degrees
     double half_angle = 10.0;            // degrees; half the angle spanned by a jaw's arc; ISRM's jaws have 10
     JawShape jaws = JawShape::arc;
-    std::optional<double> span;       ///< m; empty: as usual for the kind of test
-    std::optional<double> pad_width;  ///< m; empty: derived from the size of the specimen and of its particles
-    std::optional<double> box_gap;    ///< m; empty: two mean particles
-    double normal_stress = 0.0;       // N/m, or Pa
-    double normal_stiffness = 0.0;    // N/m2, or Pa/m
+    double normal_stress = 0.0;     // N/m, or Pa
+    double normal_stiffness = 0.0;  // N/m2, or Pa/m
     LoadingControl control = LoadingControl::axial;
     Unloading unloading;
 

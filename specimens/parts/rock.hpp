@@ -125,18 +125,24 @@ struct RandomStrengths {
     bool operator==(const RandomStrengths&) const = default;
 };
 
-/// The bonds between particles.
-struct Bonds {
+/// Values of bonds that are used as a case states them.
+struct BondValues {
     BondLaw law = BondLaw::back_tension;
     std::optional<double> thick;  ///< m; empty: the gap of the mesh, or a tenth of the mean radius
     std::optional<double> gap;    ///< m; empty: a twentieth of the thickness
     double range = 0.0;           // -
     /// Strengths as factors of the mean back-tension, which then replace those of the materials.
     std::optional<double> tensile_factor, cohesion_factor;
-    std::optional<RandomStrengths> random;  ///< empty: all bonds have the strengths of their materials
 
     /// What is true of bonds by their law.
     const BondLawFacts& facts() const { return facts_of(law); }
+
+    bool operator==(const BondValues&) const = default;
+};
+
+/// The bonds between particles.
+struct Bonds : BondValues {
+    std::optional<RandomStrengths> random;  ///< empty: all bonds have the strengths of their materials
 
     bool operator==(const Bonds&) const = default;
 };

@@ -391,7 +391,7 @@ void run(RunFigures& r, const TestSetup& setup, const TestState& state, const Wo
 
 }  // namespace
 
-FirstLoading judged_rows(const parts::Loading& loading, const TestState& state) {
+FirstLoading rows_without_cycles(const parts::Loading& loading, const TestState& state) {
     return loading.unloads() ? first_loading(state.rows, state.failure.peak_row)
                              : FirstLoading{state.rows, state.failure.peak_row};
 }
@@ -399,7 +399,7 @@ FirstLoading judged_rows(const parts::Loading& loading, const TestState& state) 
 std::optional<CrackThresholds> crack_thresholds_of(const parts::Loading& loading, const PlacedApparatus& apparatus,
                                                    const TestState& state) {
     if (!apparatus.compression || !apparatus.uniaxial) return std::nullopt;
-    const FirstLoading first = judged_rows(loading, state);
+    const FirstLoading first = rows_without_cycles(loading, state);
     return find_crack_thresholds(first.rows, first.peak_row, state.youngs_modulus, state.poissons_ratio,
                                  apparatus.confining_pressure);
 }
@@ -407,7 +407,7 @@ std::optional<CrackThresholds> crack_thresholds_of(const parts::Loading& loading
 Summary make_summary(const ResolvedCase& test, const TestSetup& setup, const TestState& state, const World& world,
                      const TestTiming& timing, const NumericalErrors* errors) {
     Summary s;
-    const FirstLoading first = judged_rows(test.loading, state);
+    const FirstLoading first = rows_without_cycles(test.loading, state);
     s.about = describe(test, setup.specimen, state);
     strength(s.strength, setup.apparatus, state, first);
     nominal(s.nominal, setup, state, first);

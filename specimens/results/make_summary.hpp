@@ -27,7 +27,7 @@ struct TestTiming {
 
 /// The rows from which peak, moduli and thresholds are computed: all rows, or those without unloading cycles if the
 /// case unloads.
-FirstLoading judged_rows(const parts::Loading& loading, const TestState& state);
+FirstLoading rows_without_cycles(const parts::Loading& loading, const TestState& state);
 /// Crack thresholds of a compression test between platens; empty for other tests.
 std::optional<CrackThresholds> crack_thresholds_of(const parts::Loading& loading, const PlacedApparatus& apparatus,
                                                    const TestState& state);

@@ -19,7 +19,7 @@ CRACKLE_FIGURES(Description, (Text, title, unlisted, "title of the case, used as
                 (Stated<SpecimenKind>, specimen, unlisted, "type of specimen: `circles`, `delaunay` or `voronoi`"),
                 (Stated<PlatenKind>, platens, unlisted,
                  "how the platens hold the specimen: `bonded`, `glued` or `frictional`"),
-                (Stated<BondLaw>, bond_law, unlisted, "bond law: `back_tension` or `coulomb`"),
+                (Stated<BondLaw>, bond_law, unlisted, "bond law: `back_tension`, `coulomb` or `face`"),
                 (Stated<StiffnessUnits>, material_units, unlisted,
                  "what the material's stiffness and strengths refer to: `point` (a contact point) or `area` (the area "
                  "of a face); with `area`, stresses are already in Pa"),

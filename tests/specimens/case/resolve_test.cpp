@@ -119,6 +119,13 @@ TEST(Resolve, AnApertureThatTheGapCannotHoldIsRefused) {
                       "[[trace]]\npoints = [0.0, 0.1, 0.3, 0.2]\nbonded = false\naperture = 2e-4\n");
               }).find("trace[1].aperture: found 0.0002 m, expected at most the gap of the mesh, 0.0001 m"),
               std::string::npos);
+    EXPECT_NE(testing::refusal([] {
+                  case_with(
+                      "[mesh]\nkind = \"voronoi\"\nthick = 3e-4\ninset = 5e-5\n"
+                      "[[trace]]\npoints = [0.0, 0.1, 0.3, 0.2]\nbonded = false\naperture = 2e-4\n");
+              }).find("trace[1].aperture: found 0.0002 m, expected at most the gap of the mesh, 0.0001 m"),
+              std::string::npos)
+        << "the inset, not thick, determines the distance between faces";
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ ResolvedCase packed_case(std::int64_t seed, LoadingKind kind, double rate, doubl
 }
 
 void mesh_voronoi(ResolvedCase& test) {
-    test.mesh = {MeshKind::voronoi, parts::MeshGap{1e-3, {}}, Boundary::domain, true};
+    test.mesh = parts::Mesh{{Boundary::domain, true}, MeshKind::voronoi, parts::MeshGap{1e-3, {}}};
     test.bond.thick = 1.08e-3;
 }
 
