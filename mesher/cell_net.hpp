@@ -59,7 +59,7 @@ class CellNet {
     /// Union of two cells across their common edges, which must be consecutive. Empty if the common edges are not
     /// consecutive, or if one of them lies on a trace.
     static Loop together(const Loop& a, const Loop& b);
-    /// The part of a cell from one corner to another, given by their positions, closed by a straight edge.
+    /// Part of a cell's outline between the corners at positions `begin` and `end`, closed by a straight edge.
     static Loop part_of(const Loop& l, std::size_t begin, std::size_t end);
 
     /// Merges the piece with a neighbour, across the longest edge that is not on a trace and for which the union is
@@ -67,7 +67,7 @@ class CellNet {
     int join(int piece);
     /// Cuts the union of the piece and a neighbour again between two of its corners, so that both parts are convex and
     /// the smaller one is as large as possible. @return false, and nothing changes, if every such cut leaves a part
-    /// smaller than this @param least_area m2
+    /// smaller than `least_area` @param least_area smallest area of a part, m2
     bool divide_again(int piece, double least_area);
 
     /// Cells that may extend into the box, in ascending order.

@@ -41,8 +41,8 @@ void check_lengths(const Rectangle& domain, const MeshRequest& request) {
 
 void check_centres(std::span<const CellCentre> centres, const Rectangle& domain) {
     if (centres.empty()) throw MeshError("mesh: found no centres, expected at least one");
-    // There are about twice as many triangles as centres. Centres are indexed by int, and corners of triangles by 32
-    // bits.
+    // There are about twice as many triangles as centres. Centres are indexed by int, and corners of triangles by
+    // 32-bit integers.
     constexpr std::size_t most = std::numeric_limits<int>::max() / 4;
     if (centres.size() > most)
         throw MeshError(fmt::format("mesh: found {} centres, expected at most {}", centres.size(), most));
@@ -94,8 +94,8 @@ void check_traces(const Rectangle& domain, const MeshRequest& request) {
     }
     if (request.kind == MeshKind::voronoi && request.merge_destroyed)
         throw MeshError(
-            "mesh: found traces with Voronoi cells to be merged, expected no merging; it would separate "
-            "pairs of seeds along traces");
+            "mesh: found traces with Voronoi cells to be merged, expected no merging, because merging would "
+            "separate pairs of seeds along traces");
     for (std::size_t t = 0; t < request.traces.size(); ++t) {
         const std::vector<Point>& trace = request.traces[t];
         if (trace.size() < 2)

@@ -38,14 +38,14 @@ constexpr double left_out_seed_share = 0.4;
 constexpr double near_share =
     1.3;  // triangles closer to a trace than this, relative to the spacing, are checked (the first row beside it)
 // Narrowest passage between traces, relative to the spacing, and sine of the smallest angle between them (1 degree).
-// Smaller values are refused, since the triangles there would be just as small.
+// Smaller values are refused, since they would require triangles with equally small edges or angles.
 constexpr double narrowest_share = 0.02, least_sine = 0.0175;
 // Square of the sine of 20.7 degrees; refinement is guaranteed to terminate for angles up to this one.
 constexpr double smallest_squared_sine = 0.125;
 
 struct PointInfo {
     int centre = -1;
-    bool near_trace = true;  // stays true for points that refinement adds
+    bool near_trace = true;  // true unless set otherwise, and thus for points that refinement adds
     int number = -1;         // index of the point in the mesh
 };
 
@@ -94,7 +94,7 @@ bool meet_sharply(Point u, Point v) {
 void Constrained::list_constraints() {
     struct Arm {
         crackle::Point along;
-        int next;  // index of the next arm at the same vertex, or -1
+        int next;  // index of the next edge (arm) at the same vertex, or -1
     };
     std::vector<Edge> edges;
     std::vector<Arm> arms;
@@ -160,7 +160,7 @@ class NearTraceCriteria : public CGAL::Delaunay_mesh_criteria_2<Constrained> {
 
 struct TracePiece : Segment {
     int trace;
-    int from, to;  // indices of the points on traces
+    int from, to;  // indices of the two ends among the points on traces
 };
 
 class Conforming {
@@ -327,8 +327,8 @@ class Conforming {
     }
 
     void insert_points(const std::vector<ChosenPoint>& points) {
-        // A point and either the index of a chosen point, or ~index of a point on a trace. Small pairs are sorted
-        // faster.
+        // A point and either the index of a chosen point, or ~index of a point on a trace. Pairs are kept small, so
+        // that they can be sorted quickly.
         using Placed = std::pair<Kernel::Point_2, int>;
         std::vector<Placed> order;
         order.reserve(points.size() + 2 * pieces_.size());
@@ -405,7 +405,7 @@ class Conforming {
             const Point here = place_of(a);
             ConstrainedVertex best = nullptr;
             Constrained::Edge best_edge;
-            double least = 1e-6 * whole;  // largest distance from the line; other traces deviate by much more
+            double least = 1e-6 * whole;  // largest allowed distance from the line; other traces are much farther away
             auto edge = mesh_.incident_edges(a);
             const auto start = edge;
             do {

@@ -42,7 +42,7 @@ struct Line {
         const double s = at(p);
         return {start.x + s * along.x, start.y + s * along.y};
     }
-    /// Length of trace between two positions along the line.
+    /// Length covered by the trace between two positions along the line.
     double covered(double first, double last) const {
         double sum = 0.0;
         for (const auto& [from_here, to_here] : trace)
@@ -226,7 +226,7 @@ class CellCutter {
             if (net_.inside(net_.loop(cell), net_.place(onto))) return changed.contains(cell);
         return true;
     }
-    /// Cuts the cells that the edge crosses along its line.
+    /// Cuts the cells that an edge of the graph crosses, along the line of this edge.
     void cut(const Line& line, int trace) {
         for (const int cell : net_.cells_near(box_of(net_.place(line.from), net_.place(line.to)))) {
             patience_.piece();

@@ -17,7 +17,7 @@ constexpr double shortest_share = 1e-12;
 // Corners whose turning angle has a smaller sine are dropped, since the offset lines of their edges have no
 // well-defined intersection.
 constexpr double flattest_turn = 1e-12;
-// An inset whose area is a smaller fraction of the outline's area counts as empty; it is only round-off.
+// An inset whose area is a smaller fraction of the outline's area counts as empty, since it consists only of round-off.
 constexpr double smallest_area_share = 1e-12;
 
 }  // namespace
@@ -152,7 +152,7 @@ double inscribed_radius(std::span<const Point> outline, double coordinate_scale)
         const Point a = outline[k], b = outline[k + 1 == outline.size() ? 0 : k + 1];
         perimeter += distance(a, b);
     }
-    // For a disc of radius r inside, the triangle on each edge has a height of at least r: A >= rP/2.
+    // If a disc of radius r fits inside, the triangles from its centre to the edges have heights >= r, so A >= rP/2.
     double low = 0.0, high = 2.0 * polygon_area(outline) / perimeter;
     for (int halving = 0; halving < 50; ++halving) {
         const double middle = 0.5 * (low + high);
@@ -171,8 +171,8 @@ void clip(std::vector<Point>& polygon, double nx, double ny, double offset, std:
         const double height_b = nx * b.x + ny * b.y - offset;
         if (height_a >= 0.0) scratch.push_back(a);
         if ((height_a < 0.0 && height_b > 0.0) || (height_a > 0.0 && height_b < 0.0)) {
-            // Interpolated from the outer end, whatever the direction of the edge, so that neighbours get the same
-            // point.
+            // The intersection is interpolated from the outer end, whatever the direction of the edge, so that both
+            // polygons that share the edge get the same point.
             const Point& outer = height_a < 0.0 ? a : b;
             const Point& inner = height_a < 0.0 ? b : a;
             const double low = std::min(height_a, height_b);

@@ -18,18 +18,17 @@ inline constexpr double relative_rounding = std::numeric_limits<double>::epsilon
 /// Insets polygons one after another and reuses its working memory.
 class Inset {
   public:
-    /// @param depth m, >= 0 @param coordinate_scale largest coordinate, m; position errors are a few relative_rounding
-    /// times this value
+    /// @param depth m, >= 0 @param coordinate_scale largest coordinate, m; position errors are a few times
+    /// relative_rounding times this value
     Inset(double depth, double coordinate_scale) : depth_(depth), scale_(coordinate_scale) {}
 
     /// @param outline  convex, counter-clockwise, m
     /// @return outline of the points at least `depth` inside every edge, convex and counter-clockwise; empty if there
-    /// are none.
-    ///         Edges may vanish. Valid until the next call.
+    ///         are no such points. Edges may vanish. Valid until the next call.
     std::span<const Point> of(std::span<const Point> outline) { return of(outline, {}); }
     /// Insets an outline and keeps selected flat corners. @param kept whether each corner remains even if the outline
-    /// is straight there, for example because a trace ends on an edge. Such a corner is moved outwards by 16
-    /// relative_rounding times the scale, unless edges vanish.
+    /// is straight there, for example because a trace ends on an edge. Such a corner is moved outwards by
+    /// 16 times relative_rounding times coordinate_scale, unless edges vanish.
     std::span<const Point> of(std::span<const Point> outline, std::span<const char> kept);
     /// Whether all edges of the last outline remain, so that edges of the inset have the same indices.
     bool edges_kept() const { return edges_kept_; }
@@ -62,13 +61,13 @@ void clip(std::vector<Point>& polygon, double nx, double ny, double offset, std:
 /// The bit of a side if `set` is true, otherwise 0.
 inline unsigned side_if(bool set, SideBit side) { return set ? unsigned{side} : 0U; }
 
-/// Bits of the sides of the domain on which a point lies exactly.
+/// SideBits of the sides of the domain on which the point lies exactly, combined by bitwise or.
 inline unsigned sides_at(Point p, const Rectangle& domain) {
     return side_if(p.x == domain.x1, side_left) | side_if(p.x == domain.x2, side_right) |
            side_if(p.y == domain.y1, side_bottom) | side_if(p.y == domain.y2, side_top);
 }
 
-/// Bits of the sides of the domain on which the polygon has an edge.
+/// SideBits of the sides of the domain on which the polygon has an edge, combined by bitwise or.
 std::uint8_t sides_of(std::span<const Point> polygon, const Rectangle& domain);
 
 }  // namespace crackle

@@ -295,7 +295,7 @@ JointedCells jointed_cells(std::span<const CellCentre> centres, const Rectangle&
     for (const SmallPieces small_pieces : {SmallPieces{smallest_piece_share, false}, {tolerated_piece_share, false}}) {
         try {
             return make(small_pieces);
-        } catch (const MeshError&) {  // the next attempt accepts more
+        } catch (const MeshError&) {  // the next attempt accepts smaller pieces or divides them again
         }
     }
     return make({tolerated_piece_share, true});

@@ -20,8 +20,8 @@ struct JointedCells {
     TracedCells traced;  ///< the cells, in seed order
 };
 
-/// Makes the cells. @throws MeshError that names the traces, if cells cannot follow them; also the errors of
-/// voronoi_cells()
+/// Makes the cells. @throws MeshError that names the traces, if cells cannot follow them; also thrown under
+/// the conditions of voronoi_cells()
 JointedCells jointed_cells(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
                            double spacing, Patience& patience);
 

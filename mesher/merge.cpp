@@ -27,7 +27,7 @@ struct Side {
 };
 using Polygon = std::vector<Side>;
 
-// A corner whose sine is smaller counts as straight; points added on a wall lie exactly on one line.
+// A corner whose turning angle has a smaller sine counts as straight; points added on a wall lie exactly on one line.
 constexpr double straight = 1e-12;
 
 class Joiner {
@@ -49,8 +49,8 @@ class Joiner {
     const Triangles& mesh_;
     Inset inset_;
     std::map<int, Polygon> polygons_;  // the polygons made so far, by their lowest triangle index (key)
-    // For each merged triangle, another triangle of the same polygon that is closer to the polygon's key. The key is
-    // its own parent.
+    // For each merged triangle, another triangle of the same polygon that is closer to the polygon's key (its lowest
+    // triangle index). The key is its own parent.
     std::map<int, int> parent_;
 };
 

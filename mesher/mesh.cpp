@@ -49,7 +49,7 @@ class Cutter {
 
 std::string place(Point p) { return fmt::format("({:.9g}, {:.9g})", p.x, p.y); }
 
-/// Cells that the inset destroys, as an error to which advice is added.
+/// Thrown if the inset destroys cells. make_mesh() catches it, adds advice and throws a MeshError.
 struct DestroyedCells {
     std::string found;    // description of the worst cell
     double least_radius;  // m, smallest inscribed radius of these cells
@@ -266,7 +266,7 @@ std::array<Point, 3> outline_of(const Triangles& triangles, std::size_t t) {
     return {point(c[0]), point(c[1]), point(c[2])};
 }
 
-/// Numbers of the centres at the corners of a triangle.
+/// Indices of the centres at the corners of a triangle; -1 for a point that is not a centre.
 std::array<int, 3> centres_about(const Triangles& triangles, std::size_t t) {
     std::array<int, 3> numbers{};
     for (std::size_t k = 0; k < 3; ++k)
@@ -392,7 +392,7 @@ double rounded_down(double value) {
     return unit * std::floor(value / unit);
 }
 
-/// Advice on changed requests that would give a mesh. Each request is tried first.
+/// Advice on changes of the request that would give a mesh. Each change is tried before it is advised.
 /// @param least_radius smallest inscribed radius of the cells that the inset destroys, m
 std::string advice(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
                    std::optional<double> least_radius) {
@@ -410,7 +410,7 @@ std::string advice(std::span<const CellCentre> centres, const Rectangle& domain,
             attempt(thinner, fmt::format("use an inset of {:.2g} or less", depth));
         } else {
             thinner.mesh_gap = rounded_down(2.0 * depth);
-            attempt(thinner, fmt::format("use a thick of {:.2g} or less", thinner.mesh_gap));
+            attempt(thinner, fmt::format("set thick to {:.2g} or less", thinner.mesh_gap));
         }
     }
     if (least_radius && !request.merge_destroyed && !(voronoi && traced)) {

@@ -122,7 +122,7 @@ struct MeshReport {
     std::int64_t cells_destroyed = 0;  ///< number of cells destroyed by the inset, all of which were merged
     double area_before_inset = 0.0;    ///< m2, sum over all cells
     double area_after_inset = 0.0;     ///< m2
-    // Only for meshes with traces:
+    // The following members are set only for meshes with traces.
     std::int64_t trace_edges = 0;  ///< number of cell edges on traces after the inset, counting both sides of a trace
     double trace_length =
         0.0;  ///< m, total length of traces covered by edges before the inset; each part of a trace counts once
@@ -133,7 +133,7 @@ struct MeshReport {
         0.0;  ///< m, length along which traces coincide; edges there belong to the trace with the lowest index
     std::int64_t centres_left = 0;  ///< number of centres omitted to make room for traces
     std::int64_t points_added = 0;  ///< number of interior corners that are not centres
-    // Only for Voronoi cells, if traces are too close together for rows of cells:
+    // The following members are set only for Voronoi cells, if traces are too close together for rows of cells.
     std::int64_t cells_cut = 0;  ///< number of cells cut by traces
     /// Number of pieces smaller than smallest_piece_share of the mean cell that were merged with a neighbour.
     std::int64_t pieces_joined = 0;

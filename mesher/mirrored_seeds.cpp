@@ -55,10 +55,11 @@ constexpr double half_width_share = 0.5, kept_share = 0.55;
 constexpr double narrowest_strip_share = 0.1;
 // Largest half-width of a row, relative to the distance from another edge. passage_share: between two traces there are
 // two rows of width d, and circles of radius √2 d around points on the traces must not reach the other trace's seeds.
-// fork_share: where two traces meet at a node, the ring's angle determines the positions of the seeds. wall_share: at a
-// wall, the row is its own mirror image.
+// fork_share: where two traces meet at a node, the angles of the ring around the node determine the positions of the
+// seeds. wall_share: at a wall, the row is its own mirror image.
 constexpr double passage_share = 0.4, fork_share = 0.5, wall_share = 0.7;
-// Largest angle between a seed of a ring and the arm beside it; with it, the end of a trace has three seeds.
+// Largest angle between a seed on the ring around a node and the nearest edge of the graph (arm) at the node. With this
+// angle, the end of a trace has three seeds.
 constexpr double widest_half_angle = pi / 3.0;
 // These distances are relative to the spacing. If no other edge is closer than clear_share, the packing's own seeds on
 // one side are mirrored. The mirrored seeds are at least least_offset_share from the trace, and no point on the trace
@@ -75,7 +76,8 @@ struct Arm {
     bool trace;
 };
 
-/// Directions of seeds on a ring around a node. Each arm has a seed on either side, at the same angle for all arms.
+/// Directions of seeds on a ring around a node. Each edge at the node (arm) has a seed on either side, at the same
+/// angle for all arms.
 struct Ring {
     double half_angle = 0.0;     // angle between a seed and an arm, rad
     std::vector<double> angles;  // rad, directions of all seeds
@@ -345,7 +347,7 @@ class SeedPlacing {
 
     void place_even(std::size_t e, const Line& line, const std::vector<Beside>& beside, double from, double to) {
         // Integrates 1/width in steps of a twentieth of the spacing. The integral is scaled to end on an integer, and a
-        // pair is placed wherever it reaches one.
+        // pair is placed wherever it reaches an integer.
         const auto steps = static_cast<std::size_t>(std::ceil(std::max(1.0, 20.0 * (to - from) / spacing_)));
         std::vector<double> count{0.0};
         const double step = (to - from) / static_cast<double>(steps);

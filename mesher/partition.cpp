@@ -34,17 +34,18 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> all_sides{side_left, side_right, side_bottom, side_top};
 // Edges shorter than this fraction of their circumradius count as zero-length edges of co-circular centres. The
-// round-off of a circumcentre is a few relative_rounding times the radius; 1e-10 leaves a margin for badly shaped
+// round-off of a circumcentre is a few times relative_rounding times the radius; 1e-10 leaves a margin for badly shaped
 // triangles.
 constexpr double zero_edge_share = 1e-10;
-// Relative to the mean spacing. Below this distance, the bisector and the cells of two centres are dominated by
+// Distance between two centres, relative to the mean spacing, below which their bisector and cells are dominated by
 // round-off.
 constexpr double coincidence_share = 1e-9;
 // Distance of the guard points from the middle of the domain, in units of the domain's diagonal. Every point of the
 // domain is closer to its nearest centre.
 constexpr double guard_distance = 4.0;
 
-// Computed relative to one corner, so that large coordinates cause round-off only in the last addition.
+// The circumcentre is computed relative to one corner, so that large coordinates cause round-off only in the last
+// addition.
 Point circumcentre(FaceHandle face) {
     const Point a = position(face->vertex(0)), b = position(face->vertex(1)), c = position(face->vertex(2));
     const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
@@ -110,7 +111,7 @@ Point Partition::on_wall(FaceHandle face, std::uint8_t wall) const {
     std::size_t i = 0, j = 1;
     if (std::abs(along[1] - along[2]) > std::abs(along[i] - along[j])) i = 1, j = 2;
     if (std::abs(along[0] - along[2]) > std::abs(along[i] - along[j])) i = 0, j = 2;
-    // Ensures that the faces on both sides of a pair and its images get identical values.
+    // This order ensures that the faces on both sides of a pair and its images get identical values.
     if (along[i] > along[j]) std::swap(i, j);
     const double apart = along[j] - along[i];
     const double place = along[i] + 0.5 * apart + 0.5 * ((off[j] - off[i]) / apart) * (off[j] + off[i]);
@@ -135,7 +136,7 @@ Point Partition::dual(FaceHandle face, const WallsOfFace& walls) const {
             return {domain_.x1, domain_.y2};
         case side_right | side_top:
             return {domain_.x2, domain_.y2};
-        default:  // no wall, or two opposite walls while images are still missing
+        default:  // there is no wall, or two opposite walls while images are missing
             return circumcentre(face);
     }
 }
@@ -149,7 +150,7 @@ void Partition::place_dual(FaceHandle face, std::vector<VertexHandle>& to_mirror
     FaceInfo& placed = face->info();
     placed.dual = p;
     placed.outside = (beyond & walls.on_all) != 0;
-    // If the centres of the face have been mirrored and it still exists, its dual is outside only by round-off.
+    // If the face still exists after its centres have been mirrored, its dual is outside only by round-off.
     if (beyond != 0 && !placed.outside) {
         placed.dual = {std::clamp(p.x, domain_.x1, domain_.x2), std::clamp(p.y, domain_.y1, domain_.y2)};
     }
@@ -300,8 +301,8 @@ void Partition::contract_zero_edges() {
             const FaceHandle g = f->neighbor(k);
             const Point p = f->info().dual, q = g->info().dual;
             const double length = squared_distance(p, q);
-            if (length >= longest_zero) continue;  // checked first, because it is true for nearly all edges
-            if (g < f) continue;                   // the edge is handled from the other face
+            if (length >= longest_zero) continue;  // this test comes first, because it excludes most edges
+            if (g < f) continue;                   // the edge is processed with its other face
             const VertexHandle a = f->vertex(Triangulation::ccw(k)), b = f->vertex(Triangulation::cw(k));
             if (!is_centre(a) && !is_centre(b)) continue;
             if (f->info().outside || g->info().outside) continue;
@@ -309,7 +310,7 @@ void Partition::contract_zero_edges() {
             if (length < zero) parent[root(member(f))] = root(member(g));
         }
     }
-    // All members of a cluster get the point that lies on the largest number of walls; ties are resolved by
+    // All members of a cluster are moved to the member that lies on the largest number of walls; ties are resolved by
     // coordinates, independent of the numbering of faces.
     const auto walls = [this](Point p) {
         return (p.x == domain_.x1 || p.x == domain_.x2 ? 1 : 0) + (p.y == domain_.y1 || p.y == domain_.y2 ? 1 : 0);

@@ -76,7 +76,7 @@ Triangles delaunay_points(std::span<const CellCentre> centres, const Rectangle& 
 /// Error for two coincident centres.
 MeshError coincident_centres(std::span<const CellCentre> centres, int a, int b);
 
-/// Largest coordinate of the domain; position errors are a few relative_rounding times this value.
+/// Largest coordinate of the domain; position errors are a few times relative_rounding times this value.
 double coordinate_scale(const Rectangle& domain);
 
 }  // namespace crackle

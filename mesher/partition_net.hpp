@@ -84,7 +84,7 @@ class Partition {
 
     VoronoiCells cells();
     Triangles triangles(Boundary boundary);
-    /// Only the points of the triangles that fill the domain.
+    /// The points of the triangles that fill the domain, but no triangles.
     Triangles points_with_flat_faces() const;
 
   private:

@@ -60,7 +60,8 @@ struct Square {
     std::uint32_t i, j;
 };
 
-/// Numbers stored by grid square, in one hash table. Each bucket is a list in insertion order.
+/// Numbers (indices of points or segments), stored by grid square in one hash table. Each bucket is a list in insertion
+/// order.
 class Squares {
   public:
     /// An empty grid. @param size side length of the squares, m, > 0
@@ -157,7 +158,7 @@ class SegmentGrid {
     bool same_near(Point p, Point q) const {
         return squares_.index(p.x) == squares_.index(q.x) && squares_.index(p.y) == squares_.index(q.y);
     }
-    /// Calls use(number) for all segments within the reach, and for some farther away.
+    /// Calls use(number) with the index of each segment within the reach, and of some segments farther away.
     template <class Use>
     void each_near(Point p, Use use) const {
         any_near(p, [&](std::size_t number) {
@@ -165,7 +166,8 @@ class SegmentGrid {
             return false;
         });
     }
-    /// Whether test(number) is true for any segment within the reach; some segments farther away are tested, too.
+    /// Whether test(number) is true for the index of any segment within the reach. Some segments farther away are
+    /// tested as well.
     template <class Test>
     bool any_near(Point p, Test test) const {
         const Square square(squares_.index(p.x), squares_.index(p.y));

@@ -57,8 +57,8 @@ bool lie_apart(const Segment& s, const Segment& t, double reach) {
     return beside(s, t) || beside(t, s);
 }
 
-/// Direction perpendicular to the mean direction of the segments (weighted by length), along which parallel segments
-/// are narrow.
+/// Direction perpendicular to the mean direction of the segments, weighted by length. The extents of segments parallel
+/// to the mean direction are smallest along this direction.
 Point across_most(std::span<const Segment> segments) {
     double cosine = 0.0, sine = 0.0;
     for (const Segment& s : segments) {
@@ -161,7 +161,7 @@ class GraphMaker {
         each_near_pair(same_place_, [&](std::size_t i, std::size_t j) { cut(i, j); });
     }
 
-    /// Cuts piece i at the ends of piece j that lie on it. @return whether there are any
+    /// Cuts piece i at the ends of piece j that lie on it. @return whether there are any such ends
     bool cut_at_ends(std::size_t i, std::size_t j) {
         bool any = false;
         const Piece& s = pieces_[i];
@@ -282,7 +282,7 @@ class PartWalk {
     }
 
   private:
-    // Half-edge 2e starts at the first node of edge e, half-edge 2e + 1 at its second.
+    // Half-edge 2e starts at the first node of edge e, half-edge 2e + 1 at its second node.
     std::size_t node(std::size_t half) const {
         const TraceGraph::Edge& edge = graph_.edges[half / 2];
         return static_cast<std::size_t>(half % 2 == 0 ? edge.from : edge.to);

@@ -38,7 +38,8 @@ std::size_t find_place() {
     });
     if (place == sets_of_this_program.end()) {
         throw InputError("CRACKLE_ISA: found '" + std::string(asked) + "', expected one of " +
-                         names_of_sets(runs_here) + " on this machine; unset CRACKLE_ISA to use the widest");
+                         names_of_sets(runs_here) +
+                         " on this machine; unset CRACKLE_ISA to use the widest instruction set");
     }
     return static_cast<std::size_t>(place - sets_of_this_program.begin());
 }

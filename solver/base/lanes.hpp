@@ -50,7 +50,7 @@ template <class Number>
 using Condition = decltype(Number{} < Number{});
 
 /// Loads a vector of eight-byte numbers from any address. memcpy() is not used, because g++ does not merge its loads
-/// into shuffles.
+/// into shuffle instructions.
 template <class V>
 CRACKLE_INLINE V load_as(const void* from) {
     typedef V Loose __attribute__((aligned(8), may_alias));
@@ -62,7 +62,7 @@ CRACKLE_INLINE void store_as(void* to, const V& v) {
     *static_cast<Loose*>(to) = v;
 }
 
-/// Loads one float or one in each lane, and stores numbers rounded to floats.
+/// Loads one float, or one float per lane; stores numbers after rounding them to floats.
 template <class Number>
 CRACKLE_INLINE Number load_floats(const float* from) {
     if constexpr (std::is_same_v<Number, double>) {

@@ -37,13 +37,13 @@ concept HasNames = detail::has_names<Enum>();
 template <HasNames Enum>
 inline constexpr auto table_of_names = list_names(Enum{});
 
-/// Whether a value that was read as a number is one of the enum's.
+/// Whether a value that was read as a number is a valid value of the enum.
 template <HasNames Enum>
 constexpr bool is_known(Enum value) {
     return static_cast<std::size_t>(value) < table_of_names<Enum>.size();
 }
 
-/// Empty if no value of the enum has this number.
+/// Name of an enum value; empty if the value is not valid.
 template <HasNames Enum>
 constexpr const char* name_of(Enum value) {
     return is_known(value) ? table_of_names<Enum>[static_cast<std::size_t>(value)].data() : "";

@@ -25,7 +25,7 @@ inline std::string stated(const Quantity& q) {
     return unit.empty() || meaning.empty() ? unit + meaning : unit + ", " + meaning;
 }
 
-/// Finds the declaration of a name. @throws std::logic_error if it is missing, since everything written must be
+/// Finds the declaration of a name. @throws std::logic_error if there is none: every quantity that is written must be
 /// declared
 inline const Quantity& declared(std::span<const Quantity> quantities, std::string_view name) {
     for (const Quantity& q : quantities)
@@ -33,8 +33,8 @@ inline const Quantity& declared(std::span<const Quantity> quantities, std::strin
     throw std::logic_error("results: " + std::string(name) + " is written but not declared");
 }
 
-/// One line of comma-separated values, with a newline at the end. It has text_of(column) for each column for which
-/// wanted(column) holds.
+/// One line of comma-separated values, with a newline at the end. It contains text_of(column) for each column for which
+/// wanted(column) is true.
 template <class Columns, class Wanted, class TextOf>
 std::string table_line(const Columns& columns, const Wanted& wanted, const TextOf& text_of) {
     std::string line;

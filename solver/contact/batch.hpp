@@ -21,7 +21,7 @@ enum class BatchCase : std::uint8_t {
     all_hold,    // every point was in contact without sliding, and still holds (with bonds: all points are bonded)
     some_hold,   // some points hold; the others were not in contact before
     none_holds,  // no point holds, and none was in contact before
-    one_by_one   // a contact opens or a bond breaks: left to the scalar code
+    one_by_one   // a contact opens or a bond breaks: the points are computed one by one
 };
 
 /// Which points of a batch carry load, and their states before this force pass.

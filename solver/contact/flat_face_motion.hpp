@@ -3,10 +3,10 @@
 // have separated.
 //
 // While the faces touch, the rest overlap (at which their force is zero) follows the closure caused by rotation of the
-// circles (flat_faces.hpp). While they separate, it decreases at most as fast as their overlap; otherwise they would
-// touch again at once and create energy. As unbonded faces slide, their lap λ (length over which they lie opposite each
-// other) changes, while the elongations of the springs stay the same. This changes the stiffness K λ, and hence the
-// stored energy, by an amount that is not the work of a force:
+// circles (flat_faces.hpp). While the faces separate, the rest overlap decreases at most as fast as the overlap;
+// otherwise the faces would touch again at once, and the contact would create energy. As unbonded faces slide, the
+// length λ over which they lie opposite each other (their lap) changes, but the elongations of the springs do not. The
+// stiffness K λ, and hence the stored energy, then changes by an amount that is not the work of a force:
 //
 //     ½ K_n δ(n-1) δ(n) (λ(n) - λ(n-1)) + ½ f_t²/(K_s λ(n-1)) (λ(n)/λ(n-1) - 1),     f_t <- f_t λ(n)/λ(n-1)
 //
@@ -106,8 +106,8 @@ CRACKLE_INLINE void follow_batch(const Features& has, const PassView& view, Poin
         for (int l = 0; l < lane_count; ++l) loss.law -= gained[l];
 }
 
-/// Updates the overlap at which separated, unbonded faces will touch again, m. Rotation may have raised it above the
-/// joint's aperture. As the faces open, it decreases with their overlap, but not below the aperture.
+/// Updates the overlap at which separated, unbonded faces will touch again, m. Rotation may have raised this value
+/// above the joint's aperture. As the faces open, the value decreases with the overlap, but not below the aperture.
 inline void part_faces(const PassView& view, PointIndex k, double closed) {
     const PointState& state = view.state[k];
     if ((state.flags & point_had_bond) != 0 || state.law < view.first_joint_law) return;

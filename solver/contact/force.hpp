@@ -158,7 +158,7 @@ CRACKLE_INLINE void force_of_held(const Features& has, const PassView& view, Poi
         if (has.bonds) {
             Condition<Number> strong = Bond::template carries_half_strength<Number>(law, {normal, shear}, bond_overlap);
             if constexpr (!All) strong = strong & held.bonded;
-            if (any(strong)) {  // rarely true, so that these arrays are usually not touched
+            if (any(strong)) {  // this is rarely true, so that these arrays are usually not touched
                 float *const strong_normal = view.strong_normal + k, *const strong_shear = view.strong_shear + k;
                 store_floats(strong_normal, select(strong, normal, load_floats<Number>(strong_normal)));
                 store_floats(strong_shear, select(strong, shear, load_floats<Number>(strong_shear)));

@@ -138,8 +138,8 @@ struct CompiledFeatures {
                           own_shares = F.own_shares, own_shear = F.own_shear;
 };
 
-/// Bond law that kernels of a kind are compiled for, given the scene's bond law. Only for constant expressions, since
-/// `facts` must not be stored in kernels.
+/// Bond law that kernels of a kind are compiled for, given the scene's bond law. Call it only in constant expressions,
+/// because the facts about bond laws must not be stored in kernels.
 constexpr BondLaw law_for(PointKind kind, BondLaw law) {
     if (by_guide(kind))
         return known_facts(law).with_guide_segments ? law : first_law_with(&BondLawFacts::with_guide_segments);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Applies the consistent integrator (opening.hpp) to contact points: collects what it needs from the bodies and from
-// the last force pass, for one point or for a batch. Leapfrog uses none of this.
-// Tested by tests/solver/contact/opening_test.cpp and tests/solver/contact/batch_test.cpp.
+// Applies the consistent integrator (opening.hpp) to contact points: collects the values that it needs from the bodies
+// and from the last force pass, for one point or for a batch. Leapfrog uses none of this. Tested by
+// tests/solver/contact/opening_test.cpp and tests/solver/contact/batch_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ inline PushBounds<double> push_bounds(const PassView& view, const ContactPoint& 
     return {i.acceleration + j.acceleration, i.inverse_mass + j.inverse_mass};
 }
 
-/// push_bounds() for each point in a batch.
+/// Returns push_bounds() of each point in a batch.
 CRACKLE_INLINE PushBounds<Lanes> push_bounds_of_batch(const PassView& view, PointIndex k) {
     const BodyPair* const points = view.pairs + k;
     const double *i[lane_count], *j[lane_count];

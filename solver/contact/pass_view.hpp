@@ -33,10 +33,10 @@ struct PassView {
     Vec2 gravity;
 
     PointIndex points = 0;         // number of points
-    PointIndex circle_points = 0;  // number of circle_circle points, which have no parts
+    PointIndex circle_points = 0;  // number of circle_circle points, which have no PointParts
     PointIndex fours_end = 0;
     const BodyPair* pairs = nullptr;
-    PointParts* parts = nullptr;  // parts of the points from index circle_points on
+    PointParts* parts = nullptr;  // elements that meet at the points from index circle_points on
     const double* root_mass = nullptr;
     PointState* state = nullptr;
     double* shear_force = nullptr;

@@ -41,7 +41,7 @@ CRACKLE_INLINE const Law<Number>& own_law(const Features& has, const PassView& v
     return with_shares_of(has, view, k, law, room, [&] { return stiffness_share<K, Number>(view, k); });
 }
 
-/// Square root of the effective mass, sqrt(kg); Points::root_mass of flat faces is for a lap of one metre.
+/// Square root of the effective mass, sqrt(kg). For flat faces, Points::root_mass refers to a lap of one metre.
 template <PointKind K, class Number>
 CRACKLE_INLINE Number root_masses(const PassView& view, PointIndex k) {
     const Number whole = load_as<Number>(view.root_mass + k);

@@ -27,8 +27,9 @@ namespace {
 /// Identification of a point in the files, as seen from one of its bodies.
 struct PointName {
     int body, other;  // input ids; negative for walls
-    int element,
-        partner;  // counted from 1; 0 for an outline or wall; with the DEMseg guide's segment law, segment numbers
+    // Numbers of the two elements, counted from 1; 0 for an outline or a wall. Under the DEMseg guide's segment law
+    // they are numbers of segments.
+    int element, partner;
     auto operator<=>(const PointName&) const = default;
 
     PointName seen_from_other() const { return {other, body, partner, element}; }
@@ -63,7 +64,7 @@ std::map<PointName, PointIndex> points_by_name(const World& world) {
     return points;
 }
 
-/// Bodies of the scene by id, with the numbers of their elements.
+/// Finds the bodies of the scene by their input ids.
 class BodyNames {
   public:
     explicit BodyNames(const Scene& scene) {

@@ -113,7 +113,8 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
         start_from_contacts(texts);
     }
     if (options_.seed && !drawn_)
-        throw InputError(fmt::format("seed: found with {}, whose bodies are all given; leave it out", texts.names[0]));
+        throw InputError(
+            fmt::format("seed: found with {}, in which all bodies are given; leave the seed out", texts.names[0]));
     find_bodies();
     first_step_ = world_.stepping.steps;
     breaks_written_ = world_.bonds.events.size();

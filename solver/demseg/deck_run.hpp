@@ -37,9 +37,9 @@ struct DeckOptions {
     bool overwrite = false;  ///< whether existing outputs may be replaced
     std::optional<std::int64_t> steps;  ///< number of steps, overriding nstep; ramps still take nstep steps
     std::optional<std::uint64_t> seed;  ///< seed of the random circles of mode 0; 1 if not given
-    /// If not given, that of the previous run according to its state file, otherwise rounded.
+    /// Law of segments. If not given, that of the previous run according to its state file, or else rounded.
     std::optional<SegmentLaw> law;
-    std::optional<Integrator> integrator;  ///< if not given, that of the previous run, otherwise leapfrog
+    std::optional<Integrator> integrator;  ///< if not given, that of the previous run, or else leapfrog
     bool allow_unstable = false;
     int threads = 1;
     /// Wall-clock time between saves of the new_* files, from which an interrupted run can be continued, s.

@@ -45,17 +45,18 @@ int read_geometry_mode(const std::filesystem::path& path);
 /// Reads the mode of a geometry text (its first number).
 int read_geometry_mode(const DeckReader& reader);
 
-/// Reads a mode-1 file into a validated scene with the deck conventions (full first kick, width of bare segments).
+/// Reads a mode-1 geometry file into a validated scene with the deck conventions (full first kick, width of bare
+/// segments).
 /// @throws InputError with file, line and key, and what was found and expected
 Scene read_geometry(const std::filesystem::path& path);
-/// Reads a mode-1 file and keeps the division into nseg1 and nseg2.
+/// Reads a mode-1 geometry file and keeps the division into nseg1 and nseg2.
 DeckGeometry read_deck_geometry(const std::filesystem::path& path);
-/// Reads a mode-1 file from an open reader.
+/// Reads a mode-1 geometry file from an open reader.
 DeckGeometry read_deck_geometry(DeckReader& reader);
 
-/// Reads a mode-0 file.
+/// Reads a mode-0 geometry file, for circles that are generated at random.
 RandomGeometry read_random_geometry(const std::filesystem::path& path);
-/// Reads a mode-0 file from an open reader.
+/// Reads a mode-0 geometry file from an open reader.
 RandomGeometry read_random_geometry(DeckReader& reader);
 
 /// Writes a mode-1 file. Numbers are written so that reading them gives identical values. Circle bodies come first,

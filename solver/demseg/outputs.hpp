@@ -26,7 +26,7 @@ inline constexpr std::array<const char*, 8> deck_output_names{
 /// (staged) names until it can be resumed.
 enum class OutputNames : bool { own, staged };
 
-/// How output files begin.
+/// Whether output files are created or appended to, and whether they have headers.
 enum class OutputMode {
     fresh,      ///< creates files, with headers
     part,       ///< creates files without headers, for a later part that will be appended to an earlier one

@@ -5,9 +5,9 @@
 //
 //     N = round(A / ((1 + e) π <r²>)),  <r²> = (r1² + r1 r2 + r2²)/3     582 for 80 x 80, r 1-2, e 0.5 (DEMseg guide)
 //
-// A area of the domain, e void ratio. std::mt19937_64 has a standardised sequence, and the distributions are
-// implemented here, so a seed gives identical results everywhere. Source: DEMseg guide I.7; the formula for N is
-// inferred from its 582 circles (FORMATS.md).
+// Here A is the area of the domain and e the void ratio. std::mt19937_64 has a standardised sequence, and the
+// distributions are implemented here, so a seed gives identical results everywhere. Source: DEMseg guide I.7; the
+// formula for N is inferred from the 582 circles of the guide's example (FORMATS.md).
 // Tested by tests/tools/commands/run_test.cpp.
 #pragma once
 
@@ -17,7 +17,8 @@
 
 namespace crackle {
 
-/// Number N of circles as defined above. @throws InputError if it is 0 or exceeds the largest body id
+/// Number of circles that gives the requested void ratio. @throws InputError if the number is 0 or exceeds the largest
+/// body id
 std::int64_t random_circle_count(const RandomGeometry& geometry);
 
 /// Circles 1 to N at rest, entirely inside the domain, as a validated mode-1 scene.

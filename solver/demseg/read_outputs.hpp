@@ -64,7 +64,7 @@ class DeckFrameFile {
     const std::vector<Head>& heads() const { return heads_; }
     /// Path of the file.
     const std::filesystem::path& path() const { return path_; }
-    /// The lines of a frame as text. @throws InputError if it cannot be read
+    /// The lines of a frame as text. @throws InputError if the file cannot be read
     std::string lines(const Head& head) const;
 
   private:

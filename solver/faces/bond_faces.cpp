@@ -47,14 +47,14 @@ FaceLaw weaker_law(const FaceLaw& a, const FaceLaw& b) {
 
 namespace {
 
-/// Law of the faces of a joint.
+/// Law of the faces on a joint. @param law law of the faces in the rock
 FaceLaw law_across(FaceLaw law, const Joint& joint) {
     if (joint.friction_angle) law.friction = law.residual_friction = friction_coefficient(*joint.friction_angle);
     if (joint.residual_friction_angle)
         law.residual_friction = std::min(friction_coefficient(*joint.residual_friction_angle), law.friction);
     law.tensile_strength = joint.tensile_strength.value_or(joint.strength_factor * law.tensile_strength);
     law.cohesion = joint.cohesion.value_or(joint.strength_factor * law.cohesion);
-    // A joint is straight, and its envelope too.
+    // The failure envelope of a joint is a straight line, without a knee.
     law.knee = std::numeric_limits<double>::infinity();
     law.residual_cohesion = joint.residual_cohesion.value_or(std::min(law.residual_cohesion, law.cohesion));
     law.softening_slip = joint.softening_slip.value_or(law.softening_slip);
@@ -62,7 +62,7 @@ FaceLaw law_across(FaceLaw law, const Joint& joint) {
     return law;
 }
 
-/// Bonds the faces of a net, one after another.
+/// Finds the faces of a world, and computes their springs, laws and initial states.
 class Bonder {
   public:
     Bonder(const World& world, const FaceBonding& bonding)
@@ -72,16 +72,16 @@ class Bonder {
           net_(find_faces(outlines_)) {
         if (net_.faces.empty())
             throw InputError(
-                fmt::format("faces: found no edges of polygons that face each other, expected some; is the "
-                            "gap of the mesh {:.6g} m?",
+                fmt::format("faces: found no edges of polygons that face each other, expected at least one pair; check "
+                            "that the gap of the mesh is {:.6g} m",
                             bonding.gap));
         if (bonding.materials.size() != world.settings.materials.size())
-            throw InputError(fmt::format("faces: found {} materials, expected {} as in the scene",
+            throw InputError(fmt::format("faces: found {} materials, expected {}, as in the scene",
                                          bonding.materials.size(), world.settings.materials.size()));
         if (!(bonding.least_distance_share > 0.0 && bonding.least_distance_share <= 1.0))
             throw InputError(
-                fmt::format("faces: found a least distance of {:.6g} of the mean, expected a share > 0 that "
-                            "is at most 1",
+                fmt::format("faces: found a least distance between reference points of {:.6g} times the mean, "
+                            "expected a factor > 0 that is at most 1",
                             bonding.least_distance_share));
         for (BodyIndex b = 0; b < world.bodies.size(); ++b) centres_.push_back(reference_of(b));
         least_distance_ = bonding.least_distance_share * mean_distance();
@@ -160,7 +160,7 @@ class Bonder {
         return count > 0 ? sum / static_cast<double>(count) : 0.0;
     }
 
-    /// Reference point of a cell for a side, or for a face of a rigid body.
+    /// Reference point of a cell at a free side, or at a face on a rigid body.
     Vec2 reference_at_side(BodyIndex b, Vec2 middle, Vec2 normal) {
         if (dot(middle - centres_[b], normal) > 0.5 * least_distance_) return centres_[b];
         ++quality_.by_centroid;
@@ -219,7 +219,7 @@ class Bonder {
         faces_.strength_share.push_back(
             bonding_.factors.between(world_.bodies.names[face.i].id, world_.bodies.names[face.j].id));
         const BodyState &i = world_.bodies.state[face.i], &j = world_.bodies.state[face.j];
-        // Into a body's frame: turned backwards.
+        // Rotates a vector into a body's frame.
         const auto in_frame = [](const BodyState& body, Vec2 v) {
             return Vec2{body.shape[0] * v.x + body.shape[1] * v.y, body.shape[0] * v.y - body.shape[1] * v.x};
         };
@@ -240,7 +240,7 @@ class Bonder {
                            in_frame(j, face.middle + aperture * face.normal - Vec2{j.x, j.y}), j.angle - i.angle});
     }
 
-    /// Index of the law of a joint's faces. @param law that of the rock
+    /// Index of the law of the faces on a joint. @param law index of the law of the faces in the rock
     std::uint16_t law_of_joint(std::int32_t number, std::size_t law) {
         const auto [entry, is_new] = joint_laws_.try_emplace({number, law}, faces_.laws.size());
         if (is_new) {
@@ -258,7 +258,7 @@ class Bonder {
         };
         const double normal = left(springs.normal, joint.normal_stiffness),
                      shear = left(springs.shear, joint.shear_stiffness);
-        // The joint yields to the pressure of the cells, as a free side does.
+        // The joint opens or closes under the pressure of the cells, as a free side does.
         const double yields = (1.0 - normal) * springs.length * springs.length / springs.normal;
         in_joint_.resize(world_.bodies.size(), 0.0);
         in_joint_[face.i] += springs.share_i * springs.share_i * yields;
@@ -302,7 +302,7 @@ class Bonder {
 
     FaceDashpots dashpots_of(FaceIndex k) const {
         const double twice_ratio = 2.0 * faces_.law_of(k).damping_ratio;
-        // 1/m_eff = 1/m_i + 1/m_j, in which a rigid body has no part.
+        // The inverse of the effective mass is 1/m_i + 1/m_j; a rigid body contributes 0.
         const auto inverse = [&](BodyIndex b, bool of_moment) {
             const BodyInertia& inertia = world_.bodies.inertia[b];
             return is_rigid(world_, b) ? 0.0 : of_moment ? inertia.inverse_moment : inertia.inverse_mass_x;
@@ -329,8 +329,9 @@ class Bonder {
         faces_.broken.push_back(face);
     }
 
-    /// With H the matrix of the energy over all q_n and q_t in units of √k, H = 1 + M, a stride w of each descends if
-    /// 1/w >= (1 + Σ|M|)/2 for its row of M. The sum is over all faces of its two cells, as if all were open.
+    /// Sets the fractions in Faces::lag. Let H = 1 + M be the matrix of second derivatives of the energy with respect
+    /// to all q_n and q_t, each scaled by √k. If each unknown moves by a fraction w of its change, the energy decreases
+    /// for 1/w >= (1 + Σ|M|)/2 in its row of M. The sum covers all faces of the two cells, as if all of them were open.
     void set_lags() {
         constexpr double margin = 0.9;
         std::vector<double> in_cell(world_.bodies.size(), 0.0);
@@ -366,11 +367,13 @@ class Bonder {
     FaceNet net_;
     std::vector<Vec2> centres_;
     double least_distance_ = 0.0;
-    std::size_t first_held_law_ = 0;  // from here on, for each law one that never breaks
+    // Index of the first law for faces that never break; there is one such law for each earlier law.
+    std::size_t first_held_law_ = 0;
     std::vector<FaceSprings> springs_;
     std::vector<FacePlace> places_;
-    std::vector<bool> parted_;      // by face: whether an open joint lies in it
-    std::vector<double> in_joint_;  // by cell, m²/Pa: what joints yield under its pressure; empty without any
+    std::vector<bool> parted_;  // for each face: whether it lies on an open joint
+    // For each cell, m²/Pa: change of area in its joints per unit of pressure; empty without joints.
+    std::vector<double> in_joint_;
     std::map<std::pair<std::int32_t, std::size_t>, std::size_t> joint_laws_;
     Faces faces_;
     FaceQuality quality_;

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A broken face within a step: what it adds to the dilation of its cells, its forces, and its energies (faces.hpp).
+// Computes a broken face in one step: its contribution to the dilation of its cells, its forces and its energies.
+// Symbols are defined in world/faces.hpp and laws/face_bond.hpp.
 //
-// Energy that a broken face stores, at the late pressure p̄' and the slip u_p, with Ψ of lap_pressure():
+// Energy stored in a broken face. p̄' is the late pressure, which lags behind p̄; u_p is the slip, and Ψ the energy
+// from lap_pressure():
 //     U = Ψ - (L/k_n) p̄' F + ½ (L²/k_n) p̄'² + ½ k_t (δ_t - u_p)²
-// Losses over a step, with a mean of the values before and after it marked by <>:
-//     friction   k_t <q_t> Δu_p + L <τ> Δu_p', q_t after the slip Δu_p;  <½ k w²> |Δlap| at the ends of the lap
-//     friction   <Ψ> Δ(1 - q) where contact points take over (hand_over.hpp), Ψ without the share q
-//     tearing    <Ψ_pull> ΔD, with Ψ_pull the energy of an undamaged tension
+// Energy losses in a step. <x> denotes the mean of x before and after the step:
+//     friction   k_t <q_t> Δu_p + L <τ> Δu_p', with q_t after the slip Δu_p;  <½ k w²> |Δlap| at the ends of the lap
+//     friction   <Ψ> Δ(1 - q) when contact points replace the face (hand_over.hpp), with Ψ without the factor q
+//     tearing    <Ψ_pull> ΔD, with Ψ_pull the energy of the tension without damage
 //     lag        <F(p̄) - F(p̄')> Δδ_n + <M(p̄) - M(p̄')> Δδ_φ - L <p̄ - p̄'> Δq_n
-// Δu_p' is the slip of the step before, with which the cells' pressures were found: as slips get small, the friction is
-// <F_t> Δu_p. Both follow from the forces alone, so that the energy account checks them. The part of the friction that
-// works against cohesion above its residual value is fracture.
+// Δu_p' is the slip increment of the previous step, with which the cells' pressures were computed. For small increments
+// the friction loss tends to <F_t> Δu_p. These losses follow from the forces alone, so the energy account is an
+// independent check of them. The part of the friction loss that is due to cohesion above its residual value counts as
+// fracture.
 //
-// A break is found at the end of a step, over which the face's forces have by the trapezoidal rule done half the work
-// of those that it has lost. This half, ½(F - F_left) Δδ of all that changes, is counted as lag, with the opposite
-// sign. Tested by tests/solver/faces/broken_face_test.cpp.
+// A break is detected at the end of a step. By the trapezoidal rule, the forces that the face loses have then done half
+// of their work in that step. This half, the sum of ½(F - F_left) Δδ over all forces that change, is counted as lag
+// with a negative sign. Tested by tests/solver/faces/broken_face_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -24,14 +27,15 @@
 
 namespace crackle {
 
-/// Half the lap of a broken face, m. A rigid body extends beyond its faces, so that a cell slides on it with all of the
-/// face.
+/// Half the lap of a broken face, m; the lap is the length over which its two edges lie opposite each other. On a rigid
+/// body, which extends beyond its faces, the lap is always the whole face.
 inline double half_lap_of(const FaceSprings& s, const BondFaceMotion& m) {
     if (s.at_rigid()) return 0.5 * s.length;
     return 0.5 * std::max(0.0, s.length - std::abs(m.sliding));
 }
 
-/// Contact of a broken face. @param pressure p̄, Pa @param held 1 - D @param taken 1 - q, which contact points have
+/// Forces and energies of a broken face in contact. @param pressure p̄, Pa @param held 1 - D @param taken 1 - q, the
+/// share that contact points have taken over
 inline BrokenContact contact_of(const FaceSprings& s, const BondFaceMotion& m, double pressure, double held,
                                 double taken) {
     const double stiffness = s.normal / s.length, soft = s.length / s.normal;
@@ -52,43 +56,46 @@ inline BrokenContact contact_of(const FaceSprings& s, const BondFaceMotion& m, d
     return contact;
 }
 
-/// 1 - D of a broken face after its motion. @param held the value before @param pressure p̄, Pa
+/// The factor 1 - D on the tension of a broken face, after its motion in this step. @param held 1 - D before the step
+/// @param pressure p̄, Pa
 inline double held_after(const FaceSprings& s, const FaceLaw& law, double share, const BondFaceMotion& m,
                          double pressure, double held) {
     const double stiffness = s.normal / s.length, a = half_lap_of(s, m);
     if (held == 0.0 || a == 0.0) return 0.0;
     const double d = m.opening + pressure / stiffness;
-    // σ of the undamaged face: k d and 6β M/(2a)², with M = k (2a)³/12 δ_φ.
+    // The stress σ of the undamaged face is the sum of k d and 6β M/(2a)², where M = k (2a)³/12 δ_φ.
     const double stress = stiffness * (d + law.moment_share * a * std::abs(m.turn));
     return tension_held(law, held, stiffness, stress, share);
 }
 
-/// ½ k w² where edges press or hold, mean of the two ends of the lap, N.
+/// Mean of ½ k w² at the two ends of the lap, N. w is the overlap or opening there; for an opening, the term is
+/// multiplied by 1 - D.
 inline double end_closure(const FaceSprings& s, const BondFaceMotion& m, double pressure, double held, double taken) {
     const double a = half_lap_of(s, m), d = m.opening + pressure * s.length / s.normal;
     const auto square = [&](double w) { return (w < 0.0 ? 1.0 : held) * w * w; };
     return (1.0 - taken) * 0.25 * s.normal / s.length * (square(d - a * m.turn) + square(d + a * m.turn));
 }
 
-/// Tears a broken face that holds a tension, and finds its contact at the late pressure.
+/// Updates the damage D of a broken face that carries tension, and computes its contact at the late pressure.
 inline BrokenContact late_contact(BrokenFace& face, const FaceSprings& s, const FaceLaw& law, double share,
                                   const BondFaceMotion& m) {
     const double before = face.held;
     face.held = held_after(s, law, share, m, face.last.pressure, before);
     BrokenContact contact = contact_of(s, m, face.last.pressure, face.held, face.taken);
-    // A tension that ends in this step is part of its loss.
+    // The energy of a tension that ends in this step is needed for the fracture loss.
     if (face.held == 0.0 && before > 0.0) contact.pull = contact_of(s, m, face.last.pressure, before, face.taken).pull;
     return contact;
 }
 
-/// Forces of a broken face after a step, and its losses.
+/// Forces of a broken face after a step, and its energy losses in the step.
 struct BrokenStep {
     FaceForces forces;
     FaceLosses losses;
     double closed;  // m, length over which the edges press
 };
 
-/// Updates a broken face. @param late what late_contact() found for the dilation of its cells @param pressure p̄, Pa
+/// Updates a broken face at the end of a step. @param late result of late_contact() for this step @param pressure p̄,
+/// Pa
 /// @param skewing τ, Pa
 inline BrokenStep step_broken(BrokenFace& face, const FaceSprings& s, const FaceLaw& law, double share,
                               const FaceLag& lag, const BondFaceMotion& m, const BrokenContact& late, double pressure,
@@ -141,16 +148,17 @@ inline BrokenStep step_broken(BrokenFace& face, const FaceSprings& s, const Face
     return step;
 }
 
-/// What a break leaves, after a new solution for the pressures of the two cells.
+/// State of a face after its break, and the pressures of its two cells, which are computed again.
 struct BreakResult {
     BrokenFace face;
-    FaceForces forces;              // left
+    FaceForces forces;              // remaining after the break
     double pressure_i, pressure_j;  // Pa
     double energy;                  // J, released; never negative
 };
 
-/// Breaks an intact face. The energy descends in turns: over the contact and the cells' pressures, then by slip at a
-/// shear force beyond its limit. @param cell_i, cell_j pressures of its cells with the face intact @param taken 1 - q
+/// Breaks an intact face. Two solutions alternate, each of which reduces the energy: one for the contact and the cells'
+/// pressures, and one for the slip if the shear force exceeds its limit. @param cell_i, cell_j pressures of the cells
+/// while the face is intact @param taken 1 - q
 inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceLaw& law, double share,
                               const BondFaceMotion& m, const CellPressure& cell_i, const CellPressure& cell_j,
                               bool in_shear, double taken = 0.0) {
@@ -159,7 +167,8 @@ inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceL
     face.face = index;
     face.in_shear = in_shear;
     face.taken = taken;
-    // How much a sum of both pressures, with weights a, answers q_n or q_t, whose weights in the cells are b.
+    // Change of the sum of both pressures with weights a, per unit of q_n or q_t; b are the weights of q_n or q_t in
+    // the dilations of the cells.
     const auto answer = [&](double a_i, double a_j, double b_i, double b_j) {
         return s.length * (cell_i.per_area * a_i * b_i + cell_j.per_area * a_j * b_j);
     };
@@ -169,8 +178,8 @@ inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceL
     const double before = s.share_i * cell_i.pressure + s.share_j * cell_j.pressure,
                  skewing_before = s.skew_i * cell_i.pressure - s.skew_j * cell_j.pressure;
     if (in_shear) face.held = held_after(s, law, share, m, before, 1.0);
-    // p̄ = before + by_normal (q_n(p̄) - δ_n) - by_shear u_p. The difference of both sides is convex in p̄, so that
-    // Newton's method converges from any start.
+    // The equation is p̄ = before + by_normal (q_n(p̄) - δ_n) - by_shear u_p. The difference between its two sides is
+    // convex in p̄, so Newton's method converges from any start.
     constexpr int most_rounds = 1000;
     constexpr double settled = 1e-15;
     double pressure = before, skewing = skewing_before, slip = 0.0, shear = 0.0;
@@ -187,7 +196,8 @@ inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceL
         skewing = skewing_before + by_shear * (contact.stretch - m.opening) - of_skews * slip;
         shear = s.shear * (m.sliding - slip) + s.length * skewing;
         face.glued = in_shear ? contact.lap.closed : 0.0;
-        // After a failure in tension no shear force is left. No slip is longer than the softer cells allow.
+        // After a failure in tension no shear force remains. The stiffness includes the response of the cells'
+        // pressures to slip.
         const double stiffness = s.shear + s.length * of_skews;
         const double more = in_shear ? slip_of_face(law, shear, stiffness, std::max(0.0, -contact.lap.force),
                                                     face.glued, std::abs(slip), share)

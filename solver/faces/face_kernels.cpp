@@ -12,7 +12,7 @@ namespace {
 template <class Number>
 constexpr FaceIndex width = std::is_same_v<Number, double> ? 1 : lane_count;
 
-/// A number in each lane, by its place. @param of returns the number of lane l
+/// One number per lane. @param of of(l) returns the number for lane l
 template <class Number, class Of>
 CRACKLE_INLINE Number lanes_by(Of of) {
     if constexpr (std::is_same_v<Number, double>) {
@@ -24,7 +24,7 @@ CRACKLE_INLINE Number lanes_by(Of of) {
     }
 }
 
-/// Loads two adjacent numbers of each lane. @param of returns the address of those of lane l
+/// Loads two adjacent numbers for each lane. @param of of(l) returns the address of the two numbers for lane l
 template <class Number, class Of>
 CRACKLE_INLINE void load_pairs(Of of, Number& first, Number& second) {
     if constexpr (std::is_same_v<Number, double>) {
@@ -37,7 +37,7 @@ CRACKLE_INLINE void load_pairs(Of of, Number& first, Number& second) {
     }
 }
 
-/// A member of consecutive records. @param c its place in the record
+/// Values of one member in consecutive records, from record k on. @param c index of the member within a record
 template <class Number, class Record>
 CRACKLE_INLINE Number column(const FaceColumns<Record>& records, std::size_t c, FaceIndex k) {
     return load_as<Number>(records.column(c) + k);
@@ -50,7 +50,7 @@ CRACKLE_INLINE PlaceOf<Number> load_place(const FaceColumns<FacePlace>& places, 
     return {{of(0), of(1)}, {of(2), of(3)}, {of(4), of(5)}, {of(6), of(7)}, of(8)};
 }
 
-/// The state of a body in each lane. @param of returns the index of that of lane l
+/// Position and rotation of one body per lane. @param of of(l) returns the index of the body in lane l
 template <class Number, class Of>
 CRACKLE_INLINE FaceBody<Number> load_body(const BodyState* bodies, Of of) {
     FaceBody<Number> body;
@@ -70,7 +70,7 @@ CRACKLE_INLINE FaceBodyRates<Number> load_rates(const BodyState* bodies, Of of) 
     return body;
 }
 
-/// Places of the members of FaceSprings.
+/// Indices of the members within FaceSprings.
 enum SpringColumn : std::size_t { k_normal, k_shear, k_length, k_share_i, k_share_j, k_skew_i, k_skew_j };
 static_assert(FaceColumns<FaceSprings>::width == 7);
 
@@ -90,7 +90,7 @@ CRACKLE_INLINE void move_some(Faces& faces, const BodyState* bodies, FaceIndex k
     store_as(faces.dilation_j.data() + k, length * (spring(k_share_j) * m.opening - spring(k_skew_j) * m.sliding));
 }
 
-/// Strengths of the faces from k on, which mostly share a law.
+/// Strengths of consecutive faces, from face k on. In most cases all of these faces have the same law.
 template <class Number>
 CRACKLE_INLINE FaceStrength<Number> strengths(const Faces& faces, FaceIndex k) {
     const Number share = load_as<Number>(faces.strength_share.data() + k);
@@ -110,8 +110,8 @@ CRACKLE_INLINE FaceStrength<Number> strengths(const Faces& faces, FaceIndex k) {
     return strength;
 }
 
-/// Adds the dashpots of faces to their forces. Those of broken faces keep their forces, since damp() of the pass
-/// updates them. @return the loss of each face, J
+/// Adds the dashpot forces of faces to their elastic forces. The stored dashpot forces of broken faces are not changed
+/// here; damp() in face_pass.cpp updates them. @return energy dissipated by the dashpots of each face, J
 template <class Number>
 CRACKLE_INLINE Number damp_some(Faces& faces, double drift, FaceIndex k, const Condition<Number>& intact,
                                 const FaceRates<Number>& rate, ForcesOf<Number>& force) {

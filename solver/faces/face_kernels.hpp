@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Motions and forces of intact faces in lanes, compiled for an instruction set. Results are bit-identical for any
-// number of lanes. Broken faces get the values of intact ones, which the pass replaces.
+// number of lanes. Broken faces are first treated as intact; the force pass then replaces their values.
 // Tested by tests/solver/faces/face_pass_test.cpp.
 #pragma once
 
@@ -10,20 +10,20 @@
 
 namespace crackle {
 
-/// Computes Faces::motion of the faces from `begin` up to, but not including, `end`, and with a pressure of the cells
-/// Faces::dilation.
+/// Computes Faces::motion of the faces from `begin` up to, but not including, `end`, and Faces::dilation_i and
+/// dilation_j if cells have pressures.
 using MoveFaces = void (*)(Faces& faces, const BodyState* bodies, FaceIndex begin, FaceIndex end);
 template <InstructionSet>
 void move_faces(Faces& faces, const BodyState* bodies, FaceIndex begin, FaceIndex end);
 
-/// What force_faces() finds.
+/// Result of force_faces().
 struct IntactForces {
     double dashpot_loss = 0.0;  // J
-    bool some_fail = false;     // whether an intact face is beyond its strength
+    bool some_fail = false;     // whether the strength of an intact face is exceeded
 };
 
-/// Computes Faces::force of the faces from `begin` up to, but not including, `end`, which share a block. @param drift
-/// length of the last drift, s
+/// Computes Faces::force of the faces from `begin` up to, but not including, `end`, which belong to one block. @param
+/// drift length of the last drift, s
 using ForceFaces = IntactForces (*)(Faces& faces, const BodyState* bodies, double drift, FaceIndex begin,
                                     FaceIndex end);
 template <InstructionSet>

@@ -25,7 +25,7 @@ template <class Visit>
 void over_blocks(const World& world, std::size_t count, Visit visit) {
     const std::size_t blocks = (count + block_size - 1) / block_size;
     const auto block = [&](std::size_t n) { visit(n, n * block_size, std::min(count, (n + 1) * block_size)); };
-    if (world.workers.threads == 1 || blocks < 2) {  // a thread team would cost more
+    if (world.workers.threads == 1 || blocks < 2) {  // starting several threads would take longer
         for (std::size_t n = 0; n < blocks; ++n) block(n);
         return;
     }
@@ -86,7 +86,7 @@ class Pass {
         return sum;
     }
 
-    /// Contact of a broken face at its late pressure, and its part in the dilation of its cells.
+    /// Computes the contact of a broken face at its late pressure, and its contribution to the dilation of its cells.
     void move_broken(std::size_t n) {
         BrokenFace& face = faces_.broken[n];
         const FaceIndex k = face.face;
@@ -99,7 +99,7 @@ class Pass {
         faces_.dilation_j[k] = s.length * (s.share_j * normal - s.skew_j * shear);
     }
 
-    /// Pressure of a cell from the motion of its faces.
+    /// Computes the pressure of a cell from the motion of its faces.
     void press(std::size_t b) {
         CellPressure& cell = faces_.cells[b];
         if (cell.per_area == 0.0) return;
@@ -117,7 +117,8 @@ class Pass {
         return intact_forces(faces_.springs[k], faces_.motion[k], faces_.pressure_at(k), faces_.skewing_at(k));
     }
 
-    /// Adds dashpots to the forces of a face. @param share the part of the length that is closed @return their loss
+    /// Adds dashpot forces to the elastic forces of a face. @param share closed fraction of the length @return losses
+    /// of the dashpots
     FaceLosses damp(FaceIndex k, FaceForces& forces, double share, bool slides) {
         const BodyPair& pair = faces_.bodies[k];
         const FaceRates<double> rate =
@@ -143,7 +144,7 @@ class Pass {
             forces_on_bodies(faces_.place[k], faces_.motion[k], bodies_[pair.body_i], bodies_[pair.body_j], forces);
     }
 
-    /// Breaks the faces whose forces are beyond their strength, in the order of their index.
+    /// Breaks the faces whose strength is exceeded, in index order.
     void break_failing(FaceLosses& losses) {
         if (!some_fail_) return;
         std::vector<FaceIndex> failing;
@@ -158,7 +159,7 @@ class Pass {
             at.push_back(forces);
         }
         for (std::size_t n = 0; n < failing.size(); ++n) losses.add(break_one(failing[n], at[n]));
-        // The pressures of their cells have changed.
+        // The breaks have changed the pressures of the cells, and with them the forces of other faces.
         for (const FaceIndex k : failing) {
             for (const BodyIndex b : {faces_.bodies[k].body_i, faces_.bodies[k].body_j}) {
                 for (std::uint32_t e = faces_.first_face[b]; e < faces_.first_face[b + 1]; ++e)
@@ -167,7 +168,7 @@ class Pass {
         }
     }
 
-    /// @param forces elastic forces at which the face fails
+    /// Breaks one face. @param forces elastic forces at which the face fails @return its energy losses
     FaceLosses break_one(FaceIndex k, const FaceForces& forces) {
         const BodyPair& pair = faces_.bodies[k];
         CellPressure &cell_i = faces_.cells[pair.body_i], &cell_j = faces_.cells[pair.body_j];
@@ -186,7 +187,7 @@ class Pass {
         losses.lag = -half_drift * ((before.normal - result.forces.normal) * rate.opening +
                                     (before.shear - result.forces.shear) * rate.sliding +
                                     (before.moment - result.forces.moment) * rate.turn);
-        // The other faces of the two cells lose the change of their pressures.
+        // Half of the work that the pressure lost by a cell has done on the cell's other faces in this step.
         const auto others = [&](const CellPressure& cell, double left, double own_rise) {
             if (cell.per_area == 0.0) return 0.0;
             return 0.5 * (cell.pressure - left) * (cell.rise / cell.per_area - own_rise * world_.stepping.drift);
@@ -195,7 +196,8 @@ class Pass {
             others(cell_i, result.pressure_i, s.length * (s.share_i * rate.opening + s.skew_i * rate.sliding)) +
             others(cell_j, result.pressure_j, s.length * (s.share_j * rate.opening - s.skew_j * rate.sliding));
         if (faces_.damped()) {
-            // Its dashpots end with it, and do half the work that was counted for this step.
+            // The present dashpot forces cease to act, so the half of the work that the trapezoidal rule assigns to
+            // them is subtracted.
             FaceDashpots damper = faces_.dashpot_force[k];
             losses.dashpot =
                 -half_drift * (damper.normal * rate.opening + damper.shear * rate.sliding + damper.moment * rate.turn);
@@ -210,7 +212,8 @@ class Pass {
         return losses;
     }
 
-    /// Records the break of a face. @param forces the elastic forces at which it failed @param energy released, J
+    /// Records the break of a face. @param forces the elastic forces at which it failed @param energy energy released,
+    /// J
     void record(FaceIndex k, bool in_shear, const FaceForces& forces, double energy) {
         const auto [i, j] = faces_.bodies[k];
         const BondFaceMotion m = faces_.motion[k];
@@ -225,7 +228,7 @@ class Pass {
         event.normal_force = -forces.normal;
         event.shear_force = forces.shear;
         event.shear_mode = in_shear;
-        event.last_of_interface = true;  // convex cells share one face at most
+        event.last_of_interface = true;  // convex cells share at most one face
         event.kind = PointKind::bonded_face;
         event.point = {i, j, k, k};
         world_.bonds.broken += 1;
@@ -233,7 +236,7 @@ class Pass {
         world_.bonds.events.push_back(event);
     }
 
-    /// Forces of an intact face at the present pressures. Its dashpots stay as they are.
+    /// Computes the forces of an intact face again, at the present pressures. Dashpot forces are not changed.
     void force_again(FaceIndex k) {
         if (faces_.broken_at[k] != no_face) return;
         FaceForces forces = elastic_forces(k);
@@ -244,7 +247,7 @@ class Pass {
         store(k, forces);
     }
 
-    /// Forces of a face that was broken before this step.
+    /// Computes the forces of a face that was broken before this step. @return its energy losses
     FaceLosses force_broken(std::size_t n) {
         BrokenFace& face = faces_.broken[n];
         const FaceIndex k = face.face;

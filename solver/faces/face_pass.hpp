@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Force pass over the faces of a world. Its phases are motions of faces, pressures of cells, forces of intact faces,
-// breaks, forces of broken faces, and sums on bodies. Each sum has a fixed order, so that results do not depend on the
-// number of threads. Without a pressure of the cells the second phase is left out.
+// Force pass over the faces of a world. It computes the motions of faces, the pressures of cells and the forces of
+// intact faces. It then breaks faces, computes the forces of broken faces, and sums the forces on each body. Sums are
+// formed in a fixed order, so results do not depend on the number of threads. The pressures are omitted if cells have
+// none.
 // Tested by tests/solver/faces/face_pass_test.cpp.
 #pragma once
 
@@ -9,12 +10,12 @@
 
 namespace crackle {
 
-/// Computes the forces of all faces at the current positions and the velocities of half a step before. Adds them to
-/// Bodies::force and their losses to the world's energy account, and records faces that break. Sets the stiffness of
-/// the contact points that take over from broken faces (hand_over.hpp).
+/// Computes the forces of all faces from the current positions and the velocities half a step earlier. Adds the forces
+/// to Bodies::force and the energy losses to the world's energy account, and records faces that break. Sets the
+/// stiffness of the contact points that gradually replace broken faces (hand_over.hpp).
 void add_face_forces(World& world);
 
-/// Elastic forces of a face in the last force pass, broken or not.
+/// Elastic forces of an intact or broken face in the last force pass.
 FaceForces forces_of_face(const Faces& faces, FaceIndex k);
 
 /// Energy stored in faces and in the pressures of cells after a force pass, J.

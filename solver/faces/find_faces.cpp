@@ -10,10 +10,11 @@
 namespace crackle {
 namespace {
 
-/// Distance at which two edges lie on each other, relative to the root of the smaller cell's area. It allows for the
-/// round-off of the inset and of its reversal, and for jaws whose chords lie a little closer than half the gap.
+/// Largest distance between two edges that count as coincident, relative to the square root of the smaller cell's area.
+/// It allows for the round-off of the inset and of its reversal, and for jaws whose chords lie slightly closer than
+/// half the gap.
 constexpr double flush_share = 1e-4;
-/// Sides shorter than this, relative to the root of the cell's area, are round-off.
+/// Free sides shorter than this, relative to the square root of the cell's area, are ignored as round-off.
 constexpr double shortest_side_share = 1e-6;
 
 struct Box {
@@ -28,12 +29,12 @@ struct Box {
     }
 };
 
-/// A polygon before the inset, and for each edge the parts that faces cover.
+/// A polygon before the mesh was inset, and the parts of each edge that faces cover.
 struct Cell {
     std::vector<OutsetEdge> edges;
     std::vector<std::vector<FacingPart>> covered;
     Box box;
-    double size = 0.0;  // m, root of the area
+    double size = 0.0;  // m, square root of the area
 };
 
 CellArea area_of(const std::vector<Vec2>& outline) {
@@ -49,7 +50,8 @@ CellArea area_of(const std::vector<Vec2>& outline) {
     return cell;
 }
 
-/// Calls visit(i, j), i < j, for all pairs of bodies whose boxes meet, in the order of their lower edges.
+/// Calls visit(i, j), i < j, for all pairs of bodies whose bounding boxes meet, in the order of the left edges of the
+/// boxes.
 template <class Visit>
 void visit_near(const std::vector<Cell>& cells, double reach, Visit visit) {
     std::vector<BodyIndex> order;

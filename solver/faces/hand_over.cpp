@@ -13,12 +13,13 @@
 namespace crackle {
 namespace {
 
-// Rotations between which a face is handed over, rad. The springs of a face take 2 sin(φ/2) for φ: at φ₁ the ends of
-// an edge of length L are wrong by L φ₁³/48, which is 1e-6 L.
+// Relative rotations between which contact points gradually replace a broken face, rad. The springs of a face use φ in
+// place of 2 sin(φ/2). At φ₁ (last_turn), the ends of an edge of length L are therefore misplaced by L φ₁³/48, about
+// 1e-6 L.
 constexpr double first_turn = 0.02, last_turn = 0.04;
-constexpr double turn_ahead = 0.005;  // rad, before first_turn, at which points are listed
+constexpr double turn_ahead = 0.005;  // rad, margin below first_turn within which contact points are already listed
 
-/// Share of their stiffness that points keep if a face has all, so that quotients by it stay finite.
+/// Smallest fraction of the full stiffness of a contact point. It is not 0, so that ratios of stiffnesses stay finite.
 constexpr float least_share = 1e-6F;
 
 FaceIndex face_between(const World& world, BodyIndex i, BodyIndex j) {
@@ -32,7 +33,8 @@ FaceIndex face_between(const World& world, BodyIndex i, BodyIndex j) {
     return no_face;
 }
 
-/// Changes the stiffness of a point at a fixed place. Its forces change with it. @return energy that it loses, J
+/// Changes the stiffness of a contact point without moving it, and its forces in proportion. @return energy that the
+/// point loses, J
 double change_share(World& world, const BodyView& bodies, PointIndex p, float share) {
     Points& points = world.points;
     const double ratio = static_cast<double>(share) / static_cast<double>(points.stiffness_share[p]);
@@ -79,7 +81,8 @@ bool face_replaces_points(const World& world, BodyIndex i, BodyIndex j) {
     const FaceSprings s = faces.springs[k];
     const BondFaceMotion m = motion_of(faces.place[k], world.bodies.state[faces.bodies[k].body_i],
                                        world.bodies.state[faces.bodies[k].body_j]);
-    // A little ahead, so that few lists are made because a face hands over.
+    // The margins cause the points to be listed in advance, so that few faces require an additional rebuild of the
+    // neighbour list.
     BondFaceMotion least = m;
     least.sliding = std::abs(m.sliding) + world.list.half_skin_of(i) + world.list.half_skin_of(j);
     least.turn = std::abs(m.turn) + turn_ahead;
@@ -115,7 +118,7 @@ void hand_over(World& world) {
     Faces& faces = world.faces;
     for (BrokenFace& face : faces.broken) {
         face.taken = share_of_points(faces.springs[face.face], faces.motion[face.face], world.settings.thick);
-        if (face.alone && face.taken > 0.0) world.list.valid = false;  // its points are missing
+        if (face.alone && face.taken > 0.0) world.list.valid = false;  // the list lacks the contact points of this pair
     }
     if (faces.hand_over.empty()) return;
     const BodyView bodies(world);

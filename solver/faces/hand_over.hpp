@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a broken face ends and the contact points between its two bodies begin.
+// Gradual replacement of a broken face by the contact points between its two bodies.
 //
-// The springs of a face know two straight edges that lap. Corners that meet other edges, and edges that have turned
-// far, are contact points. With q the share of the face, the energy of a pair is
+// The springs of a face describe two straight edges that lie opposite each other over a length, the lap. Corners that
+// meet other edges, and edges that have rotated too far, are treated by contact points instead. With q the share of the
+// face, the energy of a pair of bodies is
 //     U = q U_face + (1 - q) U_points     q = min(1, lap/(2t)) · clamp((φ₁ - |δ_φ|)/(φ₁ - φ₀), 0, 1)
-// t is the thickness of segments, or half the face's length if that is less, so that neither force jumps. The shear
-// springs of the points grow with their stiffness. What U changes with q at fixed places counts as friction. q is a
-// factor on the pressure of the face's edges alone, so that cells with a pressure have an energy for every q; the shear
-// force is within its limit.
+// δ_φ is the relative rotation. t is the thickness of segments, or half the face's length if that is less. The forces
+// of the face and of the points then change continuously. The shear force of a contact point changes in proportion to
+// its stiffness. A change of U that is due to q alone counts as friction loss. The factor q applies only to the
+// pressure between the face's edges, so that cells with a pressure have a stored energy for every q. The shear force of
+// the face remains within its limit.
 //
-// Points start without force, with a rest overlap: the rock that the face had compressed is free at its end.
+// Contact points start without force: their rest overlap is the overlap at that time, because the rock that the face
+// compressed is unloaded when the face is removed.
 //
-// The points of a pair are listed only where q is less than 1 or will soon be. A face that reaches this between two
-// neighbour lists asks for a new one, which comes a step later. An intact face has all of q. Source:
-// solver/MODEL.md 5.5. Tested by tests/solver/faces/hand_over_test.cpp.
+// The neighbour list contains the points of a pair only if q is less than 1 or soon will be. If q falls below 1 before
+// the points are listed, the list is rebuilt, one step later. The q of an intact face is 1. Source: solver/MODEL.md
+// 5.5. Tested by tests/solver/faces/hand_over_test.cpp.
 #pragma once
 
 #include <functional>
@@ -22,21 +25,22 @@
 
 namespace crackle {
 
-/// Lets new points between the bodies of faces start without force: their rest overlap is that of the present. @param
-/// is_new whether a point was not in the list before
+/// Sets the rest overlap of new contact points between bodies with a common face to the current overlap, so that they
+/// start without force. @param is_new returns whether a point was missing in the previous list
 void rest_new_points(World& world, const std::function<bool(PointIndex)>& is_new);
 
-/// Whether the face between two bodies replaces all of their contact points, and will for a while.
+/// Whether the two bodies have a common face and need no contact points, neither now nor after a small further motion.
 bool face_replaces_points(const World& world, BodyIndex i, BodyIndex j);
 
-/// 1 - q of a broken face. @param thick thickness of segments, m
+/// 1 - q of a broken face: the share of the contact points. @param thick thickness of segments, m
 double share_of_points(const FaceSprings& springs, const BondFaceMotion& motion, double thick);
 
-/// Finds the points between the bodies of faces in a new neighbour list, Faces::hand_over and whole_share.
+/// After a rebuild of the neighbour list, finds the contact points between bodies with a common face, and sets
+/// Faces::hand_over and whole_share.
 void list_hand_over(World& world);
 
-/// Sets BrokenFace::taken and the stiffness factors of the points that take over, from Faces::motion, and counts the
-/// energy of the points that this changes. Call it once a force pass.
+/// Computes BrokenFace::taken from Faces::motion, and sets the stiffness factors of the contact points that replace
+/// broken faces. The resulting energy loss of the points counts as friction. Call this once per force pass.
 void hand_over(World& world);
 
 }  // namespace crackle

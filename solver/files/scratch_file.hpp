@@ -21,7 +21,8 @@ class ScratchFile {
     ScratchFile& operator=(const ScratchFile&) = delete;
     ~ScratchFile();
 
-    /// Writes bytes at an offset. @throws InputError if the disc is full or fails; so do the other functions
+    /// Writes bytes at an offset. @throws InputError if the disc is full or fails; the other functions throw the same
+    /// error
     void write(std::size_t at, std::span<const std::byte> bytes);
     /// Reads bytes at an offset. Bytes that were never written are read as 0.
     void read(std::size_t at, std::span<std::byte> bytes) const;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads text tables as written by laboratories, spreadsheets and field tablets. Values are separated by commas,
 // semicolons, tabs or spaces. Surrounding spaces, quotes, empty lines, empty columns at the end, and comments after `#`
-// are accepted. Anything else that is not a number is refused, with file and line; the message mentions a decimal
-// comma.
+// are accepted. Anything else that is not a number is refused, with file and line; if the cause is a decimal comma, the
+// message says so.
 // Tested by tests/solver/files/table_reader_test.cpp.
 #pragma once
 

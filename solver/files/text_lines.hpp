@@ -34,8 +34,8 @@ class TextLines {
 
     /// Refuses the current line. @throws InputError «file:line: found X, expected Y»
     [[noreturn]] void refuse(const std::string& found, const std::string& expected) const;
-    /// Refuses a word that is not a number; the message mentions a decimal comma. @param expected description of a
-    /// valid word
+    /// Refuses a word that is not a number. If it has a decimal comma, the message says so. @param expected description
+    /// of a valid word
     [[noreturn]] void refuse_number(std::string_view word, const std::string& expected) const;
 
     /// Name of the file for messages.

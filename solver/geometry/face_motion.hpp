@@ -11,7 +11,7 @@
 
 namespace crackle {
 
-/// A vector, or one in each lane.
+/// One vector, or one in each lane.
 template <class Number>
 struct VecOf {
     Number x, y;
@@ -41,14 +41,14 @@ CRACKLE_INLINE VecOf<Number> perpendicular(const VecOf<Number>& a) {
     return {-a.y, a.x};
 }
 
-/// What the motion of a face reads of a body.
+/// Position and rotation of a body, from which the motion of its faces is computed.
 template <class Number>
 struct FaceBody {
     VecOf<Number> place;  // m
-    Number cosine, sine;  // of the rotation from the body's frame
+    Number cosine, sine;  // cosine and sine of the rotation from the body frame to world axes
     Number angle;         // rad
 
-    /// A vector of the body's frame in world axes.
+    /// Converts a vector from the body frame to world axes.
     CRACKLE_INLINE VecOf<Number> turned(const VecOf<Number>& v) const {
         return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y};
     }
@@ -64,7 +64,7 @@ inline FaceBody<double> face_body(const BodyState& body) {
 }
 inline FaceBodyRates<double> face_body_rates(const BodyState& body) { return {{body.vx, body.vy}, body.omega}; }
 
-/// FacePlace, or one in each lane.
+/// The values of one FacePlace, or of one in each lane.
 template <class Number>
 struct PlaceOf {
     VecOf<Number> normal_i, normal_j, arm_i, arm_j;
@@ -75,7 +75,7 @@ inline PlaceOf<double> place_of(const FacePlace& place) {
     return {of(place.normal_i), of(place.normal_j), of(place.arm_i), of(place.arm_j), place.rest_turn};
 }
 
-/// BondFaceMotion, or one in each lane.
+/// The values of one BondFaceMotion, or of one in each lane.
 template <class Number>
 struct MotionOf {
     VecOf<Number> normal;
@@ -93,7 +93,7 @@ CRACKLE_INLINE MotionOf<Number> motion_of(const PlaceOf<Number>& place, const Fa
     const VecOf<Number> apart = (j.place - i.place) + (j.turned(place.arm_j) - i.turned(place.arm_i));
     return {normal, dot(apart, normal), dot(apart, perpendicular(normal)), (j.angle - i.angle) - place.rest_turn};
 }
-/// A vector of a body's frame in world axes.
+/// Converts a vector from a body's frame to world axes.
 inline Vec2 turned_by(const BodyState& body, Vec2 v) {
     return {body.shape[0] * v.x - body.shape[1] * v.y, body.shape[1] * v.x + body.shape[0] * v.y};
 }
@@ -138,7 +138,8 @@ struct FaceOnBodies {
     Number torque_i, torque_j;
 };
 
-/// Forces of a face on its bodies. They act midway between the two images of the midpoint.
+/// Forces of a face on its bodies. They act midway between the two positions to which the bodies
+/// have carried the face's midpoint.
 template <class Number>
 CRACKLE_INLINE FaceOnBodies<Number> forces_on_bodies(const PlaceOf<Number>& place, const MotionOf<Number>& motion,
                                                      const FaceBody<Number>& i, const FaceBody<Number>& j,

@@ -42,7 +42,7 @@ inline double half_turn(Vec2 a, Vec2 b) {
     return sine / (1.0 + cosine);
 }
 
-/// Edges of an outline, each shifted outwards. @param corners counter-clockwise, m @param by m
+/// Edges of an outline, each shifted outwards. @param corners counter-clockwise, m @param by distance of the shift, m
 inline std::vector<OutsetEdge> outset_edges(const std::vector<Vec2>& corners, double by) {
     const std::size_t n = corners.size();
     const auto direction = [&](std::size_t k) { return unit(corners[(k + 1) % n] - corners[k % n]); };
@@ -59,7 +59,7 @@ inline std::vector<OutsetEdge> outset_edges(const std::vector<Vec2>& corners, do
     return edges;
 }
 
-/// Part of an edge that another one faces, m from its start; empty if `to` is at most `from`.
+/// Part of an edge that faces another edge, as distances from its start, m; empty if `to` is at most `from`.
 struct FacingPart {
     double from = 0.0, to = 0.0;
 };

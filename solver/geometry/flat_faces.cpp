@@ -118,8 +118,8 @@ std::vector<std::pair<std::size_t, std::size_t>> adjacent(const std::vector<Neig
     return pairs;
 }
 
-/// Moves circles with too few neighbours to the other side of the trace, where their distance is negative. Sets `held`
-/// for circles with enough neighbours.
+/// Moves circles with too few neighbours to the other side of the trace; their `distance` then becomes negative. Sets
+/// `held` for circles with enough neighbours.
 void take_sides(std::vector<Neighbour>& all) {
     const auto pairs = adjacent(all);
     std::vector<bool> gone_over(all.size(), false);

@@ -35,7 +35,7 @@ template <class Number>
 struct FlatFaceGeometry : PointGeometry<Number> {
     Number apart;   // m, gap between the faces along the trace; negative if they share a length
     Number closed;  // m, δ from the heights alone; if the faces share no length, `overlap` is at most -apart
-    Number offset;  // m, (x_j - x_i)·t, t the normal turned by +90 degrees
+    Number offset;  // m, (x_j - x_i)·t, where t is the normal turned by +90 degrees
     /// Lap, m: length along the trace that the two faces share, or 0.
     CRACKLE_INLINE Number lap() const { return select(apart < 0.0, -apart, Number{}); }
 };

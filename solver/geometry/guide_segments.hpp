@@ -98,11 +98,11 @@ inline DiscCase disc_case(const Bar& bar, Vec2 centre, double radius) {
     return c;
 }
 
-/// Sums the disc cases of one pair of elements.
+/// Combines the overlaps and normals of the discs of one pair of elements into a resultant contact.
 class DiscResultant {
   public:
-    /// Adds the case of one disc. @param sense +1 for a disc of i, -1 for a disc of j, so that normals point from i to
-    /// j
+    /// Adds the contribution of one disc. @param sense +1 for a disc of i, -1 for a disc of j, so that normals point
+    /// from i to j
     void add(const Bar& bar, Vec2 centre, double radius, double sense) {
         const DiscCase c = disc_case(bar, centre, radius);
         if (c.squared_distance < least_squared_distance_) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Derivatives of the disc cases of the DEMseg guide's segment law (guide_segments.hpp), and of their resultant.
+// Derivatives of the overlap under the DEMseg guide's segment law (guide_segments.hpp): of each disc with a bare
+// segment (disc case), and of the resultant of several discs.
 //
 // With a the motion of i's material relative to j's, positive along n_c when closing, and q = (r - |α|)/l =
 // sqrt((r-|α|)/(r+|α|)):
@@ -22,7 +23,7 @@ struct Disc {
     double radius, sense;
 };
 
-/// Up to four discs, in an array of fixed size because this is called within a step, which must not allocate memory.
+/// Up to four discs. The array has a fixed size, because it is used within a step, which must not allocate memory.
 struct Discs {
     std::array<Disc, 4> all;
     std::size_t count = 0;
@@ -57,7 +58,7 @@ Vec2 between(const World& world, const ContactPoint& point) {
     return {j.x - i.x, j.y - i.y};
 }
 
-/// Overlap derivative dδ_c of a disc case that is in contact.
+/// Derivative dδ_c of the overlap of one disc that is in contact.
 OverlapGradient case_gradient(const Disc& disc, Vec2 to_j) {
     const DiscCase& c = disc.found;
     const OverlapGradient along = closing_gradient(disc.sense * c.normal, c.at, c.at - to_j);
@@ -70,7 +71,7 @@ OverlapGradient case_gradient(const Disc& disc, Vec2 to_j) {
     return row;
 }
 
-/// Rotation term n·dn_c of a disc case that is in contact.
+/// Rotation term n·dn_c of one disc that is in contact.
 OverlapGradient turning_gradient(const Disc& disc, Vec2 n, Vec2 to_j) {
     const DiscCase& c = disc.found;
     const Vec2 normal = disc.sense * c.normal, aside = perpendicular(normal);

@@ -20,13 +20,13 @@ inline OverlapGradient closing_gradient(Vec2 direction, Vec2 arm_i, Vec2 arm_j) 
     return {direction.x, direction.y, cross(arm_i, direction), -direction.x, -direction.y, -cross(arm_j, direction)};
 }
 
-/// Exact derivative of the overlap under the DEMseg guide's segment law at the current positions. Without contact, the
-/// derivative of the negative distance to the nearest disc.
+/// Exact derivative of the overlap under the DEMseg guide's segment law at the current positions. Without contact,
+/// returns the derivative of the negative distance to the nearest disc.
 /// @param kind disc_segment or segment_segment
 OverlapGradient guide_gradient(const World& world, PointKind kind, const ContactPoint& point);
 
-/// Gradients of the disc cases of a point that are not in contact now, but could be before the neighbour list is
-/// rebuilt.
+/// Overlap gradients of the discs of a point that are not in contact now, but could come into contact before the
+/// neighbour list is rebuilt.
 std::vector<OverlapGradient> idle_discs(const World& world, PointKind kind, const ContactPoint& point);
 
 }  // namespace crackle

@@ -54,7 +54,7 @@ CRACKLE_INLINE RelativeMotion<Number> relative_motion(const PointGeometry<Number
     return motion;
 }
 
-/// Motion of a body relative to a fixed wall. @param m spin_j is not used
+/// Motion of a body relative to a fixed wall. @param m motion of the body; `spin_j` is not used
 template <class Number>
 CRACKLE_INLINE RelativeMotion<Number> motion_against_wall(const PointGeometry<Number>& g, const PairMotion<Number>& m,
                                                           double drift) {

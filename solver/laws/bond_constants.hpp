@@ -14,11 +14,11 @@
 
 namespace crackle {
 
-/// Constants of bonds; empty where they are not given.
+/// Constants of bonds; each is empty if it is not given.
 struct BondConstants {
     std::optional<double> tensile_strength;         ///< T, N, or Pa with StiffnessUnits::area
     std::optional<double> cohesion;                 ///< C, N, or Pa
-    std::optional<double> residual_friction_angle;  ///< degrees, of contacts without a bond
+    std::optional<double> residual_friction_angle;  ///< degrees, for contacts without a bond
 
     friend bool operator==(const BondConstants&, const BondConstants&) = default;
 };
@@ -28,7 +28,7 @@ inline double friction_coefficient(double angle) { return correctly_rounded::tan
 
 /// A constant in the list of a bond law.
 struct BondConstant {
-    const char* key;  ///< name of the member, which users write
+    const char* key;  ///< name of the member, used as the key in input files
     std::optional<double> BondConstants::*given;
     double ContactLaw::*of_law;  ///< member of ContactLaw that holds the result of in_law()
     bool is_angle;               ///< true: degrees, from 0 to the friction angle; false: a strength, N or Pa, >= 0
@@ -44,7 +44,7 @@ struct BondConstant {
     }
 };
 
-/// Whether a tensile strength lies beyond the apex of the failure envelope, C/μ, which would then never reach it.
+/// Whether a tensile strength exceeds C/μ, the apex of the failure envelope, so that tension could never reach it.
 inline bool beyond_apex(double friction, double tensile_strength, double cohesion) {
     constexpr double rounding = 1e-12;
     return friction * tensile_strength > cohesion * (1.0 + rounding);

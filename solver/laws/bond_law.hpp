@@ -17,8 +17,8 @@ namespace crackle {
 
 /// Strength and failure of bonds.
 enum class BondLaw : std::uint8_t {
-    back_tension,  ///< the guide's law: the overlap at bonding determines the strength, and a bond may slide at its
-                   ///< Coulomb limit (laws/back_tension_bond.hpp)
+    back_tension,  ///< the DEMseg guide's law: the overlap at bonding determines the strength, and a bond may slide at
+                   ///< its Coulomb limit (laws/back_tension_bond.hpp)
     coulomb,       ///< tension cut-off, cohesion and friction; no sliding before failure (laws/coulomb_bond.hpp)
     face           ///< one set of springs for a whole face between two polygons (laws/face_bond.hpp)
 };
@@ -27,13 +27,13 @@ constexpr auto list_names(BondLaw) { return in_order("back_tension", "coulomb", 
 
 /// Properties in which bond laws differ.
 struct BondLawFacts {
-    const char* meaning = "";                   ///< a clause for the key bond.law
-    std::span<const BondConstant> constants{};  ///< constants of its bonds that users give
-    /// Member for the coefficient that follows from a material's friction angle. Unbonded contacts always use
-    /// ContactLaw::friction.
+    const char* meaning = "";                   ///< clause that describes the law in the text for the key bond.law
+    std::span<const BondConstant> constants{};  ///< constants of the law's bonds that users give
+    /// Member of ContactLaw that holds the coefficient computed from a material's friction angle. Unbonded contacts
+    /// always use ContactLaw::friction.
     double ContactLaw::*friction = &ContactLaw::friction;
-    /// Whether materials state tensile strength, cohesion and residual friction. Otherwise strength follows from the
-    /// overlap at bonding.
+    /// Whether a material's tensile strength, cohesion and residual friction are given. Otherwise the strength follows
+    /// from the overlap at bonding.
     bool strengths_are_given = false;
     bool bonds_across_gaps = false;  ///< whether a point with a gap can be bonded
     /// Whether a bonded point never slides. Its shear stiffness is then greater than 0, and its world has friction.
@@ -41,11 +41,10 @@ struct BondLawFacts {
     /// Whether forces are 0 at the point's Points::bond_overlap, while bonded and afterwards. Otherwise the bond adds a
     /// back-tension to the force of the contact.
     bool from_rest_overlap = false;
-    bool own_shares = false;           ///< whether points have stiffness and strength factors with either of
-                                       ///< StiffnessUnits
+    bool own_shares = false;  ///< whether points have stiffness and strength factors for any choice of StiffnessUnits
     bool across_joints = false;        ///< whether joints can have bonds of this law
-    bool with_guide_segments = false;  ///< whether it can be combined with the guide's segment law
-    bool by_faces = false;             ///< whether whole faces are bonded (world/faces.hpp), and no points
+    bool with_guide_segments = false;  ///< whether the law can be combined with the DEMseg guide's segment law
+    bool by_faces = false;             ///< whether whole faces are bonded (world/faces.hpp) instead of contact points
     /// Whether a point remembers its forces in the last step in which it carried at least half its strength.
     bool remembers_strong_forces = false;
 
@@ -53,11 +52,11 @@ struct BondLawFacts {
     const BondConstant* constant(std::string_view key) const;
 };
 
-/// Facts of a law of a scene. Kernels read them from the law's type.
+/// Facts of a law that is known only at run time. Kernels, compiled for one law, read the facts from its type.
 const BondLawFacts& facts_of(BondLaw law);
 
-/// The law by which kernels treat points in a world of this law. With faces it is that of points whose bonds have
-/// broken: they start without force where they take over from a face.
+/// The law that kernels apply to contact points in a world with the given law. In a world with bonded faces this is
+/// `coulomb`, for points without bonds: points that replace a face start without force, at a rest overlap.
 constexpr BondLaw law_of_points(BondLaw law) { return law == BondLaw::face ? BondLaw::coulomb : law; }
 
 /// Constants of all laws, each key once.
@@ -66,8 +65,8 @@ const std::vector<BondConstant>& all_bond_constants();
 /// Names of the bond laws for which `fact` is true, formatted for messages: "a" or "b".
 std::string laws_with(bool BondLawFacts::*fact);
 
-/// Checks the strengths of a law. @param what names their owner, for the message @throws InputError for a tensile
-/// strength beyond_apex()
+/// Checks the strengths of a law. @param what words at the beginning of the message, such as the name of the material
+/// @throws InputError for a tensile strength beyond_apex()
 void check_strengths(const ContactLaw& law, const std::string& what);
 
 }  // namespace crackle

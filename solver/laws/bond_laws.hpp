@@ -15,8 +15,8 @@
 // A new law needs a value and a name in BondLaw, a header, and an entry in BondLaws. Kernels are compiled for every
 // law.
 //
-// The law of faces between polygons (face_bond.hpp) is not in the list, since no point is bonded by it and kernels of
-// points need no instance for it.
+// The law of faces between polygons (face_bond.hpp) is not in the list, since it bonds no contact points, so the
+// kernels for points are not compiled for it.
 #pragma once
 
 #include <cstddef>
@@ -41,11 +41,11 @@ constexpr bool points_have_what_facts_need(const std::tuple<Bonds...>&) {
 static_assert(points_have_what_facts_need(BondLaws{}),
               "given strengths need a strength factor per point, and a rest overlap is kept only with own_shares");
 
-/// The type of a law.
+/// The type that implements a law.
 template <BondLaw law>
 using BondLawType = std::tuple_element_t<static_cast<std::size_t>(law), BondLaws>;
 
-/// Returns visit.operator()<Type>() for the type of law_of_points(). @tparam N number of the first law to try
+/// Returns visit.operator()<Type>() for the type of law_of_points(). @tparam N index of the first law to try
 template <std::size_t N = 0, class Visit>
 constexpr decltype(auto) with_law(BondLaw law, const Visit& visit) {
     using Bond = std::tuple_element_t<N, BondLaws>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values that bond laws read and return: those of a bonded point, those after a break, and their growth with strain in
-// a linear solution.
+// Values that bond laws read and return: the state of a bonded point, its state after a break, and its rates of change
+// with strain in a linear solution.
 // Tested by tests/solver/laws/bond_law_test.cpp.
 #pragma once
 
@@ -33,11 +33,11 @@ struct BondStrength {
     Number friction;           // friction coefficient μ
 };
 
-/// Values that a point stores about its bond; 0 for those that its world does not store.
+/// Values that a point stores about its bond; a value that the world does not store is 0.
 struct BondMemory {
-    BondForces<double> strong;          // in the last step in which it carried at least half its strength
-    bool slid;                          // whether it has reached its Coulomb limit
-    std::optional<double> normal_work;  // J, stored in its normal spring, only if its force has no potential
+    BondForces<double> strong;          // in the last step in which the bond carried at least half its strength
+    bool slid;                          // whether the bond has reached its Coulomb limit
+    std::optional<double> normal_work;  // J, stored in the normal spring; set only if the normal force has no potential
 };
 
 /// State of a point after its bond has broken, and the energy released.
@@ -47,26 +47,26 @@ struct BrokenBond {
     double normal, shear;         // N, elastic forces after the break
     double strength;              // N
     double energy;                // J
-    BondForces<double> reported;  // forces of its event
+    BondForces<double> reported;  // forces that the break event reports
 };
 
-/// Growth of a quantity per unit of strain, with its error; a value below the error counts as 0.
+/// Change of a quantity per unit of strain, with its error. A change smaller than the error counts as 0.
 struct Rate {
     double value = 0.0, error = 0.0;
 };
 
-/// Strain at which a quantity that is `now`, and grows by `slope` per unit of strain, becomes 0. Infinite if the
-/// quantity grows, or falls by at most the slope's error.
+/// Strain at which a quantity becomes 0. It is infinite if the quantity increases, or decreases by at most the error of
+/// the slope. @param now value at zero strain @param slope change per unit of strain
 inline double strain_of_loss(double now, Rate slope) {
     return slope.value < -slope.error ? -now / slope.value : std::numeric_limits<double>::infinity();
 }
 
-/// Growth of a bonded point's overlap, m, and of its elastic forces, N.
+/// Changes of a bonded point's overlap (m) and elastic forces (N) per unit of strain.
 struct BondGrowth {
-    Rate closing, normal, shear;  ///< the normal force positive in compression, the shear force without its sign
+    Rate closing, normal, shear;  ///< normal: positive in compression; shear: magnitude of the shear force
 };
 
-/// Limits of a bond; strains are infinite where it never reaches them.
+/// Limits of a bond in a linear solution. A strain is infinite if the bond never reaches that limit.
 struct ElasticLimits {
     double strength = 0.0;  // N, in tension
     double break_strain = 0.0, slip_strain = 0.0;

@@ -12,17 +12,18 @@ namespace crackle {
 /// Points::stiffness_share is 1, and strengths are stresses. Numbers are stored in pairs, as the kernels load them.
 struct ContactLaw {
     double normal_stiffness, shear_stiffness;  // N/m
-    double normal_damping, shear_damping;      // N s/m; add the ratio terms times Points::root_mass
-    double normal_damping_ratio_term;          // 2h sqrt(k_n), sqrt(N/m)
-    double shear_damping_ratio_term;           // 2h sqrt(k_s)
-    /// Coulomb friction coefficient μ = tan φ; the residual one if bonds have their own. Infinite if sliding is
-    /// switched off.
+    double normal_damping, shear_damping;  // N s/m; the damping-ratio terms times Points::root_mass are added to these
+    double normal_damping_ratio_term;      // 2h sqrt(k_n), sqrt(N/m)
+    double shear_damping_ratio_term;       // 2h sqrt(k_s)
+    /// Coulomb friction coefficient μ = tan φ; the residual coefficient if bonds have a coefficient of their own. It is
+    /// infinite if sliding is switched off.
     double friction;
-    double break_overlap;  // m; a back-tension bond breaks when δ <= this: 0, or -infinity if it is unbreakable
-    // Strengths that are given; infinite if the bond is unbreakable.
+    // Overlap at or below which a back-tension bond breaks, m: 0, or -infinity if the bond is unbreakable.
+    double break_overlap;
+    // Tensile strength and cohesion, for bond laws that use them; infinite if the bond is unbreakable.
     double tensile_strength, cohesion;  // N
     double bond_friction;               // friction coefficient μ of the bond's failure envelope
-    double dilation = 0.0;              // tan ψ of a joint
+    double dilation = 0.0;              // tan ψ of a joint, with ψ its dilation angle
 
     CRACKLE_FIELDS(normal_stiffness, shear_stiffness, normal_damping, shear_damping, normal_damping_ratio_term,
                    shear_damping_ratio_term, friction, break_overlap, tensile_strength, cohesion, bond_friction,

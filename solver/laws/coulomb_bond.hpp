@@ -34,8 +34,9 @@ struct CoulombBond {
          "Shear strength of a bond without normal force, N per point or Pa; at least tan(friction_angle) times "
          "tensile_strength."},
         {"residual_friction_angle", &BondConstants::residual_friction_angle, &ContactLaw::friction, true,
-         "Friction angle of contacts without a bond, with law = \"coulomb\"; at most friction_angle, which bonds have. "
-         "friction_angle if not given."}};
+         "Friction angle of contacts without a bond, with law = \"coulomb\"; at most the friction_angle of bonds, and "
+         "equal "
+         "to it if not given."}};
     static constexpr BondLawFacts facts{.meaning = "bonds have the material's tensile strength, cohesion and friction",
                                         .constants = constants,
                                         .friction = &ContactLaw::bond_friction,
@@ -102,7 +103,8 @@ struct CoulombBond {
         return slack_before > slack_now ? std::max(0.0, slack_before / (slack_before - slack_now)) : 0.0;
     }
 
-    /// Whether the shear limit is reached before the tension limit. @param before within both limits, up to round-off
+    /// Whether the shear limit is reached before the tension limit. @param before forces before the step, within both
+    /// limits up to round-off
     static bool shear_comes_first(const BondStrength<double>& s, const BondForces<double>& before,
                                   const BondForces<double>& now) {
         const auto shear_slack = [&](const BondForces<double>& f) {

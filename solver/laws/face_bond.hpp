@@ -1,31 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Law of a face between two bonded polygons: a rigid-body spring network with the pressure of the cells.
+// Law of a face between two bonded polygons: a rigid-body spring network in which each cell also has a pressure.
 //
-// Stiffness of a face of length L whose two reference points are h apart along its normal, κ = k_t/k_n, plane stress
-// (plane strain: E/(1-ν²) and ν/(1-ν) in place of E and ν):
+// Stiffness of a face of length L whose two reference points are a distance h apart along its normal, with κ = k_t/k_n.
+// The formulas are for plane stress; for plane strain, E/(1-ν²) and ν/(1-ν) replace E and ν:
 //     r = 1 - c_κ ((1-κ)/(1+κ))²     E_c = 2E/((1+ν)(1+κ) r)     λ = E/(2(1-ν)) - E_c/2
 //     k_n = E_c L/h     k_t = κ k_n     k_φ = k_n L²/12
-// E_c contact modulus, λ pressure modulus, Pa. A cell of area A and dilation e has the pressure p = λ e. The areal
-// modulus E_c/2 + λ is exact for every κ; c_κ corrects the shear modulus of irregular cells, which is low if κ ≠ 1.
-// λ >= 0 is required: otherwise irregular cells have negative modes. λ = 0 determines κ from ν.
+// E_c is the contact modulus and λ the pressure modulus, Pa. A cell with dilation e has the pressure p = λ e. The areal
+// modulus E_c/2 + λ is exact for every κ. The factor c_κ corrects the shear modulus of irregular cells, which would be
+// too low for κ ≠ 1. λ >= 0 is required, since irregular cells would otherwise have modes of negative energy. With λ =
+// 0, κ follows from ν.
 //
-// Failure of an intact face, with s = -F_n/L (compression) and one random factor on T and C:
+// Conditions for the failure of an intact face. s = -F_n/L is the compressive stress; T and C include the same random
+// factor:
 //     tension   F_n/L + 6β|M|/L² > T
 //     shear     |F_t|/L > C + s tan φ     up to s = s_b; beyond: C + s_b tan φ + (s - s_b) tan φ₂
-// If both hold, the mode is the one whose force is the larger multiple of its strength. Needed: T tan φ <= C, φ₂ <= φ,
-// s_b >= 0, φ_r <= φ₂; otherwise the residual strength passes the peak.
+// If both conditions hold, the mode is the one whose stress is the larger multiple of its strength. The law requires T
+// tan φ <= C, φ₂ <= φ, s_b >= 0 and φ_r <= φ₂. Otherwise the residual strength could exceed the peak strength.
 //
-// Afterwards the two edges press on each other where they lap, linearly and without tension. 2a is the lap, d the
-// opening at its centre, δ_φ the relative rotation, φ = |δ_φ|, k the normal stiffness per length, k_n/L:
+// After failure, the two edges press on each other over their lap, the length over which they lie opposite each other.
+// The pressure is linear in the overlap, without tension. 2a is the lap, d the opening at its centre, δ_φ the relative
+// rotation, φ = |δ_φ|, and k = k_n/L the normal stiffness per length:
 //     d + aφ <= 0    F = 2a k d,  M = k (2a)³/12 δ_φ,           Ψ = ½(2a k d² + k (2a)³/12 δ_φ²)
-//     d - aφ >= 0    nothing
+//     d - aφ >= 0    no contact
 //     otherwise      b = a - d/φ,  F = -½ k φ b²,  |M| = |F|(a - b/3),  Ψ = k φ² b³/6,  M with the sign of δ_φ
-// Tension is positive. The shear force is limited to c(u) b_c + max(0, -F) tan φ_r. b_c is the least closed length
-// since failure. The cohesion c(u) falls from C to c_r over the slip u_c, and equals c_r if u_c = 0.
-// After a failure in shear the edges hold a tension as well, where they do not press: (1 - D) times that of the intact
-// face. With σ = F/2a + 6β|M|/(2a)² without damage, D is the largest value so far of (1 - σ_r/σ)/(1 - σ_r/(k w_c)) for
-// σ > σ_r. The tension held thus falls from σ_r to 0 over the inelastic opening w_c, at once if w_c <= σ_r/k.
-// All forces are per metre of thickness. Sources: solver/MODEL.md 5.5. Tested by tests/solver/laws/face_bond_test.cpp.
+// Tension is positive. The shear force is limited to c(u) b_c + max(0, -F) tan φ_r. b_c is the smallest closed length
+// (over which the edges press) since failure. The cohesion c(u) falls from C to c_r over the slip u_c, and equals c_r
+// if u_c = 0. After a failure in shear, the edges also carry tension where they do not press: 1 - D times the tension
+// of the intact face. Let σ = F/2a + 6β|M|/(2a)² be the stress without damage. For σ > σ_r, D is the largest value so
+// far of (1 - σ_r/σ)/(1 - σ_r/(k w_c)). The tension thus falls from σ_r to 0 over the inelastic opening w_c, and
+// immediately if w_c <= σ_r/k. All forces are per metre of thickness. Source: solver/MODEL.md 5.5. Tested by
+// tests/solver/laws/face_bond_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +43,8 @@
 
 namespace crackle {
 
-/// The law as one of the bond laws of scenes and cases. Its strengths are those of coulomb bonds, and more (FaceLaw).
+/// Properties of this law among the bond laws of scenes and cases. Users give the strengths of a coulomb bond, and
+/// further constants (FaceConstants).
 struct FaceBond {
     static constexpr BondLaw law = BondLaw::face;
     static constexpr BondLawFacts facts = [] {
@@ -50,22 +55,24 @@ struct FaceBond {
     }();
 };
 
-/// Stiffness of rock with faces, Pa.
+/// Moduli of rock whose cells are bonded by faces, Pa.
 struct FaceModuli {
-    double contact = 0.0;      ///< E_c: normal traction per strain between the two reference points
-    double pressure = 0.0;     ///< λ: pressure of a cell per dilation; 0 if cells have none
+    double contact = 0.0;      ///< E_c: normal stress per unit of strain between the two reference points
+    double pressure = 0.0;     ///< λ: pressure of a cell per unit of dilation; 0 if cells have no pressure
     double shear_ratio = 1.0;  ///< κ = k_t/k_n
 };
 
-/// Moduli for a given shear ratio; Poisson's ratio comes from the pressure of the cells. @param correction c_κ
+/// Moduli for a given ratio of shear to normal stiffness; the pressure of the cells produces Poisson's ratio. @param
+/// correction c_κ
 /// @throws InputError if the pressure modulus would be negative
 FaceModuli face_moduli(double youngs_modulus, double poissons_ratio, double shear_ratio, double correction);
 
-/// Moduli without a pressure of the cells; the shear ratio follows from Poisson's ratio. @param correction c_κ
-/// @throws InputError for a Poisson's ratio outside 0 to 1/3
+/// Moduli for cells without pressure; the ratio of shear to normal stiffness follows from Poisson's ratio. @param
+/// correction c_κ
+/// @throws InputError if Poisson's ratio is negative, or so large that k_t would not be positive (1/3 if c_κ is 0)
 FaceModuli face_moduli_without_pressure(double youngs_modulus, double poissons_ratio, double correction);
 
-/// Strengths of the faces between two materials; without values a face never breaks.
+/// Strengths of the faces between two materials; with the default values a face never breaks.
 struct FaceLaw {
     double tensile_strength = std::numeric_limits<double>::infinity();  // T, Pa
     double cohesion = std::numeric_limits<double>::infinity();          // C, Pa
@@ -78,7 +85,7 @@ struct FaceLaw {
     double softening_slip = 0.0;                                        // u_c, m
     double residual_tensile_strength = 0.0;                             // σ_r, Pa
     double softening_opening = 0.0;                                     // w_c, m
-    double damping_ratio = 0.0;                                         // h of each spring of a face
+    double damping_ratio = 0.0;                                         // h, the same for all springs of a face
 
     /// Whether a face of this law can break.
     bool can_break() const { return std::isfinite(tensile_strength) || std::isfinite(cohesion); }
@@ -87,7 +94,8 @@ struct FaceLaw {
                    residual_cohesion, softening_slip, residual_tensile_strength, softening_opening, damping_ratio);
 };
 
-/// Checks a law. @throws InputError if a value is out of its range, or the residual strength could pass the peak
+/// Checks a law. @throws InputError if a value is out of its range, or if the residual strength could exceed the peak
+/// strength
 void check_face_law(const FaceLaw& law);
 
 /// Forces of a face on body i: F_n along the normal (tension positive), F_t along the tangent, and the moment M.
@@ -96,10 +104,10 @@ struct FaceForces {
     double moment = 0.0;               // N m
 };
 
-/// Whether a face fails, and how.
+/// Whether a face fails, and in which mode.
 enum class FaceFailure { none, tension, shear };
 
-/// Strengths of an intact face, or of several in lanes.
+/// Strengths of an intact face, or of one face per lane.
 template <class Number>
 struct FaceStrength {
     FaceStrength() = default;
@@ -115,7 +123,7 @@ struct FaceStrength {
     Number tensile, cohesion, friction, knee, friction_beyond, moment_share;
 };
 
-/// Stresses of an intact face that its strengths limit, Pa, and its shear strength at the present compression.
+/// Tensile and shear stress of an intact face, and its shear strength at the present compression, Pa.
 template <class Number>
 struct FaceStress {
     CRACKLE_INLINE FaceStress(const FaceStrength<Number>& strength, const Number& length, const Number& normal,
@@ -130,20 +138,21 @@ struct FaceStress {
     Number tension, shear, shear_strength;
 };
 
-/// Failure of an intact face. @param length L, m @param share random factor on T and C
+/// Failure mode of an intact face under given forces. @param length L, m @param share random factor on T and C
 inline FaceFailure face_failure(const FaceLaw& law, double length, double share, const FaceForces& f) {
     const FaceStrength<double> strength(law, share);
     const FaceStress<double> stress(strength, length, f.normal, f.shear, f.moment);
     const bool parts = stress.tension > strength.tensile, slips = stress.shear > stress.shear_strength;
     if (!parts && !slips) return FaceFailure::none;
-    // The larger ratio of force to strength decides, written without a division by a strength of 0.
+    // The mode with the larger ratio of stress to strength is chosen. The comparison avoids divisions, since a strength
+    // may be 0.
     if (parts && (!slips || stress.tension * std::max(0.0, stress.shear_strength) >= stress.shear * strength.tensile))
         return FaceFailure::tension;
     return FaceFailure::shear;
 }
 
-/// Factor on forces at which an intact face fails; infinite if it never does. @param length L, m @param share random
-/// factor on T and C
+/// Factor on the given forces at which an intact face fails; infinite if it never fails. @param length L, m @param
+/// share random factor on T and C
 inline double face_failure_load(const FaceLaw& law, double length, double share, const FaceForces& f) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     const FaceStrength<double> strength(law, share);
@@ -156,25 +165,25 @@ inline double face_failure_load(const FaceLaw& law, double length, double share,
     };
     double slides = slips(strength.cohesion, strength.friction);
     if (compression > 0.0 && slides * compression > strength.knee) {
-        // Beyond the knee the envelope is lower.
+        // Beyond the knee, the second line of the envelope applies.
         slides = slips(strength.cohesion + (strength.friction - strength.friction_beyond) * strength.knee,
                        strength.friction_beyond);
     }
     return std::min(parts, slides);
 }
 
-/// Pressure of two edges on each other.
+/// Force, moment and energy of the pressure between two edges.
 struct LapPressure {
     double force = 0.0;   // F, N
     double moment = 0.0;  // M about the centre of the lap, N m
     double energy = 0.0;  // Ψ, J
-    double closed = 0.0;  // m, length over which the edges press; dF/dd over k
+    double closed = 0.0;  // m, length over which the edges press; equal to (dF/dd)/k
 
     CRACKLE_FIELDS(force, moment, energy, closed);
 };
 
-/// Linear pressure without tension. @param stiffness k, N/m per metre of length @param half_lap a, m @param opening d,
-/// m @param turn δ_φ, rad
+/// Linear pressure between two edges, without tension. @param stiffness k, N/m per metre of length @param half_lap a, m
+/// @param opening d, m @param turn δ_φ, rad
 inline LapPressure lap_pressure(double stiffness, double half_lap, double opening, double turn) {
     const double a = half_lap, d = opening, phi = std::abs(turn);
     if (a <= 0.0 || d - a * phi >= 0.0) return {};
@@ -186,7 +195,7 @@ inline LapPressure lap_pressure(double stiffness, double half_lap, double openin
     return {force, std::copysign(-force * (a - b / 3.0), turn), stiffness * phi * phi * b * b * b / 6.0, b};
 }
 
-/// What edges pull at each other where they do not press, if nothing is damaged. Parameters as for lap_pressure().
+/// Tension between two undamaged edges where they do not press on each other. Parameters as for lap_pressure().
 inline LapPressure lap_tension(double stiffness, double half_lap, double opening, double turn) {
     const LapPressure push = lap_pressure(stiffness, half_lap, opening, turn);
     const double k_n = 2.0 * half_lap * stiffness, k_phi = k_n * half_lap * half_lap / 3.0;
@@ -194,22 +203,24 @@ inline LapPressure lap_tension(double stiffness, double half_lap, double opening
             0.5 * (k_n * opening * opening + k_phi * turn * turn) - push.energy, 2.0 * half_lap - push.closed};
 }
 
-/// 1 - D of a face that failed in shear. @param held 1 - D so far @param stiffness k, Pa/m @param stress σ, Pa
+/// The factor 1 - D on the tension of a face that failed in shear. @param held previous value of 1 - D @param stiffness
+/// k, Pa/m @param stress σ, Pa
 /// @param share random factor on T
 inline double tension_held(const FaceLaw& law, double held, double stiffness, double stress, double share) {
     const double residual = std::min(law.residual_tensile_strength, share * law.tensile_strength);
     if (stress <= residual) return held;
-    const double steepness = 1.0 - residual / (stiffness * law.softening_opening);  // -infinity without an opening
+    // -infinity if softening_opening is 0.
+    const double steepness = 1.0 - residual / (stiffness * law.softening_opening);
     if (!(steepness > 0.0)) return 0.0;
     return std::min(held, std::max(0.0, 1.0 - (1.0 - residual / stress) / steepness));
 }
 
-/// Residual cohesion of a face, Pa. A weak face has at most its own cohesion. @param share random factor on C
+/// Residual cohesion of a face, at most its initial cohesion, Pa. @param share random factor on C
 inline double residual_cohesion_of(const FaceLaw& law, double share) {
     return std::min(law.residual_cohesion, share * law.cohesion);
 }
 
-/// What is left of the cohesion after a slip, Pa. @param slipped Σ|Δu_p|, m @param share random factor on C
+/// Remaining cohesion after a given slip, Pa. @param slipped Σ|Δu_p|, m @param share random factor on C
 inline double cohesion_left(const FaceLaw& law, double slipped, double share) {
     const double residual = residual_cohesion_of(law, share);
     if (!(slipped < law.softening_slip)) return residual;
@@ -223,7 +234,8 @@ struct FaceSlip {
     double of_fracture = 0.0;  // N, part of the force that works against cohesion above its residual value
 };
 
-/// Returns a trial shear force to the limit c(u) b_c + N tan φ_r. The limit falls with this step's own slip.
+/// Computes the slip that reduces a trial shear force to the limit c(u) b_c + max(0, -F) tan φ_r. The slip in this step
+/// also reduces the limit.
 /// @param trial k_t(δ_t - u_p) + L τ, N @param stiffness k_t, N/m @param pressing max(0, -F), N @param glued b_c, m
 inline FaceSlip slip_of_face(const FaceLaw& law, double trial, double stiffness, double pressing, double glued,
                              double slipped, double share) {
@@ -235,7 +247,7 @@ inline FaceSlip slip_of_face(const FaceLaw& law, double trial, double stiffness,
         const double slope = (share * law.cohesion - residual) / law.softening_slip * glued;
         const double longer =
             slope < stiffness ? slip * stiffness / (stiffness - slope) : std::numeric_limits<double>::infinity();
-        // Beyond the softening slip the cohesion is the residual one.
+        // Beyond the softening slip, the cohesion has its residual value.
         slip = slipped + longer < law.softening_slip ? longer : (size - rubbing - residual * glued) / stiffness;
     }
     const double after = cohesion_left(law, slipped + slip, share);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Constants that users give for rock whose bonds are faces, besides the strengths of bond_constants.hpp. Cases read,
-// check and document them through the list face_constants.
+// Constants that users give for rock whose cells are bonded by faces, in addition to the strengths in
+// bond_constants.hpp. The code that reads, checks and documents the keys of a case uses the list face_constants.
 // Tested by tests/solver/laws/face_bond_test.cpp.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace crackle {
 
-/// Constants of faces; empty where they are not given.
+/// Constants of faces; each is empty if it is not given.
 struct FaceConstants {
     std::optional<double> youngs_modulus;             ///< E, Pa
     std::optional<double> poissons_ratio;             ///< ν
@@ -23,26 +23,28 @@ struct FaceConstants {
     friend bool operator==(const FaceConstants&, const FaceConstants&) = default;
 };
 
-/// A constant of faces.
+/// Key, unit, limit and meaning of one constant of faces.
 struct FaceConstant {
-    const char* key;  ///< name of the member, which users write
+    const char* key;  ///< name of the member, used as the key in input files
     const char* unit;
     std::optional<double> FaceConstants::*given;
-    double below;         ///< values are less than this
+    double below;         ///< values must be less than this
     const char* meaning;  ///< description for users, one or two sentences
 };
 
 /// All constants of faces; all values are >= 0.
 inline constexpr FaceConstant face_constants[]{
     {"youngs_modulus", "Pa", &FaceConstants::youngs_modulus, 1e300,
-     "Young's modulus of the rock, with bond.law = \"face\", in place of contact_modulus."},
+     "Young's modulus of the rock; with bond.law = \"face\", it replaces contact_modulus."},
     {"poissons_ratio", "", &FaceConstants::poissons_ratio, 1.0,
-     "Poisson's ratio of the rock in plane stress, with bond.law = \"face\". With a stiffness_ratio it comes from the "
-     "pressure of the cells; without one, from the ratio that gives it, for which it is below 1/3."},
+     "Poisson's ratio of the rock in plane stress, with bond.law = \"face\". The pressure of the cells produces it if "
+     "stiffness_ratio is given. Otherwise stiffness_ratio is computed from it, which is always possible below 1/3."},
     {"moment_share", "", &FaceConstants::moment_share, 1.0 + 1e-12,
-     "Share of a face's bending stress that counts in tension, 0 to 1, with bond.law = \"face\"; 0 if not given."},
+     "Share of a face's bending stress that adds to its tensile stress, 0 to 1, with bond.law = \"face\"; 0 if not "
+     "given."},
     {"friction_knee", "Pa", &FaceConstants::friction_knee, 1e300,
-     "Normal stress from which the shear strength of a face rises by friction_angle_beyond, with bond.law = \"face\"."},
+     "Normal stress above which the shear strength of a face increases with friction_angle_beyond, with bond.law = "
+     "\"face\"."},
     {"friction_angle_beyond", "deg", &FaceConstants::friction_angle_beyond, 90.0,
      "Friction angle of an intact face beyond friction_knee; at most friction_angle."},
     {"residual_cohesion", "Pa", &FaceConstants::residual_cohesion, 1e300,

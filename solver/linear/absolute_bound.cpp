@@ -21,7 +21,7 @@ Matrix absolute(const MassScaled& pencil, double damping, double stiffness) {
     return lower;
 }
 
-/// At least the largest eigenvalue of a matrix with entries >= 0.
+/// Upper bound on the largest eigenvalue of a matrix with entries >= 0.
 double eigenvalue_at_most(const Matrix& lower, int rounds) {
     double best = std::numeric_limits<double>::infinity();
     Vector x = Vector::Ones(lower.rows());
@@ -30,7 +30,7 @@ double eigenvalue_at_most(const Matrix& lower, int rounds) {
         double most = 0.0;
         for (Eigen::Index n = 0; n < x.size(); ++n) most = std::max(most, next[n] / x[n]);
         best = std::min(best, most);
-        // A degree of freedom without stiffness keeps its value, which must be > 0.
+        // For a degree of freedom without stiffness, the component of x is not changed, since it must stay > 0.
         for (Eigen::Index n = 0; n < x.size(); ++n)
             if (next[n] > 0.0) x[n] = next[n] / most;
     }
@@ -55,7 +55,7 @@ double absolute_step_bound(const MassScaled& pencil, int rounds) {
         if (std::isinf(step)) return step;
         best = std::max(best, step);
         const Vector next = 2.0 * step * c + step * step * k;
-        // A degree of freedom without stiffness keeps its value, which must be > 0.
+        // For a degree of freedom without stiffness, the component of x is not changed, since it must stay > 0.
         for (Eigen::Index n = 0; n < x.size(); ++n)
             if (next[n] > 0.0) x[n] = next[n];
     }

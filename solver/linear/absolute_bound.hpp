@@ -2,9 +2,10 @@
 // Guaranteed bound on the stable time step from the absolute values of the mass-scaled matrices.
 //
 // With A(Δt) = 2Δt·C + Δt²·K in mass-scaled coordinates and any vector x > 0, no eigenvalue of A exceeds the largest
-// (|A|x)_i/x_i (Collatz and Wielandt). Each round finds the Δt at which this ratio is 4. The next round uses |A|x as
-// its x, which approaches the x of the best bound. In contrast to a bound for each spring, forces of opposite sign
-// cancel when K is assembled, before its absolute values are taken. Tested by tests/solver/linear/face_rows_test.cpp.
+// (|A|x)_i/x_i (Collatz and Wielandt). Each round finds the Δt at which this ratio is 4. The next round uses |A|x in
+// place of x; x thus approaches the vector that gives the best bound. In contrast to a bound from individual springs,
+// terms of opposite sign cancel when K is assembled, before absolute values are taken. Tested by
+// tests/solver/linear/face_rows_test.cpp.
 #pragma once
 
 #include "solver/linear/springs.hpp"

@@ -19,7 +19,8 @@ namespace {
 using Matrix = MassScaled::Matrix;
 using Vector = MassScaled::Vector;
 
-// Relative error of the eigenvalue and of the Rayleigh quotient; that of the eigenvector is its square root.
+// Relative error of the eigenvalue and of the Rayleigh quotient; the error of the eigenvector is the square root of
+// this value.
 constexpr double lanczos_tolerance = 1e-10;
 constexpr Eigen::Index lanczos_vectors = 40;
 constexpr Eigen::Index lanczos_restarts = 2000;

@@ -23,7 +23,7 @@ namespace crackle {
 struct CriticalStep {
     double step;  ///< s; steps up to this value are stable: the root minus `margin`, or, if not proved, within 2 % of
                   ///< it (lanczos_bound.hpp)
-    double root;  ///< s, step at which the matrix becomes singular; infinite if there are no stiff points
+    double root;  ///< s, step at which the matrix becomes singular; infinite if no spring has stiffness
     bool proved;  ///< whether Cholesky has shown that 4M - 2Δt·C - Δt²·K is positive definite at `step`
     std::vector<BodyMotion> mode;  ///< for each body, the mode that becomes unstable first, scaled so that the largest
                                    ///< component of M^½ u is 1
@@ -37,7 +37,7 @@ inline constexpr std::int64_t most_exact_unknowns = 300'000;
 inline constexpr double critical_step_margin = 1e-6;
 
 /// Computes the largest stable time step. @param which points that count as closed; for ClosedPoints::listed, the
-/// result holds until the neighbour list is rebuilt Faces count as if none were broken.
+/// result holds until the neighbour list is rebuilt. All faces count as intact.
 CriticalStep critical_step(const World& world, ClosedPoints which);
 
 /// Whether the time step `dt` (s) is at or below critical_step(); needs a single factorisation.

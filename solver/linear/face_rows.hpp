@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The faces of an intact world as rows of its stiffness matrix, linearised about the current positions. There are three
-// for the springs of each face, with their dashpots, and one for the pressure of each cell.
+// Represents the faces of a world, as if none were broken, by rows of linear springs about the current positions. Each
+// face has three rows, for its springs and dashpots, and each cell with a pressure has one.
 //
-// The stable step of these rows bounds that of every later state of the same faces: breaks only soften. Pressures that
-// broken faces take from the step before add no stiffness.
+// A time step that is stable for these rows is stable for every later state of the same faces, since breaks only reduce
+// stiffness. The late pressures used for broken faces add no stiffness.
 // Tested by tests/solver/linear/face_rows_test.cpp.
 #pragma once
 
@@ -15,7 +15,8 @@ namespace crackle {
 /// Rows of all faces of a world as if none were broken, at the current positions of the bodies. Empty without faces.
 LinearRows face_rows(const World& world);
 
-/// Elastic forces of all faces of a world for small motions of its bodies, as if none were broken: N, N, N m.
+/// Elastic forces (N) and moments (N m) of all faces of a world for small motions of its bodies, as if no face were
+/// broken.
 std::vector<FaceForces> face_force_rates(const World& world, const std::vector<BodyMotion>& motion);
 
 }  // namespace crackle

@@ -21,7 +21,8 @@ inline constexpr double lanczos_share = 0.018, lanczos_search_error = 0.002;
 /// same.
 inline constexpr double lanczos_failure = 1e-9;
 
-/// A stable time step within 2 % of the largest, s. @param pencil matrices of a world with at least one stiff point
+/// A stable time step within 2 % of the largest, s. @param pencil matrices of a world with at least one spring of
+/// nonzero stiffness
 /// @param guess any stable time step, s
 double lanczos_step(const MassScaled& pencil, double guess);
 /// Overload for a world whose springs are the points given by `which`.

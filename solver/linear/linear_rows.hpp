@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Springs between any number of bodies: each row r stores the energy ½k (r·u)², u the motions of all bodies. The
-// pressure of a cell is such a spring between the cell and all of its neighbours (linear/face_rows.hpp).
+// Springs between any number of bodies: each row r stores the energy ½k (r·u)², where u contains the motions of all
+// bodies. The pressure of a cell is such a spring between the cell and all of its neighbours (linear/face_rows.hpp).
 // Tested by tests/solver/linear/face_rows_test.cpp.
 #pragma once
 
@@ -23,7 +23,7 @@ struct RowEntry {
 /// A row with its stiffness and dashpot.
 struct LinearRow {
     double stiffness;            // N/m if the row's product is a length
-    double damping;              // N s/m, likewise
+    double damping;              // N s/m if the row's product is a length
     std::uint32_t first, count;  // range in LinearRows::entries; a degree of freedom may occur several times
 };
 

@@ -26,7 +26,7 @@ class MassScaled {
 
     /// Number of free degrees of freedom.
     Eigen::Index size() const { return static_cast<Eigen::Index>(root_.size()); }
-    /// Whether any point has a dashpot.
+    /// Whether any spring or row has a dashpot.
     bool damped() const;
 
     /// Lower triangle of damping_share·M^-½CM^-½ + stiffness_share·M^-½KM^-½.

@@ -98,7 +98,8 @@ struct BodyBlocks {
     Block stiffness, damping;
 };
 
-/// Bounds all faces of a world at once: each body gets the largest eigenvalue of their matrices on its diagonal.
+/// Block that bounds the contribution of all faces of the world to any body: upper bounds on the eigenvalues of the
+/// faces' matrices, on the diagonal.
 BodyBlocks block_of_faces(const World& world) {
     const auto diagonal = [](double value) { return Block{value, value, value}; };
     return {diagonal(world.faces.stiffness_bound), diagonal(world.faces.damping_bound)};
@@ -203,7 +204,7 @@ void add_row(Block& block, const Roots& roots, const Spring& row, bool second, d
 }
 
 /// Law and root mass of a contact point at its stiffest before the neighbour list is rebuilt. Flat faces that slide
-/// have their largest lap (shared length) then, and points that take over from a broken face have all of its share.
+/// have their largest lap (shared length) then, and points that replace a broken face have their full stiffness.
 struct StiffestPoint {
     ContactLaw law;
     double root_mass;  // sqrt(kg)
@@ -245,8 +246,8 @@ void lower_to_first_meeting(Least& least, const World& world, BodyIndex b) {
     const Vec2 along{info.reach, 0.0};
     double root_mass = std::sqrt(world.bodies.inertia[b].mass);
     if (world.settings.units == StiffnessUnits::area) {
-        // Upper bound on the stiffness factor: a face as long as the body is wide, at a distance of its equivalent
-        // radius.
+        // Upper bound on the stiffness factor, from a face as long as the body is wide, at a distance equal to the
+        // body's equivalent radius.
         const double area = world.bodies.inertia[b].mass / world.settings.materials[info.material].density;
         const double share = 2.0 * info.reach / std::sqrt(area / std::numbers::pi);
         law.normal_stiffness *= share;
@@ -439,8 +440,8 @@ double stable_step_bound(const World& world, BodyIndex* limiting) {
 }
 
 void find_step_bound(World& world) {
-    // Points between loose bodies are counted only within the common skin. The wider skin of a fast body is no reason
-    // for a smaller time step.
+    // In a world without bonds, points are counted only within the common skin. The wider skin of a fast body is no
+    // reason for a smaller time step.
     const bool by_guide = world.settings.segment_law != SegmentLaw::rounded;
     const double least_overlap = by_guide || (!world.bonds.made && world.list.widest_skin == 0.0)
                                      ? -std::numeric_limits<double>::infinity()

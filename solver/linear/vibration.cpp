@@ -55,8 +55,8 @@ std::vector<VibrationMode> lowest_modes(const World& world, std::int64_t count, 
     const std::int64_t all = count + free_motions;
     if (all > most_modes || all >= system.size()) {
         throw InputError(
-            fmt::format("vibration modes: found a request for {} modes besides {} motions without energy, expected "
-                        "at most {} together and fewer than the {} degrees of freedom; ask for fewer",
+            fmt::format("vibration modes: found a request for {} modes in addition to {} motions without energy, "
+                        "expected a total of at most {}, and fewer than the {} degrees of freedom; request fewer modes",
                         count, free_motions, most_modes, system.size()));
     }
     const Matrix stiffness = system.matrix(0.0, 1.0);
@@ -68,7 +68,7 @@ std::vector<VibrationMode> lowest_modes(const World& world, std::int64_t count, 
     solver.init();
     solver.compute(Spectra::SortRule::LargestMagn, restarts, tolerance, Spectra::SortRule::SmallestAlge);
     if (solver.info() != Spectra::CompInfo::Successful)
-        throw InputError("vibration modes: the eigenvalue iteration did not converge; ask for fewer modes");
+        throw InputError("vibration modes: the eigenvalue iteration did not converge; request fewer modes");
     std::vector<VibrationMode> modes;
     for (auto n = static_cast<Eigen::Index>(free_motions); n < wanted; ++n) {
         const Vector x = solver.eigenvectors().col(n);

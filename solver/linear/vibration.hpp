@@ -13,7 +13,7 @@ namespace crackle {
 /// A vibration mode without damping.
 struct VibrationMode {
     double frequency;               // rad/s
-    std::vector<BodyMotion> shape;  ///< by body; the largest mass-scaled component is 1
+    std::vector<BodyMotion> shape;  ///< motion of each body, scaled so that the largest mass-scaled component is 1
 };
 
 /// Largest number of modes that can be requested, including free motions.

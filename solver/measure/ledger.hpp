@@ -12,7 +12,7 @@ namespace crackle {
 struct Ledger {
     double potential = 0.0;      // enrg: -Σ m g·x
     double kinetic = 0.0;        // enva, from the mean of v at n - ½ and n + ½
-    double strain = 0.0;         // enka; for bonded points relative to the bonded state
+    double strain = 0.0;         // enka; for bonded points, the energy relative to the bonded state
     double dashpot_loss = 0.0;   // enca
     double friction_loss = 0.0;  // enfr
     double fracture_loss = 0.0;  // no DEMseg name; 0 in unbonded scenes

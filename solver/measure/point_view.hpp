@@ -30,8 +30,10 @@ struct PointView {
     /// segment law it has another direction.
     std::array<double, 6> overlap_gradient;
     bool bonded, touching, sliding, slid;
-    bool sticks;        // whether the shear spring can carry force without sliding
-    bool closed_joint;  // whether the faces touch from the start although the joint is open
+    bool sticks;  // whether the shear spring can carry force without sliding
+    /// Whether the point lies in an open joint whose faces touch from the start, so that linear solutions treat it as
+    /// bonded.
+    bool closed_joint;
 };
 
 /// Values of one contact point at the current positions; the shear spring and the flags are those of the last force

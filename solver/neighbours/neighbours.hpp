@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Neighbour list: all contact points that could come into contact before a body has moved by half the skin.
 //
-// In a bonded world the skin is as narrow as the motion allows, so that few points are listed that never touch. A mesh
-// has many such points, where corners face each other across a gap. Fast bodies have a wider skin of their own;
-// otherwise a few flying fragments would cause a rebuild every few steps. The list depends only on positions and on the
-// step count, not on the number of threads.
+// In a bonded world the skin is as narrow as the motion allows, so that the list holds few points that never touch.
+// Such points are frequent in a mesh, where corners face each other across a gap. A fast body has a wider skin than the
+// others; otherwise a few flying fragments would cause a rebuild every few steps. The list depends only on positions
+// and on the step count, not on the number of threads.
 #pragma once
 
 #include "solver/world/world.hpp"

@@ -23,13 +23,13 @@ namespace crackle {
 /// Mechanical properties of a joint.
 struct Joint {
     bool bonded = true;  ///< whether the joint's faces are bonded; if not, they push, rub and slide from the start
-    /// Factor >= 0 on the rock's tensile strength or cohesion if the corresponding value below is not given.
+    /// Factor >= 0 on the rock's tensile strength or cohesion, used if the joint's own value is not given.
     double strength_factor = 1.0;
     std::optional<double> tensile_strength;  ///< Pa, >= 0; with 0, a bond breaks under the slightest tension
     std::optional<double> cohesion;          ///< Pa, >= 0
     std::optional<double> friction_angle;    ///< degrees, 0 <= φ < 90; friction angle of the bonds' failure envelope
-    /// Friction angle of unbonded contacts, degrees; if not given, friction_angle is used, and otherwise the rock's
-    /// value.
+    /// Friction angle of unbonded contacts, degrees; if not given, it is friction_angle, or the rock's value if that is
+    /// not given either.
     std::optional<double> residual_friction_angle;
     std::optional<double> normal_stiffness;  ///< K_n, Pa/m, > 0
     std::optional<double> shear_stiffness;   ///< K_s, Pa/m, > 0
@@ -39,9 +39,9 @@ struct Joint {
     double dilation_slip =
         std::numeric_limits<double>::infinity();  ///< m, > 0; accumulated slip at which dilation ends
     double aperture = 0.0;                    ///< m, >= 0; open joints only: gap that must close before the faces touch
-    std::optional<double> residual_cohesion;  ///< Pa, >= 0, of faces after a failure in shear; if not given, the rock's
-                                              ///< value, but at most the joint's cohesion
-    std::optional<double> softening_slip;     ///< m, >= 0, over which the cohesion falls to it
+    std::optional<double> residual_cohesion;  ///< Pa, >= 0, cohesion of faces after a failure in shear; if not given,
+                                              ///< the rock's value, but at most the joint's cohesion
+    std::optional<double> softening_slip;     ///< m, >= 0, slip over which the cohesion falls to residual_cohesion
 
     friend bool operator==(const Joint&, const Joint&) = default;
 

@@ -136,7 +136,8 @@ void validate_laws(const Scene& scene) {
     const BondLawFacts& bonds = facts_of(scene.bond_law);
     const char* law = name_of(scene.bond_law);
     if (guide() && !bonds.with_guide_segments)
-        throw InputError(fmt::format("bond law: found {} with the guide's segments, expected the rounded law", law));
+        throw InputError(
+            fmt::format("bond law: found {} with the DEMseg guide's segment law, expected the rounded law", law));
     if (bonds.sticks && (any_material([](const Material& m) { return m.shear_stiffness == 0.0; }) ||
                          any_pair([](const MaterialPair& p) { return p.shear_stiffness == 0.0; })))
         throw InputError(
@@ -152,7 +153,7 @@ void validate_laws(const Scene& scene) {
     }
     if (scene.units == StiffnessUnits::area) {
         if (guide())
-            throw InputError("units: found area with the segment law of DEMseg's guide, expected the rounded law");
+            throw InputError("units: found area with the DEMseg guide's segment law, expected the rounded law");
         if (any_material([](const Material& m) {
                 return !m.damping_ratio && (m.normal_damping > 0.0 || m.shear_damping > 0.0);
             }))
@@ -458,7 +459,8 @@ void validate(Scene& scene) {
     ids.reserve(scene.bodies.size());
     for (const Body& body : scene.bodies) {
         if (!ids.insert(body.id).second)
-            throw InputError(fmt::format("body {}: found its number twice, expected unique numbers", body.id));
+            throw InputError(
+                fmt::format("body {}: found two bodies with this number, expected unique numbers", body.id));
         validate_body(scene, body);
     }
     validate_joints(scene);

@@ -40,16 +40,16 @@ struct Material {
     double shear_stiffness = unset;   ///< k_s, >= 0, N/m, or Pa with StiffnessUnits::area
     double normal_damping = 0.0;      ///< c_n, N s/m, >= 0
     double shear_damping = 0.0;       ///< c_s, N s/m, >= 0
-    /// Damping ratio h, >= 0. If given, c_n = 2h·sqrt(k_n·m_eff) and c_s = 2h·sqrt(k_s·m_eff) replace the two values
-    /// above.
+    /// Damping ratio h, >= 0. If given, c_n = 2h·sqrt(k_n·m_eff) and c_s = 2h·sqrt(k_s·m_eff) replace normal_damping
+    /// and shear_damping.
     std::optional<double> damping_ratio;
     double friction_angle = 0.0;  ///< φ, degrees, 0 <= φ < 90; μ = tan φ
-    // The constants of BondConstants; 0 for those that the bond law does not use.
+    // Constants of bonds, as in BondConstants; those that the bond law does not use are 0.
     double tensile_strength = 0.0;         ///< N, or Pa, >= 0
     double cohesion = 0.0;                 ///< N, or Pa, >= 0
     double residual_friction_angle = 0.0;  ///< degrees; at most φ
 
-    /// The three constants above as one value.
+    /// The tensile strength, cohesion and residual friction angle as one value.
     BondConstants bond_constants() const { return {tensile_strength, cohesion, residual_friction_angle}; }
 
     friend bool operator==(const Material&, const Material&) = default;
@@ -152,7 +152,7 @@ constexpr auto list_names(StiffnessUnits) { return in_order("point", "area"); }
 
 /// How the first and last steps of a contact are integrated.
 enum class Integrator : std::uint8_t {
-    leapfrog,   ///< like all other steps, as in the DEMseg guide
+    leapfrog,   ///< these steps are integrated like all others, as in the DEMseg guide
     consistent  ///< opening and closing conserve energy (contact/opening.hpp); applies to unbonded points, except the
                 ///< segment kinds of the DEMseg guide's law, whose force has no potential
 };
@@ -161,10 +161,10 @@ constexpr auto list_names(Integrator) { return in_order("leapfrog", "consistent"
 
 /// Which contacts are computed between two bodies that are both driven.
 enum class DrivenContacts : std::uint8_t {
-    none,         ///< none; driven bodies pass through each other
-    unless_held,  ///< all except between two bodies that are held in all degrees of freedom, where forces have no
-                  ///< effect
-    all           ///< all, also between held bodies, because their forces and energies are needed
+    none,         ///< no contacts; driven bodies pass through each other
+    unless_held,  ///< all contacts except those between two bodies that are held in all degrees of freedom, where
+                  ///< forces have no effect
+    all           ///< all contacts, also between held bodies, because their forces and energies are needed
 };
 
 /// First kick of leapfrog. It is a half kick, except in decks, which start with a full kick as in the DEMseg guide (n

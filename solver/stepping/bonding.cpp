@@ -44,7 +44,7 @@ std::int64_t count_interfaces(const World& world) {
     return std::distance(pairs.begin(), std::unique(pairs.begin(), pairs.end()));
 }
 
-/// Adds the faces of a world to its bonds.
+/// Adds the intact faces of a world to its counts of bonds.
 void count_faces(World& world) {
     const Faces& faces = world.faces;
     const auto intact = static_cast<std::int64_t>(faces.size() - faces.broken.size());
@@ -102,16 +102,16 @@ double aperture_of(const World& world, PointIndex k) {
     return bonded(world, k) || law < world.settings.first_joint_law() ? 0.0 : world.settings.joint_of_law(law).aperture;
 }
 
-/// Factors of one bonded point of a pair of bodies. The factors of a face are divided equally among its points. All
-/// factors are 1 for StiffnessUnits::point.
+/// Stiffness and strength factors of one bonded point between two bodies. The factors of a face are divided equally
+/// among its points. All factors are 1 for StiffnessUnits::point.
 struct PointShare {
     double stiffness = 1.0;
     double length = 1.0;      // m
     double shear_root = 1.0;  // Points::shear_root
 };
 
-/// Factors of point k. @param face the face between two polygons, if the pair has one @param count the number of the
-/// pair's bonded points
+/// Stiffness and strength factors of point k. @param face the face between the point's two bodies, if they are polygons
+/// that face each other @param count the number of bonded points between the two bodies
 PointShare share_of_point(const World& world, PointIndex k, const std::optional<ContactShare>& face,
                           std::int64_t count) {
     if (world.settings.units == StiffnessUnits::point) return {};
@@ -134,8 +134,9 @@ void begin_shear_roots(World& world) {
 void share_pair(World& world, const Bonding& bonding, PointIndex begin, PointIndex end) {
     const auto is_chain = [&](BodyIndex b) { return world.bodies.info(b).piece_count > 0; };
     std::int64_t count = 0;
-    double gap = std::numeric_limits<double>::infinity();  // m, smallest gap of the pair's points, since a corner
-                                                           // beyond the end of the facing edge has a larger one
+    // The smallest gap of the pair's points, m, is used, since a corner beyond the end of the facing edge has a larger
+    // gap.
+    double gap = std::numeric_limits<double>::infinity();
     for (PointIndex k = begin; k < end; ++k) {
         if (!of_face(world, k)) continue;
         ++count;
@@ -366,7 +367,7 @@ std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double ga
             if (!alone && world.settings.own_shares()) {
                 throw InputError(
                     fmt::format("bond: found intact bonds on the face between bodies {} and {}, expected a pair "
-                                "without bonds, or whose bonds have all broken",
+                                "that has no bonds, or whose bonds have all broken",
                                 world.bodies.info(pair.body_i).id, world.bodies.info(pair.body_j).id));
             }
             fresh.push_back({k, begin, end, alone, overlap});

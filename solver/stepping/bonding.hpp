@@ -43,7 +43,7 @@ std::int64_t bond_all(World& world, const Bonding& bonding);
 /// Bonds points with a given segment thickness, m, and otherwise default values.
 std::int64_t bond_all(World& world, double thick);
 /// Bonds the polygons of a world by faces, BondLaw::face. @return the number of faces that are intact
-/// @throws InputError as bond_faces()
+/// @throws InputError under the same conditions as bond_faces()
 std::int64_t bond_by_faces(World& world, const FaceBonding& bonding, FaceQuality* quality = nullptr);
 /// Bonds points between the given pairs of bodies if they are unbonded and have an overlap above -gap. Strengths that
 /// are not given follow from the overlap, as in bond_all(). The energy stored in the springs of these points is

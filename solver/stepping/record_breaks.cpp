@@ -51,7 +51,8 @@ void part(World& world, const PassView& pass, PointIndex k, BreakEvent& event) {
     event.shear_mode = broken.in_shear;
     points.shear_force[k] = broken.shear;
     points.bond_overlap[k] = broken.rest_overlap;
-    const int counted = points.state[k].flags & point_counted;  // stays set until the bound is computed again
+    // This flag stays set until the stable bound is computed again.
+    const int counted = points.state[k].flags & point_counted;
     const int touching = broken.normal > 0.0 ? point_touching : 0;
     const int had_bond = world.settings.own_shares() ? point_had_bond : 0;
     points.state[k].flags = static_cast<std::uint16_t>(counted | touching | had_bond);

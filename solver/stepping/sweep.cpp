@@ -16,8 +16,8 @@ namespace {
 /// moved.
 constexpr std::uint32_t bodies_of_chunk = 128;
 
-/// Calls visit(point, body) for each force contribution of a point of the largest kind to a body, in the order of
-/// summation.
+/// Calls visit(point, body) for each force contribution of a point to a body, in the order of summation. The points are
+/// those of the largest kind: the kind that has the most points.
 template <class Visit>
 void for_each_contribution(const World& world, Visit visit) {
     const std::size_t kind = world.workers.plan.largest_kind;
@@ -29,8 +29,8 @@ void for_each_contribution(const World& world, Visit visit) {
     }
 }
 
-/// Range of blocks of the largest kind in which a body has points. For a body without such points, the range is one
-/// arbitrary block.
+/// Range of blocks in which a body has points, among the blocks of the kind that has the most points. For a body
+/// without such points, the range is one arbitrary block.
 struct BlockSpan {
     PointIndex first, last;
 };
@@ -103,8 +103,8 @@ void plan_sweep(World& world) {
     const PointIndex blocks = std::max(PointIndex{1}, blocks_of_kind(world, plan.largest_kind));
     const std::vector<BlockSpan> spans = block_spans(world, blocks);
 
-    // Bodies are sorted by the block after which their force is complete. Late bodies follow, then driven bodies.
-    // Within each group, bodies are sorted by index.
+    // Bodies are sorted by the block after which their force is complete. Bodies whose points are divided among several
+    // threads (late bodies) follow, then driven bodies. Within each group, bodies are sorted by index.
     const PointIndex late = blocks, driven = blocks + 1;
     std::vector<PointIndex> finishing(spans.size());
     for (std::size_t b = 0; b < spans.size(); ++b) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Computes forces, sums them and moves bodies in one sweep over the points, while the data are in the cache.
 //
-// Points of the smaller kinds (platens, walls) are processed first, then those of the largest kind, which are sorted by
-// their lower body index. Once its last point is processed, the force on a body is complete and no later point uses the
-// body, so it can move at once. The forces on a body are summed in this order. Each thread processes a range of blocks
-// of the largest kind. If the first points of a body belong to another thread, that thread's forces are added first, so
-// that sums do not depend on the number of threads.
+// Points of the smaller kinds (platens, walls) are processed first. Those of the largest kind, which has the most
+// points, follow in the order of their lower body index. Once its last point is processed, the force on a body is
+// complete and no later point uses the body, so it can move at once. The forces on a body are summed in this order.
+// Each thread processes a range of blocks of the largest kind. If the first points of a body belong to another thread,
+// that thread's forces are added first, so that sums do not depend on the number of threads.
 #pragma once
 
 #include <cstdint>

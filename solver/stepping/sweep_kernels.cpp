@@ -59,8 +59,8 @@ CRACKLE_INLINE void visit_contributions(const World& world, std::size_t kind, Po
         visit_contributions<false>(world, begin, begin, end, forces, visit);
 }
 
-/// One share of a sweep, in three phases: do_smaller_kinds(), do_largest_kind(), finish_late_bodies(). A phase starts
-/// only after all shares have completed the previous one. Any thread can process a share.
+/// One share of a sweep, processed in three phases: do_smaller_kinds(), do_largest_kind(), finish_late_bodies(). A
+/// phase starts only after all shares have completed the previous one. Any thread can process a share.
 class Sweeper {
   public:
     Sweeper(World& world, const PassView& view, MoveListed move, double kick, std::size_t thread)

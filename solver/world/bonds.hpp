@@ -42,7 +42,7 @@ struct SlipEvent {
     int body_i, body_j;                // input ids
     Vec2 position;                     // m
     double orientation;                // rad, as in BreakEvent
-    double normal_force, shear_force;  // N, elastic forces at the limit
+    double normal_force, shear_force;  // N, elastic forces when the Coulomb limit was reached
 
     CRACKLE_FIELDS(step, time, body_i, body_j, position, orientation, normal_force, shear_force);
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Saves and loads the complete state of a world as bytes, with cereal's binary archive. It includes the neighbour list
-// and the edges faced last, so that a restarted run performs exactly the same arithmetic.
+// and the edge that each contact point faced last, so that a restarted run performs exactly the same arithmetic.
 
 #include "solver/world/checkpoint.hpp"
 
@@ -35,7 +35,7 @@ constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 template <class Archive>
 void serialize(Archive& archive, World& world) {
     World::groups(world, [&](const char* /*name*/, auto& group) { archive(group); });
-    // At the end, so that worlds without faces have nothing of them.
+    // Faces come last in the file, so that worlds without faces write nothing for them.
     if constexpr (Archive::is_saving::value) {
         if (world.faces.size() > 0) archive(world.faces);
     } else {
@@ -112,7 +112,7 @@ bool flat_faces_are_whole(const World& world) {
            });
 }
 
-/// Whether all enumerations have valid values.
+/// Whether all enumerations in a world have valid values.
 bool words_are_known(const World& world) {
     const Settings& s = world.settings;
     return s.driven_contacts <= DrivenContacts::all && s.segment_law <= SegmentLaw::demseg_mean &&

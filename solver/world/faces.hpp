@@ -2,26 +2,31 @@
 // The faces of a world of bonded polygons, as flat arrays: a rigid-body spring network (laws/face_bond.hpp). Each face
 // has one set of springs (normal, shear, moment), and each cell one pressure.
 //
-// Motion of a face between cells i and j, whose images of its midpoint are q_i and q_j:
+// Motion of a face between cells i and j. q_i and q_j are the positions of the face's midpoint, as carried along by
+// cell i and by cell j:
 //     δ_n = (q_j - q_i)·n     δ_t = (q_j - q_i)·t     δ_φ = θ_j - θ_i
-// with n from i to j, turned by ½(θ_i + θ_j), and t the normal turned by +90 degrees. Forces act midway between q_i and
-// q_j, on i: F_n n + F_t t and +M; on j the opposite. They are thus the gradient of an energy for any rotation.
+// n is the initial normal from i to j, rotated by ½(θ_i + θ_j), and t is n rotated by +90 degrees. Forces act midway
+// between q_i and q_j: F_n n + F_t t and the moment +M on i, and the opposite on j. They are thus the gradient of an
+// energy for any rotation.
 //
-// Dilation and pressure of a cell, s_i, s_j the shares and m_i, m_j the skews of a face (find_faces.hpp,
-// bond_faces.cpp):
+// Dilation e_i and pressure p_i of a cell of area A_i. s_i, s_j are the shares and m_i, m_j the skews of a face
+// (faces/bond_faces.hpp):
 //     A_i e_i = Σ_intact L (s_i δ_n ± m_i δ_t) + Σ_broken L (s_i q_n ± m_i q_t) + Σ_side L h_b (-p_i)/E_c
 //     p_i = λ e_i     p̄ = s_i p_i + s_j p_j     τ = m_i p_i - m_j p_j
 //     F_n = k_n δ_n + L p̄     F_t = k_t δ_t + L τ     M = k_φ δ_φ
-// The upper sign is that of cell i. The sides' own pressure is implicit, so that A_i + λ Σ L h_b/E_c divides.
+// The upper sign applies to cell i of a face, the lower one to cell j. The term of the free sides contains the unknown
+// p_i. Solving for p_i therefore gives the divisor A_i + λ Σ L h_b/E_c.
 //
-// A broken face presses by lap_pressure(), with d = δ_n + p̄ L/k_n and the lap L - |δ_t|, and slides:
+// A broken face transmits the pressure of lap_pressure(), for the opening d = δ_n + p̄ L/k_n and the lap L - |δ_t|, and
+// slides by u_p:
 //     F_n = F(d, δ_φ)     q_n = (F_n - L p̄)/k_n     F_t = k_t (δ_t - u_p) + L τ     q_t = δ_t - u_p
-// q_n and q_t take this step's motion, but a late pressure and the slip of the step before. Closed faces have q_n =
-// δ_n, and no lag; open ones lose energy to it, which has an account of its own. In each step the late pressure
-// approaches p̄ by a share of FaceLag, and u_p its limit by another. The shares are 1 where the lag then decays, as in
-// most Voronoi cells, and less elsewhere. Each step is then a descent of the energy at fixed positions.
+// q_n and q_t are computed from the motion in this step, but with the slip of the previous step and a late pressure,
+// which lags behind p̄. Closed faces have q_n = δ_n and therefore no lag. Open faces lose energy to the lag, which is
+// recorded separately. In each step the late pressure approaches p̄, and u_p its limit, by the fractions in FaceLag. A
+// fraction is 1 if the lag then decays, as in most Voronoi cells, and otherwise less. At fixed positions, each step
+// thus reduces the energy.
 //
-// Only strains are small: displacements and rotations may be large. Source: solver/MODEL.md 5.5.
+// Strains are assumed to be small; displacements and rotations may be large. Source: solver/MODEL.md 5.5.
 // Tested by tests/solver/faces/face_pass_test.cpp.
 #pragma once
 
@@ -44,7 +49,8 @@ namespace crackle {
 using FaceIndex = std::uint32_t;  // index into the arrays of Faces
 inline constexpr FaceIndex no_face = 0xffffffff;
 
-/// Records of doubles, stored column by column, so that lanes load a member of consecutive records at once.
+/// Records of doubles. Each member is stored as one column, so that a SIMD load reads it from several consecutive
+/// records.
 template <class Record>
 struct FaceColumns {
     static_assert(std::is_trivially_copyable_v<Record>);
@@ -52,11 +58,11 @@ struct FaceColumns {
     using Row = std::array<double, width>;
 
     Array<double> numbers;  // one column after the other
-    std::size_t count = 0;  // records
+    std::size_t count = 0;  // number of records
 
     /// Number of records.
     std::size_t size() const { return count; }
-    /// A member of all records. @param c its place in the record
+    /// Values of one member in all records. @param c index of the member within a record
     const double* column(std::size_t c) const { return numbers.data() + c * count; }
     double* column(std::size_t c) { return numbers.data() + c * count; }
     /// A record.
@@ -70,7 +76,7 @@ struct FaceColumns {
         const Row row = std::bit_cast<Row>(record);
         for (std::size_t c = 0; c < width; ++c) column(c)[k] = row[c];
     }
-    /// Makes room for `records` records, all of zeros.
+    /// Changes the number of records, and sets all members to 0.
     void assign(std::size_t records) {
         count = records;
         numbers.assign(width * records, 0.0);
@@ -79,21 +85,21 @@ struct FaceColumns {
     CRACKLE_FIELDS(numbers, count);
 };
 
-/// Where a face is on its two bodies, in their frames.
+/// Position of a face on its two bodies, in the body frames.
 struct FacePlace {
-    Vec2 normal_i, normal_j;  // unit vector from i to j when bonded
+    Vec2 normal_i, normal_j;  // unit vector from i to j at bonding
     Vec2 arm_i, arm_j;        // m, from the centroids to the face's midpoint
-    double rest_turn;         // rad, difference of the bodies' angles when bonded
+    double rest_turn;         // rad, difference of the bodies' angles at bonding
 };
 
-/// Springs of a face and its part in the dilation of its two cells.
+/// Springs of a face, and the weights of its motion in the dilations of its two cells.
 struct FaceSprings {
     double normal, shear;     // k_n, k_t, N/m
     double length;            // L, m
     double share_i, share_j;  // s_i, s_j
-    double skew_i, skew_j;    // m_i, m_j: offsets of the midpoint along t over the distance of the reference points
+    double skew_i, skew_j;    // m_i, m_j: offset of the midpoint along t from each reference point, divided by h
 
-    /// Whether one of the bodies is rigid (faces/bond_faces.hpp).
+    /// Whether one of the two bodies is rigid (faces/bond_faces.hpp).
     bool at_rigid() const { return (share_i == 1.0 && share_j == 0.0) || (share_i == 0.0 && share_j == 1.0); }
     /// k_φ, N m/rad.
     double moment() const { return normal * length * length / 12.0; }
@@ -109,67 +115,67 @@ struct BondFaceMotion {
 struct CellPressure {
     double per_area = 0.0;  // λ/(A + λ Σ L h_b/E_c), Pa/m²
     double pressure = 0.0;  // p, Pa
-    double rise = 0.0;      // Pa, p less that of the step before, before faces broke in this step
+    double rise = 0.0;      // Pa, change of p in this step, before faces broke
 
     CRACKLE_FIELDS(per_area, pressure, rise);
 };
 
-/// Dashpots of a face along its normal and tangent and against its turn: coefficients, or forces.
+/// Coefficients or forces of the dashpots of a face, which resist normal, shear and rotational motion.
 struct FaceDashpots {
     double normal = 0.0, shear = 0.0, moment = 0.0;  // N s/m and N m s, or N and N m
 };
 
-/// Shares by which a broken face catches up with its cells in one step.
+/// Fractions by which the late pressure of a broken face approaches p̄, and its slip the limit, in one step.
 struct FaceLag {
     double pressure = 1.0, slip = 1.0;
 
     CRACKLE_FIELDS(pressure, slip);
 };
 
-/// Motion and forces of a broken face, as its energy account needs them from one step to the next.
+/// Motion and forces of a broken face in one step, stored for the energy losses of the next step.
 struct BrokenState {
     double opening = 0.0, sliding = 0.0, turn = 0.0;  // δ_n, δ_t, m; δ_φ, rad
     double half_lap = 0.0;                            // a, m
-    double pressure = 0.0;                            // Pa, late pressure of the next step
+    double pressure = 0.0;                            // Pa, late pressure for the next step
     double skewing = 0.0;                             // τ, Pa
     double stretch = 0.0;                             // q_n, m
     double shear = 0.0;                               // F_t, N
-    double slip = 0.0;                                // u_p of this step less that of the step before, m
-    double late_pressure = 0.0;                       // p̄ less the late pressure, Pa
-    double late_force = 0.0, late_moment = 0.0;       // F_n and M, less those at the late pressure
-    double end_closure = 0.0;                         // N, ½ k w² at the ends of the lap, w the overlap there
-    double held = 0.0;                                // 1 - D
-    double pull = 0.0;                                // J, energy of an undamaged tension
-    double taken = 0.0;                               // 1 - q, which contact points have
-    double whole = 0.0;                               // J, Ψ at the late pressure as if q were 1
+    double slip = 0.0;                                // increase of u_p in this step, m
+    double late_pressure = 0.0;                       // p̄ minus the late pressure, Pa
+    double late_force = 0.0, late_moment = 0.0;       // F_n and M minus their values at the late pressure
+    double end_closure = 0.0;  // N, mean of ½ k w² at the ends of the lap, where w is the overlap
+    double held = 0.0;         // 1 - D
+    double pull = 0.0;         // J, energy of the tension without damage
+    double taken = 0.0;        // 1 - q, the share that contact points have taken over
+    double whole = 0.0;        // J, Ψ at the late pressure, without the factor q
 
     CRACKLE_FIELDS(opening, sliding, turn, half_lap, pressure, skewing, stretch, shear, slip, late_pressure, late_force,
                    late_moment, end_closure, held, pull, taken, whole);
 };
 
-/// What a broken face remembers.
+/// State of a broken face that is kept from step to step.
 struct BrokenFace {
     FaceIndex face = no_face;
     bool in_shear = false;  // how it failed
     bool alone = true;      // whether the neighbour list leaves out the points between its bodies (faces/hand_over.hpp)
     double slip = 0.0;      // u_p, m
     double slipped = 0.0;   // Σ|Δu_p|, m
-    double glued = 0.0;     // b_c, m: least closed length since a failure in shear
-    double held = 0.0;      // 1 - D, share of an intact face's tension that it can carry
+    double glued = 0.0;     // b_c, m: smallest closed length since failure in shear; 0 after failure in tension
+    double held = 0.0;      // 1 - D, remaining share of an intact face's tension
     double energy = 0.0;    // J, stored in the face
-    double taken = 0.0;     // share that the contact points between its bodies have taken over (faces/hand_over.hpp)
-    BrokenState last;       // of the last force pass
+    double taken = 0.0;     // 1 - q, the share that contact points have taken over (faces/hand_over.hpp)
+    BrokenState last;       // state in the last force pass
 
     CRACKLE_FIELDS(face, in_shear, alone, slip, slipped, glued, held, energy, taken, last);
 };
 
-/// Pressure of a broken face's edges at a given pressure of its cells.
+/// Contact of the edges of a broken face, at a given pressure p̄ of its cells.
 struct BrokenContact {
     LapPressure lap;
     double stretch;  // q_n, m
-    double energy;   // J, without shear
-    double pull;     // J, that of an undamaged tension
-    double whole;    // J, Ψ as if no contact points had taken over
+    double energy;   // J, stored energy, excluding that of the shear spring
+    double pull;     // J, energy of the tension without damage
+    double whole;    // J, Ψ without the factor q
 
     CRACKLE_FIELDS(lap, stretch, energy, pull, whole);
 };
@@ -188,7 +194,7 @@ struct FaceLosses {
     CRACKLE_FIELDS(friction, fracture, lag, dashpot);
 };
 
-/// The contact points between the two bodies of a face, which take over from it when it is broken.
+/// The contact points between the two bodies of a face, which gradually replace the face after it has broken.
 struct HandOver {
     FaceIndex face;
     PointIndex begin, end;  // range of points
@@ -206,25 +212,29 @@ struct Faces {
     Array<FaceLag> lag;
     Array<FaceIndex> broken_at;  // index into `broken`; no_face while intact
     std::vector<FaceLaw> laws;
-    /// Faces of each body: from first_face[b] on, in ascending order, each as twice its index, plus 1 if the body is j.
+    /// Faces of each body. Those of body b begin at index first_face[b] of face_ends, in ascending order. An entry is
+    /// twice the index of the face, plus 1 if b is its body j.
     Array<std::uint32_t> first_face, face_ends;
     Array<CellPressure> cells;  // by body
     bool has_pressure = false;  // whether any cell has a pressure
     std::vector<BrokenFace> broken;
     std::vector<HandOver> hand_over;
-    Array<float> whole_share;  // by point, its stiffness_share if it had all; empty if no face hands over
-    double stiffness_bound = 0.0, damping_bound = 0.0;  // 1/s² and 1/s, at least the largest eigenvalues of M^-½KM^-½
-                                                        // and M^-½CM^-½, of all faces as if none were broken
-    FaceColumns<FaceDashpots> dashpots,
-        dashpot_force;      // coefficients, and forces of the last pass; empty without damping
-    double lag_loss = 0.0;  // J, lost because q_n takes the pressures of the step before, and breaks are found late
+    Array<float> whole_share;  // for each point: its stiffness_share at q = 0; empty if no points replace faces
 
-    // The rest is what the last force pass found.
+    // 1/s² and 1/s: upper bounds on the eigenvalues of M^-½KM^-½ and M^-½CM^-½ of all faces, if none were broken.
+    double stiffness_bound = 0.0, damping_bound = 0.0;
+    FaceColumns<FaceDashpots> dashpots,
+        dashpot_force;  // coefficients, and forces in the last force pass; both empty without damping
+    // J, energy lost because q_n uses late pressures, and because breaks are detected only at the end of a step.
+    double lag_loss = 0.0;
+
+    // The following members are results of the last force pass.
     FaceColumns<BondFaceMotion> motion;
-    Array<double> dilation_i, dilation_j;  // m², of both cells by each face; empty without a pressure
-    Array<PointForce> force;               // on body i, and torques on both
-    Array<BrokenContact> late;             // for each broken face, at its late pressure
-    Array<FaceLosses> losses;              // of each block of faces
+    // Contribution of each face to A e of its two cells, m²; empty if cells have no pressure.
+    Array<double> dilation_i, dilation_j;
+    Array<PointForce> force;    // for each face: force on body i, and torques on both bodies
+    Array<BrokenContact> late;  // for each broken face: contact at its late pressure
+    Array<FaceLosses> losses;   // for each block of faces
 
     /// Number of faces.
     std::size_t size() const { return bodies.size(); }
@@ -232,12 +242,12 @@ struct Faces {
     bool damped() const { return dashpots.size() > 0; }
     /// The law of a face.
     const FaceLaw& law_of(FaceIndex k) const { return laws[law[k]]; }
-    /// p̄ of a face, Pa.
+    /// The pressure p̄ = s_i p_i + s_j p_j at a face, Pa.
     double pressure_at(FaceIndex k) const {
         const FaceSprings s = springs[k];
         return s.share_i * cells[bodies[k].body_i].pressure + s.share_j * cells[bodies[k].body_j].pressure;
     }
-    /// τ of a face, Pa.
+    /// The shear stress τ = m_i p_i - m_j p_j at a face, Pa.
     double skewing_at(FaceIndex k) const {
         const FaceSprings s = springs[k];
         return s.skew_i * cells[bodies[k].body_i].pressure - s.skew_j * cells[bodies[k].body_j].pressure;

@@ -13,7 +13,7 @@
 namespace crackle {
 
 /// Widest skin used for all bodies, as a fraction of the median bounding radius. An intact specimen is strained less
-/// than this, and a skin of this width lists few points that never touch.
+/// than this, and with a skin of this width the list holds few points that never touch.
 inline constexpr double skin_share = 0.1;
 
 /// Position of a body's centroid when the neighbour list was built, m.
@@ -38,8 +38,8 @@ struct NeighbourList {
     std::vector<std::uint32_t> size_rank;
     // Upper bound on the distance that any surface point has moved since displacements were last checked, m.
     double travelled = 0.0;
-    double free_way =
-        0.0;  // m, distance by which every surface point could still move at that check without leaving its half skin
+    // Distance by which every surface point could still move at the last check without leaving its half skin, m.
+    double free_way = 0.0;
     double fastest = 0.0;  // m/s, largest surface speed in the last step
     // m per step: half the bounding radius of the smallest body. A faster body could pass through others without
     // contact.

@@ -11,8 +11,8 @@
 
 namespace crackle {
 
-/// Whether feature_j is part of a point's identity. For outlines it is only the edge faced last, a starting guess for
-/// the search.
+/// Whether feature_j is part of a point's identity. For outlines, feature_j is only the edge that the point faced last,
+/// a starting guess for the search.
 constexpr bool names_feature(PointKind kind) {
     return kind == PointKind::element_element || kind == PointKind::face_face || by_guide(kind);
 }

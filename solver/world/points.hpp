@@ -22,19 +22,19 @@ enum class PointKind : std::uint8_t {
     circle_circle = 0,    // two single circles
     element_element = 1,  // circles, at least one of which belongs to a clump
     element_outline = 2,  // circle or vertex of body_i against the outline of body_j
-    face_face = 3,        // two flat faces of single circles across a joint, element_i and feature_j
+    face_face = 3,        // flat faces element_i and feature_j of two single circles across a joint
     // The next two occur only under the DEMseg guide's segment law (geometry/guide_segments.hpp). A segment has the
     // index of the element at which it begins.
     disc_segment = 4,     // circle of body_i against segment feature_j of body_j
     segment_segment = 5,  // segments element_i of body_i and feature_j of body_j
     // Circle or vertex of body_i against a domain wall (body_j is a Wall); feature_j is 1 for a bare vertex.
     element_wall = 6,
-    /// A face between two bonded polygons (world/faces.hpp), element_i and feature_j its index. Events and records have
-    /// it, worlds keep no points of it.
+    /// A face between two bonded polygons (world/faces.hpp); element_i and feature_j are both its index. This kind
+    /// occurs only in events and records; a world stores no points of this kind.
     bonded_face = 7,
 };
 inline constexpr int point_kinds = 7;
-/// Kinds of bonds in records of a test: those of points, and PointKind::bonded_face.
+/// Number of kinds of bonds in the records of a test: the kinds of points, and PointKind::bonded_face.
 inline constexpr int bond_kinds = 8;
 
 /// Whether points of this kind follow the DEMseg guide's segment law, whose force has no potential that depends on the
@@ -70,8 +70,8 @@ struct ContactPoint {
     BodyIndex body_i;
     BodyIndex body_j;         // index of the wall for element_wall
     std::uint32_t element_i;  // element index for element_of(); face_face: index into Bodies::flat_faces
-    // Circle and segment kinds: element of body_j. Outline: the edge faced last, only a starting guess for the search.
-    // face_face: index into Bodies::flat_faces.
+    // Circle and segment kinds: element of body_j. Outline: the edge that the point faced last, only a starting guess
+    // for the search. face_face: index into Bodies::flat_faces.
     std::uint32_t feature_j;
 
     CRACKLE_FIELDS(body_i, body_j, element_i, feature_j);
@@ -187,16 +187,17 @@ enum class Remembered : std::uint8_t {
     since_bonding,     // in all worlds; bonding resets the values to 0
     by_guide_law,      // under the DEMseg guide's segment law
     when_consistent,   // with Integrator::consistent
-    by_half_strength,  // with Bonds::made and BondLawFacts::remembers_strong_forces
-    own_shares,        // with Settings::own_shares()
-    own_shear,         // with Settings::own_shear() and bonds
-    when_dilating,     // with Settings::dilates()
-    between_faces,     // with flat faces (PointKind::face_face)
+    by_half_strength,  // if Bonds::made and BondLawFacts::remembers_strong_forces are true
+    own_shares,        // if Settings::own_shares() is true
+    own_shear,         // if the world has bonds and Settings::own_shear() is true
+    when_dilating,     // if Settings::dilates() is true
+    between_faces,     // if the world has flat faces (PointKind::face_face)
 };
 
 /// All contact points, with one array per quantity, indexed by point.
 struct Points {
-    // Grouped by kind. Within a kind, sorted by (i, j, element), except for points before fours_end.
+    // The points, grouped by kind. Within a kind, they are sorted by (i, j, element), except for points before
+    // fours_end.
     ContactList contact;
     std::array<PointIndex, point_kinds + 1> kind_begin{};
     /// element_outline points before this index are stored in groups of four between the same two bodies, as at the
@@ -221,12 +222,12 @@ struct Points {
     /// by tan ψ times this distance.
     Array<double> slip;
     /// Lap of a face_face point, m: length over which its two flat faces lie opposite each other, in the last force
-    /// pass or at bonding. The stiffness_share of such a point is for a lap of one metre. The value is 1 for other
-    /// kinds.
+    /// pass or at bonding. The stiffness_share of such a point refers to a lap of one metre. Points of other kinds have
+    /// a lap of 1.
     Array<double> lap;
-    // Dashpot forces in the last force pass, N, from which the trapezoidal rule gives their work. These stored values
-    // only enter reports and do not affect the motion, so single precision is used to save memory traffic. The same
-    // applies to strong_normal and strong_shear.
+    // Dashpot forces in the last force pass, N, for computing their work by the trapezoidal rule. They enter only
+    // reports and do not affect the motion, so single precision is used to save memory traffic. The same applies to
+    // strong_normal and strong_shear.
     Array<float> normal_dashpot, shear_dashpot;
     Array<SpringWork> spring_work;
     Array<OpeningMemory> opening;

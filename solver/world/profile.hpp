@@ -47,7 +47,7 @@ struct Profile {
     const Spent& of(Phase phase) const { return phases[static_cast<std::size_t>(phase)]; }
 
     Spent* running = nullptr;  // innermost phase currently being timed
-    Clock::time_point since;   // start of its current interval
+    Clock::time_point since;   // start of the current interval of `running`
 };
 inline constexpr std::int64_t geometry_interval = 64;
 

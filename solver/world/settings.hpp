@@ -32,14 +32,14 @@ struct Settings {
     IntactOptions intact;
     std::vector<Material> materials;
     std::vector<Joint> joints;
-    std::vector<std::int32_t> trace_joints;  ///< for each trace: index into `joints`; -1 for a trace like the rock
+    std::vector<std::int32_t> trace_joints;  ///< for each trace: index into `joints`; -1 if the trace has no joint
     /// Contact laws in this order: material pairs, by pair_number(); the same pairs with unbreakable bonds; each
     /// material against walls; material pairs across each joint.
     std::vector<ContactLaw> laws;
 
     /// Whether each point has its own stiffness and strength factors (Points::stiffness_share, strength_share).
     bool own_shares() const { return facts_of(bond_law).own_shares || units == StiffnessUnits::area; }
-    /// Number of pairs of materials, alike or not.
+    /// Number of pairs of materials, including pairs of one material with itself.
     std::size_t pair_count() const { return materials.size() * (materials.size() + 1) / 2; }
     /// Index in `laws` of the first law across a joint.
     std::size_t first_joint_law() const { return 2 * pair_count() + materials.size(); }

@@ -40,8 +40,8 @@ struct StepControl {
     std::uint64_t weighed_points = 0;  // number of listed points when step_weights were computed
     double exact_step = 0.0;           // s, exact stable step when bonds were made; 0 before bonding
     bool exact_step_proved = false;
-    // Value to which an automatic step returns, s: safety_factor times exact_step; 0 without bonds or with a given
-    // step.
+    // Value to which an automatic step returns, s: safety_factor times exact_step; 0 if the world has no bonds or the
+    // step is given.
     double step_goal = 0.0;
     bool allow_unstable = false;
 

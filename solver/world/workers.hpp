@@ -40,32 +40,33 @@ struct Speeds {
 /// Order in which the threads process points and bodies in a step (stepping/sweep.cpp).
 struct SweepPlan {
     bool valid = false;
-    std::size_t largest_kind = 0;
+    std::size_t largest_kind = 0;  // kind of contact point that has the most points
 
-    /// A range of blocks of the largest kind, together with the bodies that have no points in later blocks.
+    /// A range of blocks of the largest kind of point, together with the bodies whose last such points lie in these
+    /// blocks.
     struct Chunk {
         PointIndex end_block;    // end of the range of blocks
         std::uint32_t end_body;  // end of the chunk's bodies in `order`
     };
     std::vector<Chunk> chunks;
     std::vector<std::uint32_t> thread_chunks;  // index of each thread's first chunk, then the total number of chunks
-    std::vector<BodyIndex> order;              // bodies of the chunks, then late bodies, then driven bodies
-    // Index into `order` of the first late body. Late bodies have points of the largest kind in chunks of several
-    // threads.
+    std::vector<BodyIndex> order;  // bodies of the chunks, then bodies shared by threads, then driven bodies
+    // Index into `order` of the first body that is shared by threads: its points of the largest kind lie in chunks of
+    // several threads.
     std::uint32_t late_begin = 0;
     std::uint32_t driven_begin = 0;  // index into `order` of the first driven body
     bool free_ones_turn = false;     // whether some undriven body has a frame that rotates with it
 
-    // Used only with several threads: force contributions that a thread cannot add immediately, because another thread
-    // must add its contributions first.
+    // The following members are used only with several threads. They hold force contributions that a thread cannot add
+    // immediately, because another thread must add its own first.
     std::vector<std::uint16_t> owner;  // for each body: thread that adds forces to it
     std::vector<std::uint8_t>
         defers;  // for each block of the largest kind of point: whether it has points on bodies of other threads
     std::vector<BodyForce> deferred;            // force contributions to bodies owned by other threads
     std::vector<std::uint32_t> deferred_begin;  // for each thread: index of its first entry in `deferred`
-    std::vector<std::uint32_t> sources;  // indices into `deferred`, grouped by body in `order` from late_begin on
+    std::vector<std::uint32_t> sources;  // indices into `deferred`, by body, for bodies in `order` from late_begin on
     std::vector<std::uint32_t> sources_begin;
-    std::vector<PointForce> smaller_kinds;  // forces of the points of all kinds except the largest
+    std::vector<PointForce> smaller_kinds;  // forces of the points of all kinds except the largest kind
 
     /// Progress of one thread in the current step.
     struct alignas(64) Share {

@@ -32,10 +32,11 @@ struct World {
     Bonds bonds;
     EnergyAccount account;
     Membrane membrane;
-    Faces faces;      // empty unless its bonds are faces
+    Faces faces;      // empty unless whole faces are bonded
     Workers workers;  // not part of the saved state
 
-    /// Groups of the state that a checkpoint saves and a state hash covers; also `faces`, if there are any.
+    /// Groups of the state that checkpoints save and state hashes cover. If the world has faces, `faces` is added to
+    /// them.
     CRACKLE_MEMBERS(groups, settings, bodies, points, list, stepping, bonds, account, membrane);
 };
 

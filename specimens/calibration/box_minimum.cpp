@@ -14,8 +14,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Convergence limit: largest component of the steepest-descent step, cut off at the bounds, that is accepted at a
-// minimum. Derivatives are scaled to order one.
+// A point counts as a minimum if no component of the steepest-descent step, cut off at the bounds, exceeds this value.
+// Derivatives are scaled to order one.
 constexpr double close_to_bottom = 1e-7;
 constexpr int most_restarts = 30;
 
@@ -23,7 +23,7 @@ struct Objective {
     const Residuals& residuals;
     double scale = 1.0;
 
-    /// Sum of squares and its gradient, multiplied by the scale.
+    /// Returns the scaled sum of squares at x, and sets `gradient` to the gradient of that scaled sum.
     double operator()(const VectorXd& x, VectorXd& gradient) const {
         VectorXd r;
         MatrixXd jacobian;
@@ -64,7 +64,7 @@ VectorXd box_minimum(const Residuals& residuals, const VectorXd& start, const Ve
         sum.scale = 1.0 / curvature;
         least = sum(best, gradient);
         if (way_left(best, gradient, low, high) < close_to_bottom) return best;
-        // SLSQP and CCSAQ alternate: what stops one of them early does not stop the other.
+        // SLSQP and CCSAQ alternate, because one of them can continue where the other stopped early.
         nlopt::opt search(k % 2 == 0 ? nlopt::LD_SLSQP : nlopt::LD_CCSAQ, static_cast<unsigned>(start.size()));
         search.set_min_objective(objective, &sum);
         search.set_lower_bounds({low.data(), low.data() + low.size()});

@@ -34,12 +34,14 @@ constexpr double met_share = 0.5;
 // the largest deviation exceeds no_gain times that of the previous round.
 constexpr double no_way = 0.15, no_gain = 0.9;
 constexpr double widest_design = 0.8;
-// The search has converged if the best point predicted by the surfaces lies within this many half-widths of x_.
+// The search has converged if the best point predicted by the response surfaces is at most this many design half-widths
+// from x_.
 constexpr double reach_at_rest = 1.0;
-// After a correction that changes a key by more than this, in logarithms, the means are measured again.
+// If a correction changes a search variable, mostly the logarithm of a key, by more than this, the means are measured
+// again.
 constexpr double large_correction = 0.1;
 constexpr int most_corrections = 3;
-// Weights of the target with the largest miss; each gives a point of the frontier.
+// Weights, relative to the other targets, of the target with the largest deviation; each gives one compromise.
 constexpr double frontier_weights[]{0.03, 0.3, 1.0, 3.0, 30.0};
 
 double t_95(Index count) {
@@ -123,15 +125,15 @@ class Calibration {
         hooks_.stage("  off by: " + text);
     }
 
-    /// Reports tests whose stress still grew when they ended.
+    /// Reports in how many packings a target has no peak, because the stress was still increasing when the test ended.
     void say_without_peak(const Measurements& tests, const VectorXd& x, PackingRange packings) const {
         if (!hooks_.stage) return;
         for (std::size_t t = 0; t < rock_.targets.size(); ++t) {
             const std::int64_t count = tests.without_peak(space_.values_at(x), packings, t);
             if (count == 0) continue;
             hooks_.stage(
-                fmt::format("  no peak: {} in {} of {} packings, which are left out; their stress still grew at "
-                            "loading.max_axial_strain",
+                fmt::format("  no peak: {} in {} of {} packings, which are left out; their stress was still "
+                            "increasing at loading.max_axial_strain",
                             rock_.targets[t].name(rock_.tests), count, packings.count));
         }
     }
@@ -163,7 +165,7 @@ class Calibration {
         return point;
     }
 
-    /// Throws an error that names the target whose result is missing in most packings.
+    /// Throws an InputError that names the target with the fewest usable results.
     [[noreturn]] void refuse_point(const VectorXd& x, PackingRange packings) const {
         const std::vector<double> values = space_.values_at(x);
         std::string at;
@@ -179,12 +181,12 @@ class Calibration {
             negative = static_cast<Index>((figures.col(t).array() <= 0.0).count());
         }
         const std::int64_t peakless = search_.without_peak(values, packings, static_cast<std::size_t>(worst));
-        const char* remedy = "see which tests went wrong";
+        const char* remedy = "find out which tests went wrong";
         if (negative > 0) remedy = "take another target";
         if (peakless > 0)
             remedy =
-                "such specimens are ductile: raise loading.max_axial_strain, or take largest_stress, the stress up to "
-                "there, as the figure";
+                "such specimens are ductile: raise loading.max_axial_strain, or use largest_stress, the largest stress "
+                "up to that strain, as the figure";
         throw InputError(fmt::format(
             "{}: found {} of {} above 0 in only {} of {} packings (0 or less in {}; without a peak in {}; missing in "
             "{}, "
@@ -201,9 +203,9 @@ class Calibration {
         int stalls = 0;
         for (int round = 1; round <= most_rounds; ++round) {
             outcome_.rounds = round;
-            if (!linear_.empty()) begin("moduli by the linear solve");
+            if (!linear_.empty()) begin("moduli from the linear solves");
             x_ = linear_.solve(x_);
-            begin(fmt::format("round {}: measuring its centre on {}", round, counted(rock_.fit, "packing")));
+            begin(fmt::format("round {}: measuring the centre point on {}", round, counted(rock_.fit, "packing")));
             const Measured middle = measured_at(x_, fit_packings());
             surfaces_.remember(x_);
             linear_.learn(x_, middle.means);
@@ -212,7 +214,7 @@ class Calibration {
             const VectorXd limits = space_.widths.cwiseMax(middle.errors);
             const double worst = off.cwiseAbs().cwiseQuotient(limits).maxCoeff();
             const bool met = is_met(middle);
-            const bool alone = space_.other_targets.empty();  // without other targets there are no surfaces
+            const bool alone = space_.other_targets.empty();  // only moduli are targets, so there are no surfaces
             if (met && (alone || !surfaces_.empty())) return;
             if (alone) {
                 if (worst > no_gain * worst_before && ++stalls == 2) return;
@@ -226,13 +228,14 @@ class Calibration {
             design(width);
             const VectorXd next = surfaces_.solve(x_, width, VectorXd::Ones(space_.targets));
             if (met) return;
-            // After two rounds without progress, the targets count as out of reach.
+            // The search stops after two rounds without progress.
             const double moved = surfaces_.distance(next, x_, width);
             const bool solvable = ((surfaces_.predict(next) - space_.logs).cwiseAbs().array() <= limits.array()).all();
             if ((moved < no_way || (!solvable && worst > no_gain * worst_before)) && ++stalls == 2) return;
             worst_before = worst;
             x_ = next;
-            // Widens the design if the solution lies at its edge; narrows it if the solution lies within.
+            // Widens the design if the solution lies at the largest allowed distance; narrows it if the solution lies
+            // within the design.
             if (moved > 0.95 * reach_of_surface)
                 width = std::min(1.5 * width, widest_design);
             else if (moved < 1.0)
@@ -263,8 +266,8 @@ class Calibration {
 
     void design(double width) {
         std::vector<VectorXd> points = surfaces_.design(x_, width);
-        begin(fmt::format("round {}: measuring {} around it on {}", outcome_.rounds, counted(points.size(), "point"),
-                          counted(rock_.fit, "packing")));
+        begin(fmt::format("round {}: measuring {} around the centre on {}", outcome_.rounds,
+                          counted(points.size(), "point"), counted(rock_.fit, "packing")));
         measure(points, fit_packings());
         for (const VectorXd& x : points) surfaces_.remember(x);
         const std::size_t near = surfaces_.fit(x_, width);
@@ -276,7 +279,7 @@ class Calibration {
                 search_.options().folder.string()));
     }
 
-    /// Final corrections, on the larger number of packings `Rock::polish`.
+    /// Final corrections, from means over `Rock::polish` packings instead of `Rock::fit`.
     void polish() {
         for (int k = 0; k < most_corrections; ++k) {
             begin(fmt::format("correction on {}", counted(rock_.polish, "packing")));
@@ -331,8 +334,8 @@ class Calibration {
         return off;
     }
 
-    /// Computes compromises between the target with the largest miss and the others. Moduli are left out: they depend
-    /// only on the elastic keys, so the nearest point is their only compromise.
+    /// Computes compromises between the target with the largest deviation and the others. Moduli are left out: they
+    /// depend only on the elastic keys, so the point nearest to their targets is the only compromise.
     void draw_frontier() {
         Index worst = -1;
         double most = 0.0;
@@ -446,8 +449,8 @@ std::vector<double> CalibrationOutcome::values() const {
 CalibrationOutcome calibrate(const Rock& rock, const CalibrationOptions& options, const CalibrationHooks& hooks) {
     make_folder(options.folder);
     const FolderLock lock(options.folder);
-    // Tests without results from earlier calls are dropped here, once, so that those of this call are kept in every
-    // round.
+    // Removes tests that ended without results in earlier calls. This is done only once, so that such tests of this
+    // call stay in the ledger in every round.
     for (const char* folder : {"search", "fresh"}) {
         const std::filesystem::path ledger = ledger_file(options.folder / folder);
         if (options.retry && is_file(ledger)) CampaignLedger::open(ledger).drop_gone_wrong();

@@ -62,15 +62,15 @@ struct FoundKey {
 
 /// A compromise between targets that cannot be reached together, measured on the packings used for fitting.
 struct FrontierPoint {
-    double weight = 1.0;  ///< weight of the target with the largest miss, relative to the others
+    double weight = 1.0;  ///< weight of the target with the largest deviation, relative to the others
     std::vector<double> values;
     std::vector<MeanFigure> figures;
 };
 
 /// A combination of keys along which no target changes by more than half its tolerance.
 struct FreeDirection {
-    /// For each key, the factor for a step whose largest factor is 1.35; for a key on a linear scale, a difference of
-    /// up to 0.3 of its range.
+    /// Change of each key in one step along this direction: a factor from 0.74 to 1.35 or, for a key on a linear scale,
+    /// a fraction of its range from -0.3 to 0.3.
     std::vector<double> factors;
     double change = 0.0;  ///< largest change of a target along this step, in tolerances
 };
@@ -86,10 +86,10 @@ struct CalibrationOutcome {
     std::vector<FreeDirection> undetermined;
     std::vector<std::vector<double>> tried;  ///< values of the free keys at each point of the search
     std::vector<std::vector<double>>
-        tried_means;  ///< for each of these points, means of the results over the packings used for fitting
+        tried_means;  ///< for each point in `tried`, means of the results over the packings used for fitting
     int rounds = 0;
     std::int64_t tests = 0, linear_solves = 0;
-    double processor_seconds = 0.0;  ///< total of all tests, including those of earlier calls, s
+    double processor_seconds = 0.0;  ///< processor time of all tests, including those of earlier calls, s
 
     /// Whether every target is reached, allowing for the errors of the means.
     bool all_reached() const;

@@ -18,13 +18,14 @@ bool fills(double low, double high, double least, double most) {
 
 Determination determine(const MatrixXd& slopes, const MatrixXd& covariance, double step) {
     constexpr double least_change = 0.5;  // in tolerances
-    // A key is determined if its component in each open direction is at most this fraction of the largest one.
+    // A key is determined if its component in each open (undetermined) direction is at most this fraction of the
+    // largest component.
     constexpr double small_part = 0.1;
     const Index variables = slopes.cols();
     const Eigen::JacobiSVD<MatrixXd> svd(slopes * step, Eigen::ComputeThinU | Eigen::ComputeFullV);
     Determination found;
     found.determined.assign(static_cast<std::size_t>(variables), true);
-    // Pseudo-inverse of the slopes, without the open directions.
+    // Pseudo-inverse of the slopes, restricted to the directions that the targets determine.
     MatrixXd inverse = MatrixXd::Zero(variables, slopes.rows());
     for (Index k = 0; k < variables; ++k) {
         const VectorXd direction = svd.matrixV().col(k);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which keys the targets determine near a solution: the combinations of keys that stay open, and the standard errors of
-// the remaining ones.
+// Which keys the targets determine near a solution: combinations of keys that remain undetermined (open directions),
+// and the standard error of each key apart from these.
 // Tested by tests/specimens/calibration/determination_test.cpp.
 #pragma once
 
@@ -17,15 +17,15 @@ struct OpenDirection {
 struct Determination {
     std::vector<OpenDirection> open;
     Eigen::VectorXd standard_errors;  ///< standard error of each variable, ignoring the open directions
-    /// By variable: whether its component is at most a tenth of the largest one in every open direction.
+    /// For each variable, whether its component is at most a tenth of the largest one in every open direction.
     std::vector<bool> determined;
 };
 
 /// Whether an interval fills nearly the whole range between the bounds and therefore adds no information.
 bool fills(double low, double high, double least, double most);
 
-/// Uses the singular value decomposition of the slopes: a singular direction is open if a step along it changes no
-/// target by half a tolerance.
+/// Applies the singular value decomposition to the slopes. A singular direction is open, that is undetermined, if a
+/// step along it changes every target by less than half its tolerance.
 /// @param slopes  derivatives of the targets, in tolerances: one row per target, one column per variable
 /// @param covariance  covariance of the targets' errors, in tolerances squared
 Determination determine(const Eigen::MatrixXd& slopes, const Eigen::MatrixXd& covariance, double step);

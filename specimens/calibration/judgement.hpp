@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Judges whether fresh packings reach a target.
 //
-// The last correction adjusted the keys until the packings used for it reached the target. Fresh packings are other
-// ones, so their mean differs by chance. The standard error of the difference between the two means decides
-// (difference_half_width()).
+// The last correction adjusted the keys until the packings used for it reached the target. The mean over fresh packings
+// differs from theirs by chance. The verdict therefore depends on the standard error of the difference between the two
+// means (difference_half_width()).
 // Tested by tests/specimens/calibration/judgement_test.cpp.
 #pragma once
 
@@ -37,7 +37,8 @@ struct ReachedTarget {
     /// larger.
     double limit = 0.0;
     TargetVerdict verdict = TargetVerdict::missed;
-    std::int64_t without_peak = 0;  ///< number of fresh packings without a figure because their stress still grew
+    /// Number of fresh packings without a result because the stress was still increasing at the end of the test.
+    std::int64_t without_peak = 0;
 
     /// Whether the target counts as reached, either within the tolerance or within the scatter of both means.
     bool reached() const { return verdict == TargetVerdict::reached || verdict == TargetVerdict::reached_within_error; }

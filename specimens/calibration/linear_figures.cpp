@@ -38,8 +38,8 @@ LinearFigures moduli_of_case(ResolvedCase test, PackingStore& packings) {
     return found;
 }
 
-/// Means by test. A mean covers the packings that have the result, and at least half of them must have it, as with
-/// tests; otherwise it is NaN. @param found  by packing, then by test @param fit  number of packings
+/// Means for each test over the packings that have the result. A mean is NaN if fewer than half of the packings have
+/// it, as for the results of loaded tests. @param found  moduli by packing, then by test @param fit  number of packings
 std::vector<std::vector<double>> means_of(const std::vector<LinearFigures>& found, std::size_t tests,
                                           std::int64_t fit) {
     std::vector<std::vector<double>> means(tests, std::vector<double>(linear_figures, std::nan("")));
@@ -141,7 +141,7 @@ std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& reques
     const bool complete = run_crew(std::min(request.workers, static_cast<int>(count)), crew);
     if (!unwritten.empty()) throw OutputError(unwritten + "; the same command resumes");
     if (!failed.empty())
-        throw SystemFailure(fmt::format("{}: a linear solve failed by the system: {}; the same command resumes",
+        throw SystemFailure(fmt::format("{}: a linear solve failed because of the system: {}; the same command resumes",
                                         rock.file.string(), failed));
     if (!complete) throw TestInterrupted();
     std::vector<std::vector<double>> means = means_of(found, request.tests.size(), rock.fit);

@@ -18,8 +18,7 @@ using Eigen::VectorXd;
 
 // Accuracy to which the linear search meets the target moduli, as a fraction of a tolerance.
 constexpr double close_to_targets = 0.02;
-// Step of the finite differences for the first slopes. It may be large: the moduli are smooth and solved to nine
-// digits.
+// Step of the finite differences for the first slopes. It may be large, because the moduli depend smoothly on the keys.
 constexpr double difference = 0.1;
 constexpr int most_steps = 12;
 
@@ -66,7 +65,7 @@ VectorXd LinearSearch::solve(VectorXd x) {
         const VectorXd next = box_minimum(linear, own, low, high), way = next - own;
         if (way.cwiseAbs().maxCoeff() < 1e-9) break;  // x stays at the bounds
         const VectorXd there = off(at(next));
-        // Broyden's update, which converges since there is no noise.
+        // Broyden's update, which converges because the moduli have no noise.
         slopes_ += (there - residuals - slopes_ * way) * way.transpose() / way.squaredNorm();
         own = next;
         residuals = there;

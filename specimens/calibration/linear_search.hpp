@@ -25,7 +25,7 @@ class LinearSearch {
     /// Updates the ratios of measured to linear moduli from tests at x.
     /// @param means  logarithms of the mean results for all targets
     void learn(const Eigen::VectorXd& x, const Eigen::VectorXd& means);
-    /// Deviation expected at x of each linear target's result from the target, in tolerances.
+    /// Expected deviation from each linear target at x, in tolerances.
     Eigen::VectorXd off(const Eigen::VectorXd& x);
     /// Derivatives of off() with respect to the elastic keys.
     const Eigen::MatrixXd& slopes() const { return slopes_; }

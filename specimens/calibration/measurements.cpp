@@ -73,8 +73,8 @@ void Measurements::measure(const std::vector<std::vector<double>>& points, Packi
     if (outcome.interrupted) throw TestInterrupted();
     if (outcome.progress.failures > 0)
         throw SystemFailure(
-            fmt::format("{}: {} failed by the system ({}), expected figures of all packings; the same command runs "
-                        "what is missing",
+            fmt::format("{}: {} failed because of the system ({}), expected figures of all packings; the same command "
+                        "runs what is missing",
                         options_.folder.string(), counted(outcome.progress.failures, "test"), outcome.failure));
     read(plan);
 }
@@ -87,7 +87,7 @@ void Measurements::read(const Plan& plan) {
                                         results.columns.begin());
     };
     const std::size_t failed = column("failed"), state = column("state");
-    std::vector<std::size_t> columns, divisors;  // columns of the results, and of the denominators of ratios
+    std::vector<std::size_t> columns, divisors;  // columns of the targets' results, and of the denominators of ratios
     for (const Target& target : rock_.targets) {
         columns.push_back(target.of_law() ? column("peak_stress") : column(target.figure));
         divisors.push_back(target.over.empty() ? no_column : column(target.over));
@@ -149,7 +149,7 @@ void Measurements::read(const Plan& plan) {
             "{}: found no {} in any test of {}{}, expected a number; see `crackle campaign show {} --wrong`",
             target.where, target.quantity(), target.source(rock_.tests),
             done[target.test] ? " (did any specimen fail before loading.max_axial_strain?)"
-                              : ", none of which was done",
+                              : ", none of which finished",
             options_.folder.string()));
     }
     const LedgerCounts counts = ledger.counts();

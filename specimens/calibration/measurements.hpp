@@ -36,8 +36,8 @@ class Measurements {
     /// result, or if it refers to the peak and the specimen has not failed.
     Eigen::MatrixXd figures(const std::vector<double>& point, PackingRange packings) const;
 
-    /// Number of packings that lack a target's figure because the stress still grew when the test ended: a ductile
-    /// specimen has no peak.
+    /// Number of packings without a result for a target because the stress was still increasing when the test ended: a
+    /// ductile specimen has no peak.
     std::int64_t without_peak(const std::vector<double>& point, PackingRange packings, std::size_t target) const;
 
     std::int64_t tests() const { return tests_; }  ///< number of tests in the campaign
@@ -55,7 +55,7 @@ class Measurements {
     CampaignHooks hooks_;
     std::vector<std::vector<double>> points_;
     std::map<std::pair<std::size_t, std::int64_t>, std::vector<double>> known_;  // (point, packing) → figures
-    /// Targets of (point, packing) whose figure is missing because a test has no peak.
+    /// For each point and packing, the targets whose result is missing because a test has no peak.
     std::map<std::pair<std::size_t, std::int64_t>, std::set<std::size_t>> peakless_;
     std::int64_t tests_ = 0;
     double processor_seconds_ = 0.0;

@@ -43,7 +43,7 @@ std::string keys_at_bounds(const Rock& rock, const CalibrationOutcome& outcome) 
     return text;
 }
 
-/// Describes targets that no point reaches, and possible compromises.
+/// Describes targets that were not reached, and possible compromises.
 std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
     std::string text, names;
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
@@ -62,7 +62,7 @@ std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
             bounds.empty() ? "" : fmt::format(", with {} at the bounds", bounds));
     }
     if (outcome.frontier.empty()) return text;
-    text += fmt::format("\npossible compromises for {} (means of the fit packings ± standard error):\n",
+    text += fmt::format("\npossible compromises for {} (means of the packings used for fitting ± standard error):\n",
                         target_name(rock, outcome.frontier_of));
     for (const FrontierPoint& point : outcome.frontier) {
         std::string line, keys;
@@ -94,9 +94,9 @@ std::string packings_text(const Rock& rock, const CalibrationOutcome& outcome) {
         const ReachedTarget& reached = outcome.targets[k];
         if (reached.without_peak > 0)
             text += fmt::format(
-                "\n{}: {} of {} fresh packings have no peak, since their stress still grew at "
-                "loading.max_axial_strain, "
-                "and are left out; largest_stress, the stress up to there, is a figure of every test\n",
+                "\n{}: {} of {} fresh packings have no peak, since their stress was still increasing at "
+                "loading.max_axial_strain, and are left out; largest_stress, the largest stress up to that strain, is "
+                "a figure of every test\n",
                 target_name(rock, k), reached.without_peak, rock.fresh);
         if (reached.limit <= target.tolerance || std::abs(reached.off) > reached.limit) continue;
         // The half-width is about two standard errors of a difference between means over equal numbers of packings.

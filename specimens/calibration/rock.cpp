@@ -27,15 +27,15 @@ namespace fs = std::filesystem;
 constexpr DeclaredKey rock_keys[]{
     {"", "title", "a text", "Name of the rock."},
     {"[[test]]", "case", "a file", "Case of `crackle test`, relative to this file; required."},
-    {"[[test]]", "name", "a text", "Name that targets use; the case's file name by default."},
+    {"[[test]]", "name", "a text", "Name by which targets refer to the test; by default, the case's file name."},
     {"[[test]]", "set", "a table", "Keys of the case with other values, as in a plan."},
-    {"[[target]]", "test", "the name of a test", "Test that has the figure; required if there are several tests."},
+    {"[[target]]", "test", "the name of a test", "Test that provides the figure; required if there are several tests."},
     {"[[target]]", "figure", "a figure of summary.json", "\"youngs_modulus\", \"peak_stress\"; required."},
     {"[[target]]", "over", "another figure of summary.json",
      "The target is then the ratio of `figure` to this one, for example crack_initiation_stress to peak_stress."},
     {"[[target]]", "tests", "a list of names",
-     "In place of test, with figure \"friction_angle\" (Mohr-Coulomb, deg) or \"hoek_brown_m\": compressions under at "
-     "least three pressures including 0. The law is fitted to the tests of each packing separately."},
+     "In place of test, with figure \"friction_angle\" (Mohr-Coulomb, deg) or \"hoek_brown_m\": compression tests "
+     "under at least three pressures including 0. The law is fitted to the tests of each packing separately."},
     {"[[target]]", "value", "a number > 0",
      "Value that the mean over packings should reach, in the figure's unit; required."},
     {"[[target]]", "tolerance", "a number > 0 and < 1",
@@ -49,7 +49,7 @@ constexpr DeclaredKey rock_keys[]{
      "Lower bound; required. If it is above 0, the search uses a logarithmic scale, otherwise a linear one."},
     {"[[free]]", "to", "a number > from", "Upper bound; required."},
     {"[[free]]", "start", "a number between",
-     "Start of the search; by default a guess from the targets, otherwise the middle of the bounds."},
+     "Start of the search; by default, a guess from the targets or, without one, the middle of the bounds."},
     {"[[curve]]", "test", "the name of a test",
      "Test to which the measured curve belongs; required if there are several tests."},
     {"[[curve]]", "file", "a file", "CSV with columns axial_strain and axial_stress; required."},
@@ -122,7 +122,7 @@ Target read_target(const Rock& rock, const KeyedTable& table) {
         if (target.of_law())
             table.refuse("figure", fmt::format("\"{:.60}\" of several tests", *figure),
                          fmt::format("one of {}", fmt::join(law_figures, ", ")));
-        table.refuse("tests", "nothing", fmt::format("the compressions to which {} is fitted", *figure));
+        table.refuse("tests", "nothing", fmt::format("the compression tests to which {} is fitted", *figure));
     }
     if (target.of_law()) {
         target.test = target.tests.front();
@@ -149,7 +149,8 @@ Target read_target(const Rock& rock, const KeyedTable& table) {
 
 FreeKey read_free(const Rock& rock, const KeyedTable& table) {
     const auto [key, parameter] = read_case_key(table);
-    if (parameter->kind != ValueKind::real) table.refuse("key", fmt::format("\"{:.40}\"", key), "a key with a number");
+    if (parameter->kind != ValueKind::real)
+        table.refuse("key", fmt::format("\"{:.40}\"", key), "a key with a numeric value");
     for (const char* other : {"numerics.", "output.", "loading."})
         if (key.starts_with(other))
             table.refuse("key", fmt::format("\"{}\"", key),
@@ -201,7 +202,7 @@ void judge_bounds(const Rock& rock) {
     }
 }
 
-/// Checks that each law is fitted to compressions under several pressures.
+/// Checks that each law is fitted to compression tests under several pressures.
 void judge_laws(const Rock& rock) {
     std::vector<double> start;
     start.reserve(rock.free.size());
@@ -211,8 +212,9 @@ void judge_laws(const Rock& rock) {
         for (const std::size_t test : target.tests) {
             const ResolvedCase of = rock.case_of(test, start);
             if (test_kind(of.loading.kind).pulls()) {
-                throw InputError(fmt::format("{}: [[target]] tests: found {}, a tension, expected compressions",
-                                             target.where, rock.tests[test].name));
+                throw InputError(
+                    fmt::format("{}: [[target]] tests: found {}, a tension test, expected compression tests",
+                                target.where, rock.tests[test].name));
             }
             pressures.insert(of.pressure());
         }

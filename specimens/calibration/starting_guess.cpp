@@ -16,7 +16,7 @@ namespace {
 constexpr double intact_share = 0.61, fall_with_scatter = 1.5, share_of_bonds_strength = 0.7;
 constexpr double degrees_per_m = 1.1, steepest_friction = 45.0;
 
-/// Values that the targets state; Pa.
+/// Strengths and pressure in Pa, and Hoek and Brown's m, as known from the targets.
 struct Known {
     std::optional<double> tension, compression, m;
     std::optional<double> confined, pressure;

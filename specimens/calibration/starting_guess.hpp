@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Start of a search if the rock file gives none: strengths and friction of bonds from the targets. The formulas are for
-// Voronoi grains with coulomb bonds in area units, and fit the numbers of specimens/rocks/README.md.
+// Start values of a search if the rock file gives none: strengths and friction angle of the bonds, estimated from the
+// targets. The formulas are for Voronoi grains with coulomb bonds in area units, and fit the values in
+// specimens/rocks/README.md.
 //
-//   tensile strength  T / (0.61 e^(-1.5 v)), with T of the rock and v the coefficient of variation
+//   tensile strength  T / (0.61 e^(-1.5 v)): rock's tensile strength T, coefficient of variation v of bond strengths
 //   cohesion          UCS (1 - sin φ)/(2·0.7 cos φ): seven tenths of the Mohr-Coulomb strength of the bonds
 //   friction angle    1.1 times Hoek and Brown's m, in degrees
 //
-// m is a target itself, or follows from UCS and a strength σ1 under the pressure p: ((σ1 - p)² - UCS²)/(UCS p). These
-// are within a factor of 1.5 of the shipped rocks' keys, so the first round of a search is near its solution.
+// m is a target itself, or follows from UCS and a strength σ1 under the pressure p: ((σ1 - p)² - UCS²)/(UCS p). The
+// start values of the shipped rocks are within a factor of 1.5 of their keys, so the first round of a search is near
+// its solution.
 // Tested by tests/specimens/calibration/starting_guess_test.cpp.
 #pragma once
 
@@ -17,8 +19,8 @@ namespace crackle {
 
 struct Rock;
 
-/// Values of the free keys at which the search starts. A key for which the file gives none starts at a guess within its
-/// bounds where the targets allow one, otherwise in their middle.
+/// Values of the free keys at which the search starts. A key without a start value in the rock file starts at a guess
+/// within its bounds if the targets allow one, otherwise in the middle of its bounds.
 std::vector<double> starting_values(const Rock& rock);
 
 }  // namespace crackle

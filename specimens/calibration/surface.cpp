@@ -23,7 +23,7 @@ Fit fit(const Eigen::MatrixXd& rows, const Eigen::VectorXd& values) {
     fit.coefficients = qr.solve(values);
     const Eigen::VectorXd residuals = values - rows * fit.coefficients;
     const Eigen::MatrixXd inverse = (rows.transpose() * rows).inverse();
-    // Without a point in the fit, its residual is 1/(1 − leverage) times as large.
+    // If a point is left out of the fit, its residual becomes 1/(1 − leverage) times as large.
     const Eigen::VectorXd leverage = (rows * inverse).cwiseProduct(rows).rowwise().sum();
     fit.left_out_error = std::sqrt((residuals.array() / (1.0 - leverage.array()).max(1e-12)).square().mean());
     return fit;
@@ -52,7 +52,7 @@ Surface::Surface(Eigen::VectorXd centre, const Eigen::MatrixXd& points, const Ei
         return all;
     };
     Fit best = fit(rows(), rest);
-    if (best.coefficients.size() == 0) throw std::invalid_argument("Surface: points that do not span its variables");
+    if (best.coefficients.size() == 0) throw std::invalid_argument("Surface: the points do not span the variables");
     const Eigen::Index terms_of_square = (p + 1) * (p + 2) / 2;
     if (p > 0 && n >= terms_of_square + 2) {
         quadratic_ = true;

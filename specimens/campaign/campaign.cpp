@@ -35,7 +35,7 @@ using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
 /// How often a test is tried if a signal kills its process. SIGKILL may have a cause other than the test. Any other
-/// signal comes from the program itself and is likely to come again.
+/// signal comes from the program itself and is likely to recur.
 constexpr int most_tries(int signal) { return signal == SIGKILL ? 3 : 2; }
 // The campaign stops after as many consecutive system failures as there are workers, plus this number: further tests
 // would fail in the same way.
@@ -84,7 +84,8 @@ RowResult unpacked(const Json& json) {
     return r;
 }
 
-/// Processes one piece in a worker. The answer is a result in CBOR, or the reason why the whole campaign must stop.
+/// Processes one piece of work in a worker process. The answer is a result in CBOR, or the reason why the whole
+/// campaign must stop.
 class RowWorker {
   public:
     RowWorker(const Plan& plan, const CampaignOptions& options)
@@ -213,7 +214,7 @@ fs::path folder_to_lock(const CampaignOptions& options) {
     return options.shard.whole() ? options.folder : options.folder / "shards" / fmt::format("{}", options.shard.number);
 }
 
-/// A call of run_campaign(): the ledger, what is still to be run, and what workers answer.
+/// State of a call of run_campaign(): the ledger, the tests still to be run, and the results returned by workers.
 class CampaignRun {
   public:
     /// Opens the ledger and finds the tests of the plan. Requires a locked folder.
@@ -258,12 +259,13 @@ class CampaignRun {
         if (hooks_.told) hooks_.told(text);
     }
 
-    /// The tests to be run. The others are counted as done or gone wrong.
+    /// Finds the tests to be run, and counts the others as done or gone wrong.
     std::vector<std::size_t> open_tasks() {
         std::map<std::string, std::string> ended = ledger_.ended();
         std::map<std::string, KeptHashes> hashes = ledger_.kept_hashes();
         if (!options_.shard.whole() && is_file(ledger_file(options_.folder))) {
-            // Tests need not be run again if they were gathered, or run here before.
+            // Besides the tests in this shard's ledger, those already gathered in the campaign's ledger are not run
+            // again.
             const CampaignLedger gathered = CampaignLedger::read(ledger_file(options_.folder));
             hashes.merge(gathered.kept_hashes());
             for (const auto& [identity, state] : gathered.ended())
@@ -332,7 +334,7 @@ class CampaignRun {
         if (kind == RowKind::failure) outcome_.failure = told(task, result);
         failures_in_a_row_ = kind == RowKind::failure ? failures_in_a_row_ + 1 : 0;
         if (failures_in_a_row_ >= workers_ + most_failures_in_a_row)
-            stop_by_system_ = fmt::format("{} tests one after the other failed by the system, the last one: {}",
+            stop_by_system_ = fmt::format("{} consecutive tests failed because of the system; the last one: {}",
                                           failures_in_a_row_, result.message);
         const double seconds = std::chrono::duration<double>(Clock::now() - loading_).count();
         progress.tests_per_second = static_cast<double>(outcome_.run) / seconds;

@@ -27,7 +27,7 @@ struct CampaignOptions {
     std::filesystem::path folder;
     int workers = 1;
     Shard shard = {};
-    /// Repeat tests that ended in a verdict (RowKind); those with a system failure are always repeated.
+    /// Repeat tests whose case could not be tested (RowKind::verdict); tests with a system failure are always repeated.
     bool retry = false;
     bool endless = false;  ///< see TestOptions::endless
 };
@@ -55,7 +55,7 @@ struct CampaignOutcome {
     std::int64_t run = 0;  ///< number of tests run in this call
     /// s; processor time of the tests that were run, wall-clock time of the call.
     double processor_seconds = 0.0, wall_seconds = 0.0;
-    std::string failure;  ///< name and message of the last test in this call with a system failure
+    std::string failure;  ///< name and message of this call's last test with a system failure
     std::filesystem::path ledger;
     bool interrupted = false;
 };
@@ -63,12 +63,13 @@ struct CampaignOutcome {
 /// The ledger of a campaign's folder, or of one of its shards.
 std::filesystem::path ledger_file(const std::filesystem::path& folder, const Shard& shard = {});
 
-/// Accepts a new or empty folder, or that of a campaign.
+/// Checks that the folder is new or empty, or belongs to a campaign.
 /// @throws InputError for other folders, or if an input file lies in the folder
 void check_campaign_folder(const std::filesystem::path& folder, const Plan& plan);
 
 /// Runs the plan's tests.
-/// @throws InputError if the folder contains foreign files or is in use; OutputError if it cannot be written
+/// @throws InputError if the folder is in use or contains files that do not belong to a campaign; OutputError if it
+/// cannot be written
 CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, const CampaignHooks& hooks = {});
 
 /// Result of gathering shards.

@@ -18,7 +18,7 @@ struct KindEstimate {
     std::string test;
     std::int64_t rows = 0;  ///< number of rows in the plan
     double seconds = 0.0;   ///< processor time of one row, s
-    /// Whether the time is the mean of finished tests. Otherwise, it comes from --check of the first and last point.
+    /// Whether the time is the mean of finished tests. Otherwise, --check estimates it at the first and last point.
     bool measured = false;
     std::vector<std::string> warnings;  ///< warnings from --check
 };
@@ -33,7 +33,7 @@ struct PlanEstimate {
 /// @throws the exceptions of check_test()
 PlanEstimate estimate_plan(const Plan& plan, const CampaignLedger* ledger, const TestHooks& hooks = {});
 
-/// Input of a script for a cluster.
+/// Data from which batch_script() writes a script for a cluster.
 struct BatchRequest {
     std::filesystem::path program, plan, folder;  ///< absolute paths
     int shards = 1, workers = 1;
@@ -48,10 +48,11 @@ inline constexpr double least_work_a_shard = 300.0;
 /// Wall-clock time to request for a shard, s: three times the estimate for the shard, plus five minutes.
 double wall_limit(const BatchRequest& request);
 
-/// Fraction of a plan's tests in the largest of `shards` shards. Packings are not split if there are enough of them.
+/// Fraction of a plan's tests in the largest of `shards` shards. Tests with the same packing are in one shard if there
+/// are at least as many packings as shards.
 double largest_share(const Plan& plan, int shards);
 
-/// A script for Slurm's sbatch: an array job with one task per shard. It resumes when submitted again.
+/// A script for Slurm's sbatch: an array job with one task per shard. If submitted again, the tasks resume.
 std::string batch_script(const BatchRequest& request);
 
 }  // namespace crackle

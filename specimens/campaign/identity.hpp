@@ -28,7 +28,7 @@ class FileHashes {
 /// slips, checkpoints) are excluded.
 std::string identity_of(const ResolvedCase& test, FileHashes& files);
 
-/// Identity of the packing alone; tests with the same identity start from the same circles.
+/// Identity of the packing alone; tests with the same packing identity start from the same circles.
 std::string packing_identity(const ResolvedCase& test, FileHashes& files);
 
 /// Whether a key may differ between tests of the same rock: title, seeds, confinement, loading, threads and output.

@@ -148,7 +148,7 @@ void KeptTests::require_whole_folder(const fs::path& all, const std::string& ide
 }
 
 std::string KeptTests::fault_of(const std::string& identity, Keep keep) const {
-    constexpr const char* nothing = "files kept of a finished test are missing";
+    constexpr const char* nothing = "kept files of a finished test are missing";
     try {
         if (keep == Keep::figures) return "";
         if (keep == Keep::curves) return read_curve(identity) ? "" : nothing;

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int application_id = 0x43524b4c;  // "CRKL"; marks an SQLite file as a ledger
 constexpr int layout_version = 2;
-constexpr int layout_without_hashes = 1;           // layout that can be read, and is converted when opened for writing
+constexpr int layout_without_hashes = 1;           // older layout; readable, and converted when opened for writing
 constexpr std::size_t most_columns_of_long = 480;  // SQLite allows 500 terms in a compound query
 constexpr const char* plan_table =
     "CREATE TABLE plan(row INTEGER PRIMARY KEY, point INTEGER NOT NULL REFERENCES point(number), seed INTEGER NOT "
@@ -121,7 +121,7 @@ void CampaignLedger::make_tables(Journal journal) {
             fmt::format("{}: found a ledger of layout {}, expected {}; another version of crackle made it, "
                         "so choose another folder with -o",
                         file_.string(), version, layout_version));
-    // There is one writer; a killed process loses no finished transaction.
+    // Only one process writes. In both journal modes, a killed process loses no finished transaction.
     db.exec(journal == Journal::beside ? "PRAGMA journal_mode = WAL" : "PRAGMA journal_mode = TRUNCATE");
     db.exec(journal == Journal::beside ? "PRAGMA synchronous = NORMAL" : "PRAGMA synchronous = OFF");
     db.exec("PRAGMA foreign_keys = ON");
@@ -344,7 +344,8 @@ std::int64_t CampaignLedger::gather(const std::filesystem::path& other, bool its
             if (figure_columns_.insert(name).second)
                 db.exec(fmt::format("ALTER TABLE main.figures ADD COLUMN {} ANY", quoted(name)));
         }
-        // A finished test is replaced only by one that kept more of its files. A verdict replaces a RowKind::failure.
+        // A finished test is replaced only if the other one kept more files. A verdict on the case (RowKind::verdict)
+        // replaces a system failure (RowKind::failure).
         const auto rank = [](const char* row) {
             return fmt::format(
                 "CASE WHEN {0}.state = '{1}' THEN 3 + ({0}.curve_sha256 IS NOT NULL OR "

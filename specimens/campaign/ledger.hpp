@@ -77,13 +77,14 @@ class CampaignLedger {
     CampaignLedger& operator=(CampaignLedger&&) = delete;
     ~CampaignLedger();
 
-    /// Replaces the present plan in a single transaction; results of tests stay.
+    /// Replaces the present plan in a single transaction; results of tests are kept.
     /// @param identities  identity of the test in each of plan.rows
     void set_plan(const Plan& plan, const std::vector<std::string>& identities);
     /// Records the result of a test. If the test was recorded before, its row is updated and its number of tries
     /// incremented.
     void record(const RowResult& result, const std::string& host);
-    /// Adds the tests of another ledger that are missing here or not done here. Check both ledgers first.
+    /// Adds tests of another ledger that are missing here, not done here, or done here with fewer kept files. Both
+    /// ledgers must have been checked before.
     /// @param its_plan  whether to copy the other ledger's plan as well @return number of tests added
     std::int64_t gather(const std::filesystem::path& other, bool its_plan);
 
@@ -103,7 +104,7 @@ class CampaignLedger {
 
     /// @throws InputError if the plan has changed since it was recorded
     void require_whole_plan() const;
-    /// @throws InputError that names the plan, or its first row, that has changed since it was recorded
+    /// @throws InputError if the plan or a test has changed since it was recorded; the message names the first one
     void require_whole() const;
     /// Results of the present plan, one row per row of the plan: row, test, axes, seed, variant, identity, state,
     /// processor time, figures by name.

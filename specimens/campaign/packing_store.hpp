@@ -20,7 +20,8 @@ class PackingStore {
 
     /// The packing for a case, read from the store or newly made. Both give the same bits. @throws OutputError
     Packing get(const ResolvedCase& test, const PackingRequest& request, const std::function<Packing()>& make);
-    /// get() for one case, as a hook of its test. The store and the case must outlive it.
+    /// Returns get() for one case, to be used as a hook of its test. The store and the case must outlive the returned
+    /// function.
     auto keeping(const ResolvedCase& test) {
         return [this, &test](const PackingRequest& request, const std::function<Packing()>& make) {
             return get(test, request, make);

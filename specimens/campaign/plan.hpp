@@ -8,8 +8,8 @@
 //   [packings]   count, first_seed    seeds for everything random in a case; without it, each case keeps its own seeds
 //   [run]        keep, time_limit
 //
-// A point is one of these tests at one combination of axis values. Its rows run the point on each of the packings,
-// which are the same for all points.
+// A point is one of the plan's tests at one combination of axis values. The rows of a point run its test on each of the
+// packings, which are the same for all points.
 // Tested by tests/specimens/campaign/plan_test.cpp.
 #pragma once
 
@@ -25,9 +25,9 @@ namespace crackle {
 
 /// Files to be kept of a test.
 enum class Keep : std::uint8_t {
-    figures,  ///< only the results in the ledger
-    curves,   ///< also curve.csv for each test
-    all,      ///< also all other files written by `crackle test`
+    figures,  ///< no files; only the ledger has the results
+    curves,   ///< curve.csv of each test
+    all,      ///< all files that `crackle test` writes
 };
 constexpr auto list_names(Keep) { return in_order("figures", "curves", "all"); }
 
@@ -49,7 +49,7 @@ struct PlannedTest {
 struct PlanPoint {
     std::size_t test = 0;               ///< index into Plan::tests
     std::vector<CaseSetting> settings;  ///< values of the axes that apply to the test, in the order of these axes
-    std::vector<std::size_t> axes;      ///< indices of the axes that apply to the test, in Plan::axes
+    std::vector<std::size_t> axes;      ///< indices in Plan::axes of the axes that apply to the test
     std::vector<std::string> seeds;     ///< keys of the case that are set to the packing's seed
     std::int64_t own_seed = 1;          ///< seed of the packing as written in the case
 };
@@ -68,7 +68,7 @@ struct Plan {
     std::string title;
     std::vector<PlannedTest> tests;
     std::vector<Axis> axes;
-    bool own_seeds = true;  ///< whether each case keeps its own seeds, as without [packings]
+    bool own_seeds = true;  ///< whether each case keeps its own seeds, as in a plan without [packings]
     std::int64_t packings = 1, first_seed = 1;
     Keep keep = Keep::figures;
     double time_limit = 0.0;  ///< largest wall-clock time per test, s; 0: no limit

@@ -25,8 +25,8 @@ constexpr DeclaredKey plan_keys[]{
     {"[[test]]", "name", "a text", "Name of the test; by default, the case's file name."},
     {"[[test]]", "set", "a table", "Keys of the case with other values: set = {\"loading.max_axial_strain\" = 0.02}."},
     {"[[axis]]", "key", "a key of a case", "\"material.cohesion\", \"mineral[2].cohesion\"; required."},
-    {"[[axis]]", "values", "a list", "The values; alternatively, give the keys below."},
-    {"[[axis]]", "from", "a number", "First value, with `to`."},
+    {"[[axis]]", "values", "a list", "Values of the axis; alternatively, give from and to."},
+    {"[[axis]]", "from", "a number", "First value; `to` is then required as well."},
     {"[[axis]]", "to", "a number", "Last value."},
     {"[[axis]]", "count", "a whole number, 2 to ten million",
      "Number of values from first to last; without it the axis belongs to the design."},
@@ -90,7 +90,7 @@ Axis read_axis(const KeyedTable& table, std::int64_t most_values) {
     }
     if (!from || !to) table.refuse(from ? "to" : "from", "nothing", "values, or from and to; add them to [[axis]]");
     if (p.kind != ValueKind::real && p.kind != ValueKind::integer)
-        table.refuse("from", "a range for a key without numbers", "values");
+        table.refuse("from", "a range for a key whose values are not numbers", "values");
     if (*from == *to)
         table.refuse("to", fmt::format("{}, the same as `from`", *to), "a number that differs from `from`");
     if (axis.spacing == Spacing::logarithmic && !(*from > 0.0 && *to > 0.0))

@@ -237,7 +237,7 @@ std::string verdict_on(const MeanFigure& mean, const MeanBias& bias) {
         constexpr double goal = 0.01;
         const double deviation = bias.standard_error * std::sqrt(static_cast<double>(bias.packings));
         const bool unsure = bias.standard_error > goal * size;
-        return parts + (unsure ? fmt::format(": not significant; {:.0f} packings would reveal 1 %",
+        return parts + (unsure ? fmt::format(": not significant; {:.0f} packings would reveal a bias of 1 %",
                                              packings_for(deviation, goal * size))
                                : std::string(": not significant; the scatter of packings is the main error"));
     }

@@ -24,11 +24,11 @@ struct PointSummary {
     std::int64_t failures = 0;  ///< number of tests in gone_wrong with a system failure (RowKind::failure)
     /// Number of finished tests whose specimen did not fail before max_axial_strain and therefore has no strength.
     std::int64_t unfailed = 0;
-    std::vector<std::size_t> rows;  ///< indices into the rows of LedgerTable, in planned order
+    std::vector<std::size_t> rows;  ///< indices into the rows of LedgerTable, in the order of the plan
     bool area_units = false;
     std::map<std::string, MeanFigure> figures;
     std::map<std::string, std::vector<double>>
-        values;  ///< values that each mean is computed from, in the order of the packings' seeds
+        values;  ///< values from which each mean is computed, in the order of the packings' seeds
     std::map<std::string, MeanBias> biases;  ///< empty unless the plan has companion runs
 
     std::string at() const;  ///< "material.cohesion = 2e7, …"; empty if no axis applies
@@ -41,12 +41,12 @@ bool refers_to_peak(std::string_view figure);
 /// Names of the numeric results, in the order of the keys in summary.json.
 std::vector<std::string> numeric_figures(const LedgerTable& results);
 
-/// Results of interest to most readers: moduli and strength.
+/// Names of the results that most users need: moduli and strength.
 std::vector<std::string> usual_figures(const LedgerTable& results);
 
 /// Means and scatter of the requested results for each point.
 /// @param figures  names of the results
-/// @throws InputError if no test has one of them; the message lists the available ones
+/// @throws InputError if a requested result occurs in no test; the message lists the available results
 std::vector<PointSummary> summarise(const LedgerTable& results, const std::vector<std::string>& figures);
 
 /// Unit of a result as in summary.json; empty if the result has no unit or is not listed there.
@@ -56,8 +56,8 @@ std::string unit_of_figure(const std::string& column, bool area_units);
 /// A sentence on the main source of a mean's error and how to reduce it.
 std::string verdict_on(const MeanFigure& mean, const MeanBias& bias);
 
-/// The points as CSV, one row per point and result, in the requested order. Text that a spreadsheet would evaluate gets
-/// an apostrophe in front: it begins with = + - @ or a tab and is not a number.
+/// The points as CSV, one row per point and result, in the requested order. Text that is not a number and begins with
+/// = + - @ or a tab gets a leading apostrophe, since a spreadsheet would evaluate it.
 std::string points_csv(const std::vector<PointSummary>& points, const std::vector<std::string>& figures);
 /// The tests as CSV, one row per test: the view `results` of the ledger without machine-dependent columns.
 std::string tests_csv(const LedgerTable& results);

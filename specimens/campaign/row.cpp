@@ -33,7 +33,7 @@ double processor_seconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// Adds the figures of the visited members.
+/// Adds the figures of each visited member of a summary to a list.
 struct FigureLister {
     Figures& figures;
     std::string prefix = "";
@@ -58,7 +58,7 @@ struct FigureLister {
         else
             figures.emplace_back(name, value);
     }
-    /// Elements have a column for each figure; lists of numbers have none.
+    /// Adds the figures of each element, such as "joints[2].length". Lists of plain numbers are left out.
     template <class T>
     void add(const std::string& name, const std::vector<T>& list) const {
         if constexpr (HasFields<T>)

@@ -68,7 +68,7 @@ struct RowPlace {
 };
 
 /// Numbers, strings and flags of a summary by name; those in tables as "packing.void_ratio". Unknown values are left
-/// out. So are values that describe the run rather than the test: clocks, versions, file names.
+/// out. So are values that describe the run rather than the test: run times, versions, file names.
 Figures figures_of(const Summary& summary);
 
 /// Identity of a row's test, and base name of its kept files.

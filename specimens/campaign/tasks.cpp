@@ -32,7 +32,7 @@ Tasks tasks_of(const Plan& plan, const Shard& shard, const std::function<bool()>
         if (added) all.groups.push_back(packs ? group : "");
         tasks.push_back({k, all.identities.back(), at->second, !test.data_files.empty()});
     }
-    // Whole packings are dealt out if there are enough of them, otherwise single tests.
+    // Distributes whole packings over the shards if there are enough of them, otherwise single tests.
     const auto shares = static_cast<std::size_t>(shard.whole() ? 1 : shard.of);
     const auto own = static_cast<std::size_t>(shard.whole() ? 0 : shard.number - 1);
     const bool by_group = all.groups.size() >= shares;

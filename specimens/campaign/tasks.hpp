@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tests of a campaign: which are to be run, in which order workers take them.
+// The tests of a campaign: which of them are to be run, and the order in which workers take them.
 // Tested by tests/specimens/campaign/campaign_test.cpp.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace crackle {
 
-/// Shard `number` of `of` shards of a plan's tests. Packings are dealt out to the shards in turn, or single tests if
+/// Shard `number` of `of` shards of a plan's tests. Packings are assigned to the shards in turn, or single tests if
 /// there are too few packings. Even a single shard, 1 of 1, has its own ledger.
 struct Shard {
     int number = 0, of = 0;
@@ -39,8 +39,8 @@ struct Tasks {
 /// Finds the tests of a shard. @throws TestInterrupted
 Tasks tasks_of(const Plan& plan, const Shard& shard, const std::function<bool()>& interrupted);
 
-/// Chooses the next piece of work. Numbers below the number of tasks are tests; higher ones stand for making the
-/// packing of a group.
+/// Chooses the next piece of work. Indices below the number of tasks stand for tests; higher indices stand for making
+/// the packing of a group.
 class TaskQueue {
   public:
     /// @param open  tasks to be run @param packings  folder of packings that are already made
@@ -62,7 +62,7 @@ class TaskQueue {
     /// Puts a test back into the queue, to be run again.
     void again(std::size_t task) {
         groups_[group_of(task)].left.push_back(task);
-        first_ = 0;  // the test's group may precede those already begun
+        first_ = 0;  // the test's group may lie before first_ in order_
     }
 
   private:

@@ -152,7 +152,7 @@ void take_list(TestCase& test, const fs::path& file, const TableDescription& tab
 
 /// If a file uses one of several alternative keys for a quantity, drops the values that earlier files set with the
 /// other keys.
-/// @param writes  a function that returns whether the file contains a full key
+/// @param writes  a function that returns whether the file contains a key, given as "table.key"
 template <class Writes>
 void forget_other_ways(TestCase& test, const Writes& writes) {
     for (const Alternatives& ways : case_alternatives()) {
@@ -280,7 +280,7 @@ void take_setting(TestCase& test, const CaseSetting& setting) {
     take_value(test, setting.where, table, key, *node_of(setting.value), entry);
 }
 
-/// Whether the case uses an alternative to this key.
+/// Whether the case gives the same quantity by an alternative key.
 bool said_otherwise(const TestCase& test, const std::string& full_key) {
     const auto is_written = [&](const std::string& key) { return test.position.contains(key); };
     for (const Alternatives& ways : case_alternatives()) {
@@ -314,7 +314,8 @@ void fill_defaults(TestCase& test) {
         const std::size_t entries = table.repeated() ? table.count(test) : 1;
         for (std::size_t entry = 0; entry < entries; ++entry) fill_default(test, p, entry);
     }
-    // Glued by default, since a real grip is stronger than the rock, and pads, jaws and boxes are not made of rock.
+    // By default, platens that pull are glued, since a real grip is stronger than the rock. So are pads, jaws and
+    // boxes, since they are not made of rock.
     const TestKind& kind = test_kind(test.loading.kind);
     if (!kind.presses() && !test.position.contains("loading.platens")) test.loading.platens = PlatenKind::glued;
     if (test.loading.platens == PlatenKind::glued && !test.loading.grip)
@@ -457,7 +458,7 @@ void write_resolved_case(std::ostream& out, const ResolvedCase& test, const fs::
 
 void describe_case_keys(std::ostream& out) {
     out << "include = \"FILE\" at the top: values of FILE apply to keys that the case does not set; FILE may include "
-           "another. A list, such as [[mineral]], applies as a whole. A line has at most "
+           "another. A list such as [[mineral]] replaces the whole list of FILE. A line has at most "
         << longest_toml_line << " bytes.\n";
     for (const TableDescription& table : case_tables()) {
         if (!table.name.empty()) out << '\n' << table.heading() << "  " << table.sentence << '\n';

@@ -36,7 +36,7 @@ struct CaseText {
     bool json = false;  ///< whether the text is JSON; its keys then have no line numbers
 };
 
-/// Factors on the loading rate and on the time step, for companions of a test.
+/// Factors on the loading rate and on the time step, for companion runs: the same test at another rate or time step.
 struct RunScale {
     double rate = 1.0, step = 1.0;
 };
@@ -45,7 +45,7 @@ struct RunScale {
 /// many tests.
 class CaseFiles {
   public:
-    /// @throws InputError as read_case() does, except for errors that only a complete case can show
+    /// @throws InputError as read_case() does, except for errors that can be detected only in a complete case
     explicit CaseFiles(const std::filesystem::path& path);
     /// Reads the values from a text instead of a file.
     explicit CaseFiles(const CaseText& text);
@@ -66,7 +66,7 @@ class CaseFiles {
 ResolvedCase read_case(const std::filesystem::path& path);
 /// Reads and checks a case that is given as text instead of a file.
 ResolvedCase read_case(const CaseText& text);
-/// The joints of a case. @throws InputError if the case was not read
+/// The joints of a case. @throws InputError if the case was not read from a file or text
 JointCase joints_of(const ResolvedCase& test);
 
 /// Values of keys that are known only after the specimen has been made.
@@ -77,7 +77,7 @@ struct MadeValues {
 
 /// Writes the case with all values, each with its unit and description. Reading the output gives the same test.
 /// @param folder  the folder where the text will be stored; paths are written relative to this folder
-/// @throws InputError if the case was not read
+/// @throws InputError if the case was not read from a file or text
 void write_resolved_case(std::ostream& out, const ResolvedCase& test, const std::filesystem::path& folder,
                          const MadeValues& made = {});
 

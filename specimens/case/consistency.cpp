@@ -126,14 +126,14 @@ class ConsistencyCheck {
                    "one", "only a mesh has cells; give radii for circles");
         if (test_.packing.sizes == RadiusLaw::sieve)
             refuse("packing.sizes", "\"sieve\"", "\"uniform\" or \"lognormal\"", because);
-        need("packing.cell_diameter", "cell_spread needs their mean");
+        need("packing.cell_diameter", "cell_spread needs the mean diameter");
         need("packing.cell_spread", "cell_diameter needs a coefficient of variation");
     }
 
     void material() const {
         const auto& m = test_.material;
         if (m.damping_ratio && (m.normal_damping || m.shear_damping)) {
-            refuse("material.damping_ratio", "a ratio and dashpots", "one kind of damping",
+            refuse("material.damping_ratio", "a damping ratio and dashpots", "one kind of damping",
                    "remove damping_ratio or the dashpots");
         }
         const bool area = test_.area_units();
@@ -159,18 +159,18 @@ class ConsistencyCheck {
         for (std::size_t k = 0; k < test_.mineral_pair.size(); ++k)
             numbers(fmt::format("mineral_pair[{}]", k + 1), pair_material(test_, k));
         if (!test_.has_table("packing")) return;
-        need("material.density", "only a particle file could provide it");
-        need("material.friction_angle", "only a particle file could provide it");
+        need("material.density", "required, since no particle file provides it");
+        need("material.friction_angle", "required, since no particle file provides it");
         if (!area) {
-            need("material.normal_stiffness", "only a particle file could provide it");
-            need("material.shear_stiffness", "only a particle file could provide it");
+            need("material.normal_stiffness", "required, since no particle file provides it");
+            need("material.shear_stiffness", "required, since no particle file provides it");
         }
-        if (!m.normal_damping && !m.shear_damping) return;  // a damping ratio is used, given or by default
+        if (!m.normal_damping && !m.shear_damping) return;  // a damping ratio is used, either given or the default
         need("material.normal_damping", "dashpots come in pairs");
         need("material.shear_damping", "dashpots come in pairs");
     }
 
-    /// Checks the keys that bonds by faces need and those that only they use.
+    /// Checks the keys that bonds of whole faces (bond.law = "face") require, and the keys that only such bonds use.
     void faces() const {
         if (!test_.bond_facts().by_faces) {
             for (const FaceConstant& constant : face_constants)
@@ -201,11 +201,12 @@ class ConsistencyCheck {
         }
     }
 
-    /// Checks the stiffnesses and the law of faces of a table.
+    /// Checks the stiffnesses and the strength law of faces with the material values of a table.
     template <class Key>
     void face_numbers(const TestCase::MaterialKeys& m, const Key& key) const {
         try {
-            // The correction is known for even cells; where only it makes a value possible, k_t is nearly 0.
+            // Values must also be possible without the correction c_κ, which was measured for meshes of packed circles
+            // only: values that only the correction makes possible give k_t close to 0.
             for (const double correction : {0.0, test_.face_correction()}) {
                 parts::MaterialValues rock = m;
                 rock.mesh_correction = correction;
@@ -238,7 +239,7 @@ class ConsistencyCheck {
         const BondLawFacts& bonds = test_.bond_facts();
         if (bonds.sticks && m.shear_stiffness == 0.0)
             refuse(key("shear_stiffness"), "0 N/m", fmt::format("a number > 0 with {} bonds", name_of(test_.bond.law)),
-                   "they hold in shear");
+                   "these bonds resist shear through their shear stiffness");
         if (bonds.by_faces && m.youngs_modulus && m.poissons_ratio) face_numbers(m, key);
         if (!bonds.strengths_are_given || !m.tensile_strength || !m.cohesion || !m.friction_angle) return;
         const double friction = friction_coefficient(*m.friction_angle);
@@ -281,9 +282,10 @@ class ConsistencyCheck {
         }
         if (b.strength_distribution == StrengthDistribution::normal && *b.strength_cv > largest_normal_cv)
             refuse("bond.strength_cv", fmt::format("{}", *b.strength_cv), fmt::format("at most {}", largest_normal_cv),
-                   "a normal distribution truncated at 0 cannot have more; use weibull or lognormal");
+                   "a normal distribution truncated at 0 cannot have a larger coefficient of variation; use weibull or "
+                   "lognormal");
         if (test_.has_table("mesh") && b.range > 0.0)
-            exclude("bond.range", "polygons only bond with neighbours that they touch; range is for circles");
+            exclude("bond.range", "polygons bond only with neighbours that they touch; range is for circles");
     }
 
     /// Checks that a strength is given either by a value or by a factor.
@@ -294,7 +296,8 @@ class ConsistencyCheck {
         if (!written(number) && !written(factor))
             need(number, fmt::format("bond.law = \"{}\" needs it, or {}", name_of(test_.bond.law), factor));
         if (!written(factor)) return;
-        exclude_of_materials(which == "tensile" ? "tensile_strength" : "cohesion", factor + " gives it to all bonds");
+        exclude_of_materials(which == "tensile" ? "tensile_strength" : "cohesion",
+                             factor + " determines it for all bonds");
         if (test_.has_table("mesh"))
             exclude(factor,
                     "bonds of these polygons need no overlap, so there is no back-tension to multiply: give " + number);
@@ -304,7 +307,8 @@ class ConsistencyCheck {
     void mesh() const {
         if (!test_.has_table("mesh")) return;
         if (test_.mesh.kind == MeshKind::voronoi && test_.mesh.boundary == Boundary::centres) {
-            refuse("mesh.boundary", "\"seeds\"", "\"domain\" with kind = \"voronoi\"", "Voronoi cells always fill it");
+            refuse("mesh.boundary", "\"seeds\"", "\"domain\" with kind = \"voronoi\"",
+                   "Voronoi cells always fill the domain");
         }
         const bool across_gaps = test_.bond_facts().bonds_across_gaps;
         if (across_gaps && !test_.mesh.thick && !test_.mesh.inset) {
@@ -312,7 +316,7 @@ class ConsistencyCheck {
             return;
         }
         if (!across_gaps)
-            need("mesh.thick", "with back-tension the excess of bond.thick over it determines the strength");
+            need("mesh.thick", "with back-tension the excess of bond.thick over mesh.thick determines the strength");
         const double gap = test_.mesh.inset ? 2.0 * *test_.mesh.inset : *test_.mesh.thick;
         if (across_gaps) {
             if (test_.bond.thick && *test_.bond.thick < gap)
@@ -331,7 +335,7 @@ class ConsistencyCheck {
     void loading() const {
         if (test_.loading.axial_strain_rate && test_.loading.rate_tolerance) {
             refuse("loading.rate_tolerance", "a tolerance in addition to axial_strain_rate", "one of them",
-                   "remove axial_strain_rate to have the rate chosen, or rate_tolerance");
+                   "remove rate_tolerance, or remove axial_strain_rate to let the tolerance control the rate");
         }
         if (test_.loading.platens == PlatenKind::frictional) {
             if (kind_.bonded_because != nullptr)
@@ -403,17 +407,17 @@ class ConsistencyCheck {
         if (!frictional && test_.loading.jaws.value_or(JawShape::arc) != JawShape::arc)
             refuse("loading.jaws", fmt::format("\"{}\"", name_of(*test_.loading.jaws)),
                    fmt::format("\"arc\" with platens = \"{}\"", name_of(test_.loading.platens)),
-                   "a bonded face lies against the disc; use platens = \"frictional\"");
+                   "a bonded jaw follows the outline of the disc; use platens = \"frictional\"");
         if (test_.loading.grip.value_or(0.0) > 0.0)
             refuse("loading.grip", fmt::format("{}", *test_.loading.grip), "0 or no value " + with_kind(),
-                   "such a specimen has no ends to be gripped");
+                   "such a specimen has no ends that could be gripped");
         if (test_.has_table("mesh") && test_.mesh.boundary == Boundary::centres)
             refuse("mesh.boundary", "\"seeds\"", "\"domain\" " + with_kind(), "pads and jaws need flat faces");
         if (test_.shape.notch || kind_.notched) {
             if (test_.has_table("mesh") && !test_.bond_facts().bonds_across_gaps)
                 refuse("bond.law", fmt::format("\"{}\"", name_of(test_.bond.law)),
                        laws_with(&BondLawFacts::bonds_across_gaps) + " with a notch in polygons",
-                       "across the notch, where they are not bonded, their overlap would push them apart");
+                       "polygons on the two sides of the notch overlap without bonds, which would push them apart");
         }
     }
 

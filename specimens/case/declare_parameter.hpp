@@ -107,7 +107,7 @@ struct With {
 };
 
 // NOLINTBEGIN(bugprone-macro-parentheses): the arguments are member names and call lists
-// Versions of clang-format format a lambda in a macro differently.
+// Different versions of clang-format format a lambda in a macro differently.
 // clang-format off
 #define CRACKLE_MEMBER(path) [](TestCase& c) -> auto& { return c.path; }
 #define CRACKLE_ENTRY(list, path) [](TestCase& c, std::size_t entry) -> auto& { return c.list[entry].path; }

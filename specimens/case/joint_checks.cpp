@@ -18,7 +18,7 @@
 namespace crackle {
 namespace {
 
-/// Keys that one choice of a distribution law requires and allows.
+/// The keys that one choice of a distribution law requires, and further keys that it allows.
 template <class Choice>
 struct LawKeys {
     Choice choice;
@@ -205,7 +205,7 @@ class JointCheck {
         const auto key = [&](const char* name) { return table.label + "." + name; };
         if (own.open()) {
             for (const char* name : {"strength_factor", "tensile_strength", "cohesion", "residual_friction_angle"})
-                exclude(key(name), "an open joint has no bonds; its faces have friction_angle");
+                exclude(key(name), "an open joint has no bonds; friction_angle applies to its faces");
         } else if (own.aperture) {
             refuse(key("aperture"), fmt::format("{} m", *own.aperture), "no aperture for a bonded joint",
                    "write bonded = false, or remove it");
@@ -246,7 +246,8 @@ class JointAgainstRock {
             fmt::format("{}: found {}, expected {}; {}", test_.at(table_.label + "." + name), found, expected, remedy));
     }
 
-    /// Joint properties require bonds that they can change, and stiffnesses per area, because faces then have a length.
+    /// Joint properties require a bond law that can apply them, and stiffnesses per area, because faces then have a
+    /// length.
     void laws() const {
         const bool across_joints = test_.bond_facts().across_joints, by_faces = test_.bond_facts().by_faces;
         for (const char* key : {"residual_cohesion", "softening_slip"})
@@ -282,7 +283,7 @@ class JointAgainstRock {
             {own_.residual_friction_angle, own_.friction_angle, rock.residual_friction_angle, rock.friction_angle});
         if (slides_at && own_.dilation_angle.value_or(0.0) > *slides_at)
             refuse("dilation_angle", fmt::format("{} deg", *own_.dilation_angle),
-                   fmt::format("at most the friction angle at which it slides, {} deg", *slides_at),
+                   fmt::format("at most the friction angle of the sliding joint, {} deg", *slides_at),
                    "a larger angle would create energy");
     }
 

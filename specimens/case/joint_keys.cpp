@@ -27,7 +27,7 @@ void add_mechanics(std::vector<Parameter>& all, const char* table, List list) {
     all.push_back(
         key(&Keys::strength_factor, "strength_factor", "",
             "Factor on the rock's tensile strength and cohesion; 1 if not given. Mechanics of joints need bond.law = "
-            "\"coulomb\" and material.units = \"area\"; keys that are not given are as in the rock.")
+            "\"coulomb\" and material.units = \"area\"; keys that are not given have the rock's values.")
             .at_least(0)
             .at_most(1e6));
     all.push_back(key(&Keys::tensile_strength, "tensile_strength", "Pa",
@@ -56,7 +56,7 @@ void add_mechanics(std::vector<Parameter>& all, const char* table, List list) {
                       "Infinite if not given.")
                       .above(0));
     all.push_back(key(&Keys::dilation_angle, "dilation_angle", "deg",
-                      "Sliding faces open by tan(dilation_angle) times their slip, in both directions; at most the "
+                      "Sliding faces open by tan(dilation_angle) times their slip, whatever its sign; at most the "
                       "friction angle at which they slide.")
                       .at_least(0)
                       .below(90));
@@ -64,8 +64,8 @@ void add_mechanics(std::vector<Parameter>& all, const char* table, List list) {
                       "Slip after which sliding faces open no farther; no limit if not given.")
                       .above(0));
     all.push_back(key(&Keys::aperture, "aperture", "m",
-                      "Closure of an open joint's faces without force; at most the gap of the mesh, or the radius of "
-                      "the smallest circle.")
+                      "Closure at which the faces of an open joint begin to carry force; at most the gap of the mesh, "
+                      "or the radius of the smallest circle.")
                       .above(0));
     all.push_back(
         key(&Keys::residual_cohesion, "residual_cohesion", "Pa",

@@ -10,7 +10,7 @@ std::vector<Parameter> loading_keys() {
     return {
         CRACKLE_KEY(loading, kind, "",
                     "biaxial: compression under a confining pressure; brazilian: a disc between jaws; bending: a beam "
-                    "on two supports; scb: half a disc with a notch; direct_shear: in two half boxes."),
+                    "on two supports; scb: half a disc with a notch; direct_shear: a block in two half boxes."),
         CRACKLE_KEY(loading, axial_strain_rate, "1/s",
                     "Platen speed divided by the specimen's height, in place of rate_tolerance; for tests without "
                     "platens, the rate of their nominal strain.")
@@ -44,8 +44,8 @@ std::vector<Parameter> loading_keys() {
                     "within the grips; frictional: by friction (compression only). glued in tension if not given.")
             .otherwise(PlatenKind::bonded),
         CRACKLE_KEY(loading, grip, "",
-                    "Fraction of the height at each end within which bonds never break, with glued platens; if not "
-                    "given 0.1 in tension, else 0.")
+                    "Fraction of the height at each end within which bonds never break, with glued platens. If not "
+                    "given: 0.1 in tension, otherwise 0.")
             .at_least(0)
             .below(0.5),
         CRACKLE_KEY(loading, platen_friction_angle, "deg", "Friction angle of frictional platens.")
@@ -71,16 +71,17 @@ std::vector<Parameter> loading_keys() {
                     "direct_shear: increase of normal stress per rise of the upper box; 0 if not given.")
             .at_least(0),
         CRACKLE_KEY(loading, normal_stress, "N/m or Pa", "direct_shear: normal stress on the upper box.").at_least(0),
-        CRACKLE_KEY(loading, box_gap, "m", "direct_shear: gap between the half boxes; two mean particles if not given.")
+        CRACKLE_KEY(loading, box_gap, "m",
+                    "direct_shear: gap between the half boxes; twice the mean particle size if not given.")
             .above(0),
         CRACKLE_KEY(loading, control, "",
-                    "Strain that grows at a steady rate: axial (if not given), or lateral in compression, for which "
-                    "the platen moves back when the specimen would break by itself (class II). "
-                    "max_axial_strain then limits the total strain back and forth. Needs rate_tolerance."),
+                    "Strain that increases at a steady rate: axial (if not given), or lateral in compression, for "
+                    "which the platen moves back when the specimen would break by itself (class II). "
+                    "max_axial_strain then limits the total strain travelled, back and forth. Needs rate_tolerance."),
         CRACKLE_KEY(loading, unload_at_strain, "",
                     "Axial strains, in ascending order, at each of which the specimen is unloaded and reloaded; equal "
-                    "ones are cycles of one amplitude (fatigue). summary.json has the modulus of each cycle, which "
-                    "damage lowers. Needs rate_tolerance.")
+                    "strains are cycles of the same amplitude (fatigue). summary.json contains the modulus of each "
+                    "cycle, which damage lowers. Needs rate_tolerance.")
             .above(0)
             .below(1),
         CRACKLE_KEY(loading, unload_at_stress, "N/m or Pa",
@@ -92,16 +93,17 @@ std::vector<Parameter> loading_keys() {
             .below(1),
 
         CRACKLE_KEY(confinement, pressure, "N/m or Pa",
-                    "Pressure on the sides throughout the test; before loading begins, the platens apply it, too. "
+                    "Pressure on the sides throughout the test; before loading begins, the platens also apply it. "
                     "Pa with material.units = \"area\".")
             .above(0),
         CRACKLE_KEY(confinement, side, "",
-                    "What presses on the sides: membrane (if not given), which follows the specimen; walls, two smooth "
-                    "rigid plates, each pressed with the pressure times the initial height."),
+                    "What applies the pressure: a membrane (if not given), which follows the specimen; or walls, two "
+                    "smooth rigid plates, each loaded with the pressure times the initial height."),
 
         CRACKLE_KEY(numerics, time_step, "s", "Time step; derived from the stiffness bound if not given.").above(0),
         CRACKLE_KEY(numerics, safety_factor, "",
-                    "Ratio of the derived time step to the exact stable step, if the guaranteed bound allows it.")
+                    "Ratio of the derived time step to the exact stable step. The derived step is smaller if the "
+                    "guaranteed bound requires it.")
             .above(0)
             .at_most(1)
             .otherwise(0.8),
@@ -111,29 +113,30 @@ std::vector<Parameter> loading_keys() {
             .otherwise(std::int64_t{1}),
         CRACKLE_KEY(numerics, contact_law, "",
                     "Contact law of polygons: corner against outline (rounded), or segment against segment as in "
-                    "DEMseg's guide, with the sum (demseg) or the mean (demseg_mean) of its disc cases.")
+                    "DEMseg's guide, with the sum (demseg) or the mean (demseg_mean) of the overlaps of each pair.")
             .otherwise(SegmentLaw::rounded),
-        CRACKLE_KEY(numerics, integrator, "",
-                    "How unbonded contacts open and close: leapfrog, as in DEMseg's guide, or consistent, which "
-                    "conserves energy.")
+        CRACKLE_KEY(
+            numerics, integrator, "",
+            "How the opening and closing of unbonded contacts is integrated: leapfrog, as in DEMseg's guide, or "
+            "consistent, which conserves energy.")
             .otherwise(Integrator::leapfrog),
         CRACKLE_KEY(
             numerics, intact, "",
             "Whether breaking, sliding and new contacts are disabled, to compare a run with the linear solution.")
             .otherwise(false),
         CRACKLE_KEY(numerics, allow_unstable, "",
-                    "Whether a time step above the stable bound is accepted, to show the limit.")
+                    "Whether a time step above the stable bound is accepted, to demonstrate the limit.")
             .otherwise(false),
 
         CRACKLE_KEY(output, curve_rows, "",
-                    "Number of rows of curve.csv over max_axial_strain; peak and failure are judged by at least 2000 "
-                    "rows, written or not.")
+                    "Number of rows of curve.csv over max_axial_strain; peak and failure are determined from at least "
+                    "2000 rows, even if fewer are written.")
             .at_least(10)
             .at_most(99998)
             .otherwise(std::int64_t{2000}),
         CRACKLE_KEY(output, frames, "",
-                    "Number of frames over max_axial_strain, besides start, peak and end. If not given: 100 up to 2000 "
-                    "bodies, beyond that 200,000 divided by their number, at least 20 and at most curve_rows.")
+                    "Number of frames over max_axial_strain, besides start, peak and end. If not given: 100 for up to "
+                    "2000 bodies; for more, 200,000 divided by their number, at least 20 and at most curve_rows.")
             .at_least(1)
             .at_most(99998),
         CRACKLE_KEY(output, frame_precision, "",
@@ -141,16 +144,16 @@ std::vector<Parameter> loading_keys() {
                     "thousandth of an overlap; double is exact.")
             .otherwise(FramePrecision::single_),
         CRACKLE_KEY(output, slips, "",
-                    "Whether slips.csv is written: the first arrival of each back-tension bond at its Coulomb limit.")
+                    "Whether slips.csv is written: when each back-tension bond first reaches its Coulomb limit.")
             .otherwise(false),
         CRACKLE_KEY(output, emission, "",
                     "Whether ae.csv is written: acoustic events (bond breaks clustered in place and time) with their "
-                    "moments; takes some time.")
+                    "moments; this takes some time.")
             .otherwise(false),
         CRACKLE_KEY(output, checkpoint_interval, "s", "Wall-clock time between checkpoints.").above(0).otherwise(60.0),
         CRACKLE_KEY(output, out_of_plane_thickness, "m",
                     "Only converts reported numbers: stresses in N/m are divided by this thickness for the _pa values, "
-                    "and for MPa on terminal and page. If not given, the _pa values are for 1 m.")
+                    "and for values in MPa in the terminal and on the page. If not given, the _pa values are for 1 m.")
             .above(0),
     };
 }

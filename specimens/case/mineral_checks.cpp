@@ -57,7 +57,7 @@ class MineralCheck {
             const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
             if (std::all_of(name.begin(), name.end(), is_digit))
                 refuse(key_of(k, "name"), name.empty() ? "an empty text" : fmt::format("\"{:.40}\"", name),
-                       "a name with a letter",
+                       "a name that is not a number",
                        "a whole number in a file of labels is the position of a mineral in the list");
             if (!taken.insert(name).second)
                 refuse(key_of(k, "name"), fmt::format("\"{:.40}\" a second time", name), "a unique name", "rename one");
@@ -82,14 +82,14 @@ class MineralCheck {
             return;  // area fractions follow from the labels or the image
         if (open > 1) {
             refuse("mineral[1]", fmt::format("{} minerals without area_share", open), "at most one",
-                   "give the others their shares");
+                   "give the other minerals an area_share");
         }
         if (open == 1 && sum >= 1.0 - share_rounding)
             refuse("mineral[1]", "a mineral without area_share although the others fill the specimen",
                    "shares that leave an area for it", "lower a share, or remove it");
         if (open == 0 && sum < 1.0 - share_rounding)
             refuse("mineral[1]", fmt::format("shares with a sum of {:g}", sum), "a sum of 1",
-                   "raise a share, or omit the share of one mineral, which then gets the rest");
+                   "raise a share, or omit the share of one mineral, which then gets the remaining area");
     }
 
     void files() const {
@@ -129,9 +129,9 @@ class MineralCheck {
         for (std::size_t k = 0; k < test_.mineral.size(); ++k) {
             const TestCase::MaterialKeys& own = test_.mineral[k].own;
             if (own.damping_ratio && dashpots)
-                refuse(key_of(k, "damping_ratio"), "a ratio although [material] has dashpots",
+                refuse(key_of(k, "damping_ratio"), "a damping ratio although [material] has dashpots",
                        "the same kind of damping everywhere",
-                       "give dashpots for the mineral, or a ratio in [material]");
+                       "give dashpots for the mineral, or damping_ratio in [material]");
             for (const bool normal : {true, false}) {
                 if (!(normal ? own.normal_damping : own.shear_damping) || dashpots) continue;
                 refuse(key_of(k, normal ? "normal_damping" : "shear_damping"),
@@ -164,7 +164,7 @@ class MineralCheck {
                 refuse(key, "only the names", fmt::format("at least one of {}", fmt::join(keys, ", ")),
                        "add one, or remove the table");
             if (test_.bond_facts().by_faces && is_written("stiffness_ratio"))
-                refuse(key, "stiffness_ratio", "strengths and friction alone with bond.law = \"face\"",
+                refuse(key, "stiffness_ratio", "only strengths and friction with bond.law = \"face\"",
                        "the stiffness of a face follows from its two minerals");
             if (is_written("contact_modulus") != is_written("stiffness_ratio"))
                 refuse(key, "one of contact_modulus and stiffness_ratio", "both, or neither",

@@ -151,7 +151,7 @@ const std::vector<TableDescription>& case_tables() {
          "platens.",
          [](const TestCase& c) { return c.mineral.size(); }, [](TestCase& c, std::size_t n) { c.mineral.resize(n); }},
         {"mineral_pair",
-         "Contacts between two minerals, in place of springs in series and the smaller friction of the two.",
+         "Contacts between two minerals, in place of springs in series and the smaller friction angle of the two.",
          [](const TestCase& c) { return c.mineral_pair.size(); },
          [](TestCase& c, std::size_t n) { c.mineral_pair.resize(n); }},
         {"joints", "How traces of joints are generated."},

@@ -48,7 +48,7 @@ parts::Mesh mesh_of(const TestCase::Mesh& keys) {
     return mesh;
 }
 
-/// @param correction c_κ of the mesh
+/// @param correction  c_κ of the mesh (solver/laws/face_bond.hpp)
 parts::MaterialValues values_of(const TestCase::MaterialKeys& keys, double correction) {
     parts::MaterialValues values = keys;
     if (keys.youngs_modulus) {
@@ -255,7 +255,7 @@ parts::Loading loading_of(const TestCase::Loading& keys) {
     return loading;
 }
 
-/// Adds the file that `parts` names, if it holds a part of type Part.
+/// Adds the path of the file that `parts` names if the variant `parts` holds a Part.
 template <class Part, class Variant>
 void add_file(std::vector<std::filesystem::path>& files, const Variant& parts) {
     if (const auto* part = std::get_if<Part>(&parts)) files.push_back(part->path);

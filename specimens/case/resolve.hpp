@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Turns a case as written into the parts that the stages of a test use. The parts contain no keys of the case file, no
-// words, and no values that still need a default.
+// Turns a case as written into the parts that the stages of a test use. The parts contain no keys or option names of
+// the case file, and no values that still need a default.
 // Tested by tests/specimens/case/resolve_test.cpp.
 #pragma once
 
@@ -18,7 +18,8 @@ ResolvedCase resolve(const std::shared_ptr<const TestCase>& written);
 /// @throws InputError if planes of joints do not intersect the section
 JointCase resolve_joints(const std::shared_ptr<const TestCase>& written);
 
-/// The case that was resolved, for writing it. Number of threads and numerics.allow_unstable may differ.
+/// Returns the case from which the parts were resolved, so that it can be written. The parts may have another number of
+/// threads, another value of numerics.allow_unstable, and another step_scale.
 /// @throws InputError if the parts were not made by resolve(), or if they were changed
 std::shared_ptr<const TestCase> written_case(const ResolvedCase& test);
 

@@ -78,7 +78,7 @@ std::vector<Parameter> specimen_keys() {
         CRACKLE_KEY(packing, cell_spread, "", "Coefficient of variation of the cells' diameters, with cell_diameter.")
             .above(0)
             .at_most(1),
-        CRACKLE_KEY(packing, mean_overlap, "m", "Mean overlap of all contacts to which the circles are compressed.")
+        CRACKLE_KEY(packing, mean_overlap, "m", "Mean overlap, over all contacts, to which the circles are compressed.")
             .above(0),
         CRACKLE_KEY(packing, void_ratio, "",
                     "Void ratio to which the circles are compressed, in place of mean_overlap.")
@@ -93,7 +93,7 @@ std::vector<Parameter> specimen_keys() {
                     "mean cell size sqrt(width height/cells).")
             .above(0),
         CRACKLE_KEY(mesh, inset, "m", "Depth by which each polygon is inset; thick/2 if not given.").at_least(0),
-        CRACKLE_KEY(mesh, boundary, "", "Outer faces: flat on the domain, or where the outermost centres lie.")
+        CRACKLE_KEY(mesh, boundary, "", "Outer faces: flat on the domain boundary, or where the outermost centres lie.")
             .otherwise(Boundary::domain),
         CRACKLE_KEY(mesh, merge_destroyed, "", "Whether a cell that the inset destroys is merged into a neighbour.")
             .otherwise(false),
@@ -114,15 +114,15 @@ std::vector<Parameter> specimen_keys() {
                     "that neither depends on the size of the grains.")
             .otherwise(StiffnessUnits::point),
         CRACKLE_KEY(material, contact_modulus, "Pa",
-                    "Contact modulus E_c in area units: a face of length L between centroids at the distance l has k_n "
-                    "= E_c L/l.")
+                    "Contact modulus E_c in area units: a face of length L between centroids a distance l apart has "
+                    "k_n = E_c L/l.")
             .above(0),
         CRACKLE_KEY(material, stiffness_ratio, "", "k_n over k_s, in area units.").above(0),
         CRACKLE_KEY(minerals, assign, "",
-                    "How grains get their minerals: at random until the areas are as stated; by size, the largest "
-                    "grains getting the mineral listed first; from a file of labels; from an image.")
+                    "How grains get their minerals: at random until the area shares are met; by size, where the "
+                    "largest grains get the mineral listed first; from a file of labels; from an image.")
             .otherwise(MineralAssignment::random),
-        CRACKLE_KEY(minerals, seed, "", "Seed of the random assignment; the same seed gives the same grains.")
+        CRACKLE_KEY(minerals, seed, "", "Seed of the random assignment; the same seed gives the same assignment.")
             .at_least(0)
             .otherwise(std::int64_t{1}),
         CRACKLE_KEY(minerals, labels, "",
@@ -136,7 +136,7 @@ std::vector<Parameter> specimen_keys() {
         CRACKLE_LIST_KEY(mineral, name, "", "Name of the mineral in [[mineral_pair]], labels and results.")
             .needed_with_table(),
         CRACKLE_LIST_KEY(mineral, area_share, "",
-                         "Share of the area of all grains; one mineral may leave it out and gets the rest.")
+                         "Share of the area of all grains; one mineral may omit the key and gets the remaining area.")
             .above(0)
             .at_most(1),
         CRACKLE_LIST_KEY(mineral, colour, "", "Colour in the image, \"#rrggbb\"."),
@@ -157,13 +157,16 @@ std::vector<Parameter> specimen_keys() {
             .below(360),
 
         CRACKLE_KEY(joints, shortest, "m",
-                    "Traces with a shorter length in the box are left out, because grains are larger; amounts include "
-                    "them. If not given: the mean spacing of the grains, or 0 if traces are generated without grains.")
+                    "Traces that are shorter than this in the box are left out, because grains are larger; they still "
+                    "count towards the amounts. If not given: the mean spacing of the grains, or 0 if traces are "
+                    "generated without grains.")
             .above(0),
-        CRACKLE_KEY(joints, snap, "m",
-                    "Tolerance of traces: nodes closer than half of it are merged, points within a quarter of it of a "
-                    "straight line are removed, and nothing moves farther than it. 0 leaves traces unchanged. If not "
-                    "given: a fifth of the mean spacing of the grains, or 0 if traces are generated without grains.")
+        CRACKLE_KEY(
+            joints, snap, "m",
+            "Tolerance for cleaning traces: nodes closer than half the tolerance are merged, and points within a "
+            "quarter of it of a straight line are removed. No point moves farther than the tolerance. 0 leaves "
+            "traces unchanged. If not given: a fifth of the mean spacing of the grains, or 0 if traces are "
+            "generated without grains.")
             .at_least(0),
 
         CRACKLE_LIST_KEY(joint_set, name, "", "Name of the set in reports, figures and results.").needed_with_table(),
@@ -185,26 +188,29 @@ std::vector<Parameter> specimen_keys() {
         CRACKLE_LIST_KEY(joint_set, dip_direction, "deg", "Dip direction of the mean plane, clockwise from north.")
             .at_least(0)
             .at_most(360),
-        CRACKLE_LIST_KEY(joint_set, fisher_k, "", "Concentration of the planes' normals about the mean one.")
+        CRACKLE_LIST_KEY(joint_set, fisher_k, "", "Concentration of the planes' normals about the mean normal.")
             .at_least(1e-3)
             .at_most(1e6),
         CRACKLE_LIST_KEY(
             joint_set, length, "",
-            "Distribution of lengths. persistent: through the whole box; gaps: lines that alternate length_mean of "
-            "joint and gap_mean of rock (each uniform within its deviation); fixed; uniform: within length_deviation; "
-            "lognormal; exponential; power_law: density ~ l^-length_exponent from length_min to length_max.")
+            "Distribution of lengths. persistent: through the whole box; gaps: lines on which joints (mean "
+            "length_mean) and rock bridges (mean gap_mean) alternate, each uniform within its deviation; "
+            "fixed; uniform: within length_deviation; lognormal; exponential; power_law: density ~ l^-length_exponent "
+            "from length_min to length_max.")
             .otherwise(JointLength::persistent),
         CRACKLE_LIST_KEY(joint_set, length_mean, "m", "Mean length of a trace, before the box cuts it.").above(0),
         CRACKLE_LIST_KEY(joint_set, length_deviation, "m",
                          "Half the range of lengths (uniform, gaps), or their standard deviation (lognormal).")
             .above(0),
-        CRACKLE_LIST_KEY(joint_set, length_min, "m", "Shortest trace of a power law.").above(0),
-        CRACKLE_LIST_KEY(joint_set, length_max, "m", "Longest trace of a power law.").above(0),
-        CRACKLE_LIST_KEY(joint_set, length_exponent, "", "Exponent of a power law.").at_least(-10).at_most(10),
+        CRACKLE_LIST_KEY(joint_set, length_min, "m", "Shortest trace, for length = \"power_law\".").above(0),
+        CRACKLE_LIST_KEY(joint_set, length_max, "m", "Longest trace, for length = \"power_law\".").above(0),
+        CRACKLE_LIST_KEY(joint_set, length_exponent, "", "Exponent, for length = \"power_law\".")
+            .at_least(-10)
+            .at_most(10),
         CRACKLE_LIST_KEY(joint_set, gap_mean, "m",
-                         "Mean rock bridge between two traces of a line, for length = \"gaps\".")
+                         "Mean length of the rock bridges between traces on a line, for length = \"gaps\".")
             .above(0),
-        CRACKLE_LIST_KEY(joint_set, gap_deviation, "m", "Half the range of rock bridges.").above(0),
+        CRACKLE_LIST_KEY(joint_set, gap_deviation, "m", "Half the range of the lengths of rock bridges.").above(0),
         CRACKLE_LIST_KEY(joint_set, number, "", "Amount: number of traces in the box.").at_least(1).at_most(100000),
         CRACKLE_LIST_KEY(
             joint_set, p10, "1/m",

@@ -191,7 +191,7 @@ struct TestCase : WrittenPlaces {
         std::optional<std::vector<double>> unload_at_stress;  // N/m, or Pa
         std::optional<double> unload_to;                      // -; fraction of the stress at which unloading began
 
-        /// Whether the lateral strain, instead of the axial strain, grows at a steady rate.
+        /// Whether the lateral strain, instead of the axial strain, increases at a steady rate.
         bool by_lateral_strain() const { return control == LoadingControl::lateral; }
         /// Whether the specimen is unloaded and reloaded.
         bool unloads() const { return unload_at_strain || unload_at_stress; }
@@ -220,7 +220,7 @@ struct TestCase : WrittenPlaces {
     bool uniaxial() const { return test_kind(loading.kind).uniaxial; }
     /// Properties of the case's bond law.
     const BondLawFacts& bond_facts() const { return bond.facts(); }
-    /// c_κ of faces (solver/laws/face_bond.hpp): means of boxes of cells around the centres of packed circles.
+    /// c_κ of faces (solver/laws/face_bond.hpp): mean values of boxes of cells that were meshed around packed circles.
     double face_correction() const { return has_table("mesh") && mesh.kind == MeshKind::delaunay ? 0.79 : 0.3; }
     /// Whether stiffness and strengths are given per area, in Pa.
     bool area_units() const { return material.units == StiffnessUnits::area; }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Overlap growth and slip of every bonded point per unit of strain, from their springs.
+/// Increase in overlap and slip of a bonded point per unit of strain, computed from its springs.
 struct PointRates {
     Rate closing, slipping;
 };
@@ -67,7 +67,7 @@ LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate,
     return bond;
 }
 
-/// An intact face. @param growth of its forces per unit of strain
+/// Linear result for an intact face. @param growth  increase in the face's forces per unit of strain
 LinearBond linear_face(const World& world, FaceIndex k, const FaceForces& growth, double strain) {
     const auto [i, j] = world.faces.bodies[k];
     const BodyState& body = world.bodies.state[i];
@@ -95,10 +95,10 @@ std::optional<FirstEvent> first_of(const std::vector<LinearBond>& bonds, double 
     return first;
 }
 
-/// Sign of the strain of a solution, which is for tension, in the direction of loading.
+/// Sign of the linear solution's strain, which is tensile, when strain is positive in the direction of loading.
 double sense_of(const PlacedApparatus& apparatus) { return apparatus.compression ? -1.0 : 1.0; }
 
-/// Rates at all points for unit strain in the direction of loading.
+/// Rates at all points per unit of strain in the direction of loading.
 std::vector<PointRates> rates_of_test(const World& world, const PlacedApparatus& apparatus, const Moduli& moduli) {
     const double sense = sense_of(apparatus);
     std::vector<PointRates> rates = rates_of(world, moduli.solution);

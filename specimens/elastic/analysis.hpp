@@ -2,8 +2,8 @@
 // Results from the linear solution of a bonded specimen between its platens: moduli, the bonds that fail first, the
 // stable time step, free motions and vibration modes. No time stepping is needed.
 //
-// Let ε be the axial strain in the direction of loading, and a_n, a_t the growth of a point's overlap and slip per unit
-// of ε:
+// Let ε be the axial strain in the direction of loading, and a_n and a_t the increases in a point's overlap and slip
+// per unit of ε:
 //       break:  δ0 + ε a_n = 0                         (linear, no slip)
 //       slip:   k_s |a_t| ε = μ k_n (δ0 + ε a_n)       (Coulomb limit, solver/MODEL.md 4.2)
 // The Coulomb limit of an opening point falls with its overlap, so the point slips before it breaks, unless its shear
@@ -26,10 +26,11 @@ namespace crackle {
 struct LinearBond {
     int body_i = 0, body_j = 0;  ///< input ids
     Vec2 position;               // m
-    /// Strength, N: in tension k_n δ0, or the tensile strength of a coulomb bond; infinite if it cannot break.
+    /// Strength of the bond in tension, N: k_n δ0, or the tensile strength of a coulomb bond; infinite if the bond
+    /// cannot break.
     double strength = 0.0;
     double overlap = 0.0;       // m, δ0, initial overlap
-    double closing = 0.0;       // m, growth of the overlap under `strain`
+    double closing = 0.0;       // m, increase in the overlap under `strain`
     double normal_force = 0.0;  // N, compression positive
     double shear_force = 0.0;   // force on body_i, N; positive along the normal from i to j turned by +90 degrees
     double break_strain = 0.0;  ///< axial strain at which the point breaks; infinite if it closes
@@ -55,7 +56,7 @@ struct ElasticAnalysis {
     std::optional<FirstEvent> first_break, first_slip;
     double stable_time_step = 0.0;  // s, exact limit
     bool stable_time_step_proved = false;
-    // s; lower bound on the stable step that needs no eigenvalue solve; step that a test would use
+    // s; lower bound on the stable time step, found without an eigenvalue solve; time step that a test would use
     double time_step_bound = 0.0, time_step = 0.0;
     FreeMotions free;
     std::vector<int> free_ids;        ///< input ids of the bodies that can move without resistance
@@ -68,8 +69,8 @@ struct ElasticAnalysis {
 /// @param moduli  solution for a world with bonded platens, either `world` itself or one with the same bodies
 double yield_strain(const World& world, const PlacedApparatus& apparatus, const Moduli& moduli, double share);
 
-/// Axial strain at which half of the closed points of open joints slide in the linear solution, starting from their
-/// present forces. Infinite if they never do, or if no such point carries a force.
+/// Axial strain at which half of the points that touch on unbonded joints slide in the linear solution, starting from
+/// their present forces. Infinite if they never do, or if no such point carries a force.
 double joint_slip_strain(const World& world, const PlacedApparatus& apparatus, const Moduli& moduli);
 
 /// Linear results of a specimen that is bonded but not yet loaded.

@@ -4,7 +4,7 @@
 //
 //     (ε_x, ε_y, γ_xy) = S (σ_x, σ_y, τ_xy)            S in 1/Pa (area units) or m/N, stress tensile positive
 //
-// It follows from three load cases. The mean strains are those of the sides with displacements u:
+// The matrix S follows from three load cases, with mean strains from the displacements u of the sides:
 //     ε_ij = ½∮(u_i n_j + u_j n_i) ds / A
 // There are no platens, which would restrain oblique joints. A persistent set of joints at spacing S, with normal n and
 // stiffnesses K_n and K_s per length, adds (Amadei and Goodman 1981)

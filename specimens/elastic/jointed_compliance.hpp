@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compliance of a case's jointed specimen, and of the same mesh with its traces welded. For comparison, it gives the
-// compliance that persistent traces add according to Amadei and Goodman (compliance.hpp); each trace has its own
-// direction and length.
+// Compares the compliance of a case's jointed specimen with that of the same mesh with welded traces. The expected
+// difference is the compliance that persistent traces add according to Amadei and Goodman (compliance.hpp); each trace
+// has its own direction and length.
 // Tested by tests/specimens/elastic/jointed_compliance_test.cpp.
 #pragma once
 

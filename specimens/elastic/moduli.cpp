@@ -11,11 +11,12 @@
 namespace crackle {
 namespace {
 
-// A motion stores no energy if it has less than this fraction of its springs' stiffness, as in find_free_motions().
+// A specimen is a mechanism if the solution stores less than this fraction of the energy of a uniform strain.
+// find_free_motions() uses the same fraction.
 constexpr double free_share = 1e-9;
 
-/// Energy of all springs if every body moves with a uniform axial strain of 1, J; an upper bound on that of the
-/// solution.
+/// Energy of all springs if every body moves with a uniform axial strain of 1, J; an upper bound on the energy of the
+/// linear solution.
 double energy_of_mean_strain(const World& world, const PlacedApparatus& apparatus) {
     const double low = world.bodies.state[apparatus.bottom].y, high = world.bodies.state[apparatus.top].y;
     std::vector<BodyMotion> motion(world.bodies.size());

@@ -53,7 +53,8 @@ double mean_damping_ratio(const World& world, const PlacedApparatus& apparatus) 
         if ((world.points.state[k].flags & point_bonded) == 0 || apparatus.is_platen(point.body_i) ||
             apparatus.is_platen(point.body_j))
             continue;
-        // Damping ratios are stored relative to the root mass m: the critical dashpot is 2 sqrt(k_n) m.
+        // With m the square root of the effective mass, the critical dashpot is 2 sqrt(k_n) m. Damping ratios are
+        // stored as dashpots divided by m.
         const ContactLaw& law = world.settings.laws[world.points.state[k].law];
         const double mass = root_mass_of(world, k);
         sum += (law.normal_damping + law.normal_damping_ratio_term * mass) /

@@ -56,7 +56,7 @@ struct EmissionRule {
 /// specimen's modulus (Voigt).
 double mean_field_shear_modulus(const World& world, const TestSetup& setup);
 
-/// Rule with G = E/(2 (1 + ν)), as in two dimensions, or with mean_field_shear_modulus() if E or ν is unknown.
+/// Emission rule with G = E/(2 (1 + ν)), as in two dimensions, or with mean_field_shear_modulus() if E or ν is unknown.
 /// @param youngs_modulus, poissons_ratio  results of the linear solution; NaN if there is no solution
 /// @param thickness  out of plane, m
 /// @throws InputError if the shear modulus is not positive
@@ -77,7 +77,8 @@ struct OpenEvent {
     AcousticEvent event;            ///< the event, with its duration and moment up to now
     std::vector<Vec2> places;       // m, positions of the event's breaks
     std::vector<BodyIndex> bodies;  ///< bodies of the source, sorted
-    /// Earlier forces at those points of the bodies that carried a load, sorted by kind and key (point_order.hpp).
+    /// Forces just before the breaks at the loaded contact points of the source, sorted by kind and key
+    /// (point_order.hpp).
     std::vector<EarlierForce> before;
 
     CRACKLE_FIELDS(event, places, bodies, before);
@@ -114,7 +115,7 @@ class EmissionListener {
     struct SurfacePoint {
         PointIndex point;
         bool of_i;           ///< whether body_i belongs to the source
-        std::size_t before;  ///< index into OpenEvent::before; npos if the point carried no force then
+        std::size_t before;  ///< index into OpenEvent::before; npos if the point carried no force before the break
     };
     /// Surface of an open event; found again when the contact list has been rebuilt or a body has joined the event.
     struct Surface {

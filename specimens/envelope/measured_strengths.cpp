@@ -57,7 +57,7 @@ std::optional<std::string> first_difference(const RockKeys& a, const RockKeys& b
     return std::nullopt;
 }
 
-/// A test from a test's folder or a campaign.
+/// A test that was read from its own folder or from a campaign.
 struct StrengthTest {
     std::string where;    ///< description in messages
     std::string packing;  ///< name of the packing; the bootstrap draws whole packings
@@ -94,8 +94,8 @@ class Collection {
         }
         const auto parted = from_name<PartingPlace>(figures.damage.failed_at.value_or(""));
         if (pulled && parted.value_or(PartingPlace::gauge) != PartingPlace::gauge) {
-            leave_out(test.where,
-                      fmt::format("parted at the {}: that is not the rock's tensile strength", name_of(*parted)));
+            leave_out(test.where, fmt::format("separated at the {}, so its peak is not the rock's tensile strength",
+                                              name_of(*parted)));
             return;
         }
         const double confinement = figures.confinement.confining_pressure.value_or(0.0);

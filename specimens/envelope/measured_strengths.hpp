@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Strengths of one rock, read from the folders of tests and campaigns: compressions with their confining pressure, and
-// tensions. All cases must describe the same rock. They may differ in keys that keys_of_rock() leaves out
-// (specimens/campaign/identity.hpp), and in a gap between cells that was derived from the number of cells.
+// Strengths of one rock, read from the folders of tests and campaigns: those of compression tests with their confining
+// pressures, and those of tension tests. All cases must describe the same rock. They may differ in keys that
+// keys_of_rock() leaves out (specimens/campaign/identity.hpp), and in a gap between cells that was derived from the
+// number of cells.
 // Tested by tests/tools/commands/envelope_test.cpp.
 #pragma once
 
@@ -35,7 +36,7 @@ struct MeasuredStrengths {
     /// Tensile strengths, positive, of specimens that separated within the gauge length.
     std::vector<double> tensions;
     std::vector<std::string> left_out;  ///< one sentence for each test without a strength, giving the reason
-    /// Number of tests of campaigns among these with a system failure (RowKind::failure).
+    /// Number of tests in `left_out` that a campaign recorded as system failures (RowKind::failure).
     std::int64_t failures = 0;
     std::string unit;  ///< unit of the stresses, "Pa" or "N/m"
 };

@@ -26,7 +26,7 @@ constexpr std::size_t redrawn = 10'000;
 constexpr std::uint64_t bootstrap_seed = 1;
 constexpr double degrees_a_radian = 180.0 / std::numbers::pi;
 
-/// The tests at one confinement, represented by their mean; least squares need no more.
+/// Mean strength of the tests at one confinement, with its weight in a least-squares fit.
 struct WeightedPoint {
     double confinement, strength;
     double weight;  // square root of the number of tests, divided by their mean strength
@@ -201,7 +201,8 @@ void state_by_leaving_out(const FittedNumbers& fitted, std::size_t packings, aut
     const auto n = static_cast<double>(packings);
     for (std::size_t k = 0; k < fitted.size(); ++k) {
         if (k == angle_number) continue;
-        // The interval of mean_of() for n values is t sqrt(squares/(n - 1)/n) on either side of the mean.
+        // With S the sum of squared deviations, mean_of() gives the half-width t sqrt(S/(n (n - 1))). The jackknife
+        // half-width is n - 1 times this.
         const MeanFigure mean = mean_of(logarithms[k]);
         const double half = 0.5 * (mean.high - mean.low) * (n - 1.0);
         fitted[k]->low = fitted[k]->value * std::exp(-half);
@@ -251,10 +252,10 @@ double StrengthEnvelope::mohr_coulomb_on_plane(double normal) const {
 
 namespace {
 
-/// The strengths of several packings, from which any of them can be drawn again.
+/// Strengths by packing, so that both laws can be fitted to any selection of packings.
 class DrawnPackings {
   public:
-    /// @param points  the mean strength of all packings at each confinement @param means  the same strengths
+    /// @param points  mean strength of all packings at each confinement @param means  statistics of the same strengths
     DrawnPackings(const PackingStrengths& packings, const WeightedPoints& points, std::span<const StrengthAt> means)
         : points_(points), means_(means) {
         for (const auto& [name, own] : packings) {

@@ -46,7 +46,8 @@ Stretch interface_share(const World& world, const TestSetup& setup, PointIndex b
     for (PointIndex k = first; k < last; ++k)
         places.push_back(middle_of(facing_at_start<K>(world, setup, bonds.points.at<K>(k))));
     const Vec2 from = middle_of(held), one = farthest(places, from), other = farthest(places, one);
-    // If two corners face each other, the contact normal differs from that of the face.
+    // If two corners face each other, the contact normal is not the face's normal, so the face's direction follows from
+    // its points.
     const double length = norm(other - one), least = bonds.thick;
     const Vec2 along = length > least ? (1.0 / length) * (other - one) : perpendicular(held.normal);
     double begin = 0.0, end = 0.0;

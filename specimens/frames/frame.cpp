@@ -61,7 +61,8 @@ void take_loose(const BondRecord& bonds, const LooseContacts& loose, const auto&
     std::ranges::sort(frame.joint_forces, {}, &Frame::JointForce::bond);
 }
 
-/// Stores the forces of faces. Their normal force depends on the pressure of cells, so that it is given for each.
+/// Stores the forces of faces. The normal force of each face is stored too, because it depends on the pressure of cells
+/// and cannot be computed from positions alone.
 void take_faces(const World& world, const BondRecord& bonds, const auto& target) {
     const PointIndex first = bonds.kind_begin[static_cast<std::size_t>(PointKind::bonded_face)];
     for (PointIndex bond = first; bond < bonds.kind_begin.back(); ++bond) {
@@ -101,7 +102,7 @@ void take(const World& world, const BondRecord& bonds, const ContactHistory& his
         const PointIndex last = bonds.kind_begin[static_cast<std::size_t>(K) + 1];
         PointIndex next = first;
         for (PointIndex k = begin; k < end; ++k) {
-            // From this index on, the list starts again with the same kind.
+            // The sorted order of the points starts again at this index, within the same kind.
             if (k == world.points.fours_end) next = first;
             const ContactPoint point = world.points.contact.at<K>(k);
             const auto flags = world.points.state[k].flags;

@@ -93,8 +93,8 @@ void take_frame(const World& world, const BondRecord& bonds, const ContactHistor
                 std::int64_t row_index, FrameOnDisc& frame);
 
 /// Default number of frames up to max_axial_strain. It is 100 for up to 2,000 bodies, and 200,000 divided by the number
-/// of bodies above that. It is at least 20, but at most the number of curve rows. A frame costs about as much as thirty
-/// steps, and 170 bytes per circle while it is written.
+/// of bodies above that. It is at least 20, but at most the number of curve rows. Writing a frame takes about as long
+/// as thirty steps, and needs 170 bytes of memory per circle.
 std::int64_t default_frames(std::int64_t bodies, std::int64_t curve_rows);
 
 std::string particles_file(std::int64_t row);  ///< name of the file of particles: "particles_00042.vtp"

@@ -52,7 +52,7 @@ class ArrayReader {
         const std::uint64_t blocks = word_at(decode(0, 32, 24), 0);
         if (blocks == 0) return {};
         if (blocks > text.size())
-            refuse_frame(file, fmt::format("array '{}': found {} blocks in {} letters", name, blocks, text.size()));
+            refuse_frame(file, fmt::format("array '{}': found {} blocks in {} characters", name, blocks, text.size()));
         const std::size_t header_bytes = 8 * (3 + static_cast<std::size_t>(blocks));
         const std::size_t header_letters = (header_bytes + 2) / 3 * 4;
         const Bytes header = decode(0, header_letters, header_bytes);
@@ -141,11 +141,11 @@ void append_cells(const std::filesystem::path& file, const pugi::xml_node& list,
     double begin = 0;
     for (const double end : offsets) {
         if (!(end >= begin && end <= static_cast<double>(connectivity.size())))
-            refuse_frame(file, "cell offsets do not rise within the connectivity");
+            refuse_frame(file, "cell offsets decrease, or exceed the connectivity");
         PolyData::Cell cell{line, {}};
         for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
             if (!(connectivity[k] >= 0 && connectivity[k] < static_cast<double>(data.points.size()))) {
-                refuse_frame(file, fmt::format("a cell names point {}, expected 0 to {}", connectivity[k],
+                refuse_frame(file, fmt::format("a cell refers to point {}, expected 0 to {}", connectivity[k],
                                                static_cast<double>(data.points.size()) - 1));
             }
             cell.points.push_back(static_cast<std::size_t>(connectivity[k]));

@@ -117,14 +117,14 @@ PackedArray<T>::PackedArray(std::ostream& out, std::string_view name, std::size_
 template <class T>
 void PackedArray<T>::pack_block() {
     added_ += block_.size();
-    if (added_ > values_) throw std::logic_error("frames: an array has more values than it was made for");
+    if (added_ > values_) throw std::logic_error("frames: an array received more values than its declared number");
     if (block_.size() < block_values) header_[2] = block_.size() * sizeof(T);
     const std::size_t before = packed_.size();
     append_packed(bytes_of(block_), packed_);
     header_[3 + blocks_] = packed_.size() - before;
     ++blocks_;
     block_.clear();
-    // Only whole base64 groups, because the encoding is continuous across blocks.
+    // Writes only whole base64 groups, because the encoding continues across blocks.
     if (!held_) write_packed(packed_.size() / 3 * 3);
 }
 
@@ -142,7 +142,7 @@ void PackedArray<T>::write_packed(std::size_t bytes) {
 template <class T>
 void PackedArray<T>::finish() {
     if (!block_.empty()) pack_block();
-    if (added_ != values_) throw std::logic_error("frames: an array has fewer values than it was made for");
+    if (added_ != values_) throw std::logic_error("frames: an array received fewer values than its declared number");
     if (held_) write_header();
     write_packed(packed_.size());
     if (!held_) {

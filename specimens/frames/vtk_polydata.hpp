@@ -57,7 +57,7 @@ class PackedArray {
     void finish();
 
   private:
-    // Divisible by 1 and by 3 components; a block fits into the cache.
+    // Values per block: a multiple of 1 and 3 components, and small enough for the cache.
     static constexpr std::size_t block_values = 3 << 12;
     static constexpr std::size_t most_held = 1 << 20;  // bytes of values; larger arrays are written block by block
     void pack_block();

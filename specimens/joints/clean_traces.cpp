@@ -17,13 +17,14 @@
 namespace crackle {
 namespace {
 
-// Tolerances for simplifying traces and for merging nodes, relative to snap.
+// Tolerances for simplifying traces and for merging nodes, relative to the snap distance.
 constexpr double simplified_share = 0.25, near_share = 0.5;
 // Two traces that run within the distance near_ of each other over at least long_stretch times that distance are
 // merged. They separate over parting_stretch times that distance.
 constexpr double long_stretch = 10.0, parting_stretch = 5.0;
-// Relative to the largest coordinate: a trace counts as unmoved if it passes its nodes by less. This is half the
-// distance below which the mesher treats two points as one, so the mesher still finds these nodes on the trace.
+// Distance, relative to the largest coordinate, within which a trace must pass its nodes to count as unmoved. This is
+// half the distance below which the mesher treats two points as one, so the mesher still finds these nodes on the
+// trace.
 constexpr double same_place_share = 5e-14;
 constexpr int most_passes = 100;  // about three passes are needed; every trace stays within snap in each pass
 
@@ -311,7 +312,7 @@ class TraceCleaner {
         }
     }
 
-    /// Routes each edge through those ends of the other that are near.
+    /// Routes each of two edges through those ends of the other edge that are near it.
     void attract(const Edge& s, const Edge& t) {
         for (const auto& [edge, other] : {std::pair{&s, &t}, {&t, &s}})
             for (const int node : {other->from, other->to})
@@ -430,8 +431,8 @@ class TraceCleaner {
             all.back().centred = given.centred && piece == longest;
         }
     }
-    /// Measures how far the trace has moved from its original position. Extensions of its ends, and the parts that they
-    /// cut off, do not count.
+    /// Measures how far the trace has moved from its original position. Extensions of its ends do not count, nor do end
+    /// pieces that are cut off.
     void measure(std::size_t trace, const std::vector<int>& nodes) {
         std::vector<Vec2> was = given_[trace].points, is;
         was.front() = lines_[trace].front();
@@ -471,7 +472,8 @@ std::string cleaning_text(const Cleaning& cleaning) {
         snap, cleaning.points_left_out, cleaning.points_left_out == 1 ? "" : "s", cleaning.brought_together,
         cleaning.brought_together == 1 ? "" : "s", cleaning.largest_displacement, cleaning.length,
         cleaning.length_before);
-    if (cleaning.coincident > 0.0) text += fmt::format(", {:.3g} m on others or on walls removed", cleaning.coincident);
+    if (cleaning.coincident > 0.0)
+        text += fmt::format(", {:.3g} m that lay on other traces or walls removed", cleaning.coincident);
     return text;
 }
 

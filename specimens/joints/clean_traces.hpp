@@ -47,7 +47,7 @@ std::string cleaning_text(const Cleaning& cleaning);
 /// Cleans traces.
 /// @param traces  traces within the box or on its boundary; a trace that lies on earlier ones is removed or split into
 /// pieces
-/// @param reach  as in trace_graph(), m; extending an end to a trace or wall by up to this does not count as
+/// @param reach  as in trace_graph(), m; extending an end to a trace or wall by up to this distance does not count as
 /// displacement
 /// @throws MeshError if memory is insufficient for the number of nearby edges
 Cleaning clean_traces(std::vector<JointTrace>& traces, const Domain& box, double snap, double reach);

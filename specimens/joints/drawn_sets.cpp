@@ -50,7 +50,7 @@ class LengthStrata {
         return {std::min(law_.exceeded_by(share), longest_[k]), longest_[k]};
     }
 
-    /// Number of draws for each midpoint per m2.
+    /// Number of draws divided by the number of midpoints per area, m2.
     double draws_of_a_midpoint() const { return sum_; }
 
   private:
@@ -159,7 +159,8 @@ class SetDrawing {
         take({{part->first, part->second}, number_, whole_length, centred});
     }
 
-    /// @throws InputError if traces are so short that rounding reduces them to points, which never count
+    /// @throws InputError if traces are so short that rounding reduces them to points, which do not count towards the
+    /// amount
     void refuse_points(CaseKey key, double found, double typical) const {
         if (!(typical >= least_share * diagonal_))
             throw InputError(fmt::format(
@@ -266,7 +267,7 @@ class SetDrawing {
                                              at(CaseKey::joint_set_spacing), amount_.value, most, lines));
         };
         refuse_beyond(2.0 * half_width, most_traces_of_a_set, "in the box");
-        refuse_beyond(2.0 * reach, most_drawn, "beside the box, which may meet it because of their scatter");
+        refuse_beyond(2.0 * reach, most_drawn, "beside the box, which may cross it because their directions scatter");
         const auto place = [&](double offset) {
             const double angle = directions_.draw(generator_);
             const Vec2 through = centre_ + offset * normal;
@@ -287,8 +288,8 @@ class SetDrawing {
                 fmt::format("{}: found a point more than {} spacings away from the box, expected one "
                             "closer to the box; choose one inside",
                             at(CaseKey::joint_set_through), most_traces_of_a_set));
-        // Places lines upwards from the first one, then downwards, including lines that may meet the box only because
-        // they scatter.
+        // Places lines upwards from the first one, then downwards, including lines outside the box that may meet it
+        // because their directions scatter.
         const double furthest = std::abs(first) + reach;
         double offset = 0.0;
         for (; offset <= furthest; offset += law.draw(generator_))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Generates the random traces of one [[joint_set]] in a box; the comment on make_joints() has the method.
+// Generates the random traces of one [[joint_set]] in a box; the comment on make_joints() describes the method.
 // Tested by tests/specimens/joints/joint_network_test.cpp.
 #pragma once
 

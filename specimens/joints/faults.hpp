@@ -14,11 +14,11 @@ namespace crackle {
 /// Rows joined end to end.
 struct Fault {
     std::vector<Vec2> points;
-    std::size_t row = 0;   ///< index of the first of its rows, which determines the direction
+    std::size_t row = 0;   ///< index of the first of its rows, which determines the fault's direction
     std::size_t rows = 1;  ///< number of rows joined
 };
 
-/// Joins rows to faults, ordered by their first rows. If exactly two rows meet at a node, they form one fault unless
+/// Joins rows into faults, ordered by their first rows. If exactly two rows meet at a node, they form one fault unless
 /// the second runs back alongside the first. If more rows meet, the straightest pair forms one fault if it bends by at
 /// most 60 degrees.
 /// @param reach  m; ends within this distance are at one node; 0: ends must coincide exactly

@@ -18,7 +18,7 @@ void set_joints(Scene& scene, const Mesh& mesh, const JointNetwork& network);
 /// Assigns joints to circles. @param scene  scene whose bodies are circles inside the network's box
 void set_joints_of_circles(Scene& scene, const JointNetwork& network);
 
-/// Names of the sources whose traces have the properties of the rock: "a, b"; empty if there are none.
+/// Names of the joint sets and measured traces that have the properties of the rock: "a, b"; empty if there are none.
 std::string sources_as_rock(const JointNetwork& network);
 
 }  // namespace crackle

@@ -19,7 +19,7 @@ namespace {
 
 // Limits of snap, relative to the shorter side of the box.
 constexpr double most_of_a_side = 0.1, least_of_a_side = 1e-9;
-constexpr double join_share = 0.5;  // largest distance between ends of rows at one node, relative to snap
+constexpr double join_share = 0.5;  // largest distance between ends of rows at one node, relative to the snap distance
 
 /// Point at half the length of a polyline.
 Vec2 midpoint_of(const std::vector<Vec2>& points) {

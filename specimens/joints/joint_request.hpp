@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The joints of a test, ready to be drawn: sets with their distributions, measured traces, and the mechanical
-// properties of each. make_joints() places them in a box.
+// The joints that a test requests: sets with their distributions, measured traces, and the mechanical properties of
+// each. make_joints() places them in a box.
 // Tested by tests/specimens/joints/joint_network_test.cpp.
 #pragma once
 
@@ -50,9 +50,9 @@ struct TraceAmount {
 struct JointSet {
     std::string name;
     OrientationLaw directions;
-    std::variant<PersistentTraces, TracesWithGaps, LengthLaw> length;  ///< a LengthLaw: traces with midpoints
+    std::variant<PersistentTraces, TracesWithGaps, LengthLaw> length;  ///< LengthLaw: traces of finite length
     TraceAmount amount;
-    std::optional<double> scan_line;  ///< degrees from +x, of P10; empty: perpendicular to the mean direction
+    std::optional<double> scan_line;  ///< degrees from +x, scan line of P10; empty: perpendicular to the mean direction
     std::optional<Joint> mechanics;   ///< empty: the joint has the properties of the rock
 
     bool operator==(const JointSet&) const = default;
@@ -104,7 +104,7 @@ struct JointRequest : JointValues {
 struct JointCase {
     JointRequest joints;
     std::optional<double> width, height;       // m
-    std::vector<std::filesystem::path> files;  ///< all files that the joints read, including the first
+    std::vector<std::filesystem::path> files;  ///< all files from which the joints were read
 };
 
 }  // namespace crackle

@@ -74,7 +74,7 @@ OrientationLaw OrientationLaw::fisher(double dip, double dip_direction, double k
     law.across_ = cross(law.normal_, law.aside_);
     constexpr double parallel = 1e-6;  // sine of an angle below which a plane and the section count as parallel
     if (norm(cross(law.normal_, cross(section.along_x, section.along_y))) < parallel)
-        throw InputError("found a mean plane that lies in the section, expected one that cuts it; it has no trace");
+        throw InputError("found a mean plane that lies in the section, expected one that cuts it");
     law.mean_ = trace_angle(law.normal_, section);
     return law;
 }

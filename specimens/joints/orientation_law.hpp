@@ -57,8 +57,8 @@ class OrientationLaw {
     bool single() const { return kind_ == Kind::fixed; }
     /// Draws a direction, rad.
     double draw(std::mt19937_64& generator) const;
-    /// Factor by which lines must be drawn from farther away, so that all lines that cross a disc are included. It is
-    /// 1/cos of the deviation from the mean that at most one line in a thousand exceeds, at most 1024.
+    /// Factor by which lines must be drawn from farther away, so that nearly all lines that cross a disc are included.
+    /// It is 1/cos of the deviation from the mean that at most one line in a thousand exceeds, at most 1024.
     double stretch() const;
 
     bool operator==(const OrientationLaw&) const = default;

@@ -24,7 +24,7 @@ namespace {
 double coordinate(std::string_view word, std::string_view what, const TextLines& lines) {
     const std::optional<double> value = number_of(word);
     if (!value || !is_a_size(*value))
-        lines.refuse_number(word, fmt::format("a number for {}, 0 or of a size from 1e-30 to 1e30", what));
+        lines.refuse_number(word, fmt::format("a number for {}, 0 or of magnitude 1e-30 to 1e30", what));
     return *value;
 }
 

@@ -21,9 +21,9 @@ namespace crackle {
 namespace {
 
 constexpr double half_disc_notch = 0.5, half_disc_shortest_notch = 0.4,
-                 half_disc_longest_notch = 0.6;  // lengths of notches, relative to the radius
+                 half_disc_longest_notch = 0.6;  // default and limits of the notch length, relative to the radius
 constexpr double half_disc_span = 0.8, half_disc_shortest_span = 0.5,
-                 half_disc_longest_span = 0.8;  // spans, relative to the diameter
+                 half_disc_longest_span = 0.8;  // default and limits of the span, relative to the diameter
 
 double notch_of(const KindRequest& request, double radius) {
     const double notch = request.test.shape.notch.value_or(half_disc_notch * radius);

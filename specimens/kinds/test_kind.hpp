@@ -113,7 +113,7 @@ double pad_width(const KindRequest& request, double size);
 /// @param up  whether the specimen lies above the pad
 LoadingPart flat_pad(double x, double y, double width, bool up);
 
-/// Why pads and boxes may not be frictional.
+/// Reason why pads and boxes may not be frictional.
 inline constexpr const char* bonded_parts = "pads and boxes are bonded to the specimen";
 
 /// The shape that keeps the whole packing.

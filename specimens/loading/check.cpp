@@ -187,8 +187,8 @@ void warn(TestCheck& check) {
                         "reduce the excess of bond.thick over it",
                         setup.bonds.mean_overlap, setup.bonds.mean_overlap / setup.bonds.thick, setup.bonds.thick));
     }
-    // If strengths are out of proportion to the stiffness, other excessive values are consequences, so only that is
-    // reported.
+    // If strengths are out of proportion to the stiffness, other excessive values are consequences, so only the
+    // disproportion is reported.
     const bool out_of_proportion =
         check.strength && setup.bonds.facts().strengths_are_given && check.strength->strain > largest_strain_of_a_rock;
     if (!out_of_proportion && check.corner_distance > 0.0 &&

@@ -21,7 +21,7 @@ namespace crackle {
 namespace {
 
 constexpr int most_rounds = 100, steps_of_relaxation = 2000;
-// Largest remaining force after a useful solution, relative to the force before it.
+// Dynamic steps follow a linear solution unless it reduces the largest force to less than this fraction.
 constexpr double most_left_by_a_solution = 0.5;
 // The stage gives up after most_rounds_in_vain consecutive rounds in which the residual does not fall to half its
 // smallest value.
@@ -120,7 +120,7 @@ class Confinement {
         }
         for (const BodyIndex platen : {test_.setup.apparatus.bottom, test_.setup.apparatus.top})
             change_velocity(world_, platen, 1, moving[platen].vy);
-        // Loading starts with a solution in which the walls yield as the specimen widens.
+        // Loading starts with a solution in which the walls move outwards as the specimen widens.
         if (test_.setup.apparatus.has_walls()) test_.small_strain->moduli.solution = stretched();
         restart_account(world_);
         velocities_changed(world_);

@@ -32,7 +32,7 @@ class PressureRefused : public InputError {
 /// Applies the confining pressure.
 /// @param bonded  world used for the linear solutions: the test's own world or, if its platens are not bonded, a copy
 /// with bonded platens. With walls, the test's own world is used
-/// @param own  setup of `bonded`
+/// @param own  test setup with the platens and walls of `bonded`
 /// @throws InputError if the specimen cannot carry the pressure; PressureRefused if a lower pressure may work
 void confine(VirtualTest& test, const World& bonded, const TestSetup& own);
 

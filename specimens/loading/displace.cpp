@@ -23,7 +23,7 @@ void drive_parts(World& world, const std::vector<BodyMotion>& motion, double tim
     }
 }
 
-/// Moves all bodies by a fraction of `way` in one drift of the integrator, without forces.
+/// Moves all bodies by a fraction of `way` in one step of the integrator, without forces.
 void drift(World& world, const std::vector<BodyMotion>& way, double share) {
     compute_forces(world);
     set_velocities(world, way, share / world.stepping.time_step);

@@ -26,8 +26,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t steps_between_health_checks = 100;
-// Largest number of steps between polls of the clock and of interrupts. Small specimens poll rarely, so the cost is
-// negligible; specimens of a million bodies poll after every step.
+// Largest number of steps between checks of the clock and for interrupts. Small specimens are checked rarely, so the
+// cost is negligible; specimens of a million bodies are checked after every step.
 constexpr std::int64_t most_steps_between_clock_checks = 64, bodies_between_clock_checks = 1'000'000;
 constexpr double seconds_between_progress = 0.2;
 // Smallest number of rows from which peak, failure and moduli are determined. It applies even if fewer rows are
@@ -86,8 +86,7 @@ class LoadingLoop {
         if (files_ != nullptr && state_.rows.empty()) files_->write_checkpoint(setup_, state_, world_);
         while (true) {
             if (stop_asked_ || (world_.stepping.steps % steps_between_clock_checks_ == 0 && check_clock())) break;
-            // The strain follows from the positions after the last step, whether or not forces have been computed
-            // there.
+            // The strain depends only on the current positions, so forces need not have been computed for them.
             strain_ = setup_.apparatus.axial_strain(world_);
             const double travel = state_.path.travel(strain_);
             const bool at_end = (lateral_rule_.on() ? travel : strain_) >= max_strain_;
@@ -112,7 +111,7 @@ class LoadingLoop {
             // Stability is checked before the end is accepted: an unstable run must not count as finished.
             if (ended || check_due) check();
             if (ended) break;
-            // The callback in look() may have taken over the control of the loading rate from the tolerance.
+            // The callback may have set the platen speed; the tolerance then no longer controls the loading rate.
             if (setup_.rate_rule.tolerance > 0.0) {
                 watch_platens(world_.stepping.drift);
                 if (rate_due) set_rate();
@@ -196,7 +195,8 @@ class LoadingLoop {
         write_emission(listener_.listen(std::span(world_.bonds.events).subspan(events_counted_), strain_));
     }
 
-    /// Writes acoustic events. @param count  number of events at the end of the list that have just ended
+    /// Writes the acoustic events that have just ended. @param count  their number; they are the last events in the
+    /// list
     void write_emission(std::size_t count) {
         if (files_ == nullptr) return;
         const std::vector<AcousticEvent>& events = state_.emission.events;
@@ -210,7 +210,7 @@ class LoadingLoop {
         const CurveRow row = observe_row(world_, setup_);
         state_.rows.push_back(row);
         const double travel = state_.path.travel(row.axial_strain);
-        // Strain that was already reached before an unloading does not count for peak and failure.
+        // Rows at strains that were already reached before an unloading do not count for peak and failure.
         const bool farther = row.axial_strain > state_.path.farthest;
         if (farther) state_.path.farthest = row.axial_strain;
         const bool new_peak = (farther || lateral_rule_.on()) &&
@@ -232,7 +232,8 @@ class LoadingLoop {
         const PhaseTimer writing(world_.workers.profile, Phase::write);
         if (index % judged_per_written_ == 0 || !state_.ended_by.empty()) files_->add_row(row);
         const bool frame_due = travel >= frame_spacing_ * static_cast<double>(state_.next_frame);
-        // Skips frames whose strain the step has already passed. The last candidate is compared exactly.
+        // Skips frames whose strain has already been passed. The quotient is rounded, so the last frames are compared
+        // exactly.
         const auto passed = static_cast<std::int64_t>(travel / frame_spacing_);
         state_.next_frame = std::max(state_.next_frame, passed - 1);
         while (travel >= frame_spacing_ * static_cast<double>(state_.next_frame)) ++state_.next_frame;
@@ -240,9 +241,9 @@ class LoadingLoop {
         if (frame_due || !state_.ended_by.empty()) files_->add_frame(row, index, setup_, state_, world_);
     }
 
-    /// Calls look(). @param recorded  whether the last row already describes the current state
+    /// Calls the callback TestHooks::look. @param recorded  whether the last row already describes the current state
     void look(bool recorded) {
-        if (files_ != nullptr) world_.bonds.events.swap(unseen_);  // look() sees the events since its last call
+        if (files_ != nullptr) world_.bonds.events.swap(unseen_);  // the callback sees the events since its last call
         const AfterLook after = hooks_.look(test_);
         if (files_ != nullptr) {
             world_.bonds.events.clear();
@@ -261,7 +262,7 @@ class LoadingLoop {
         files_->add_frame(state_.rows.back(), index, setup_, state_, world_);
     }
 
-    /// Updates progress and checkpoint between steps, and polls for an interrupt.
+    /// Checks for an interrupt between steps, and reports progress and writes a checkpoint if they are due.
     /// @return whether the run is interrupted
     bool check_clock() {
         if (hooks_.interrupted && hooks_.interrupted()) return true;
@@ -307,22 +308,23 @@ class LoadingLoop {
     std::int64_t judged_per_written_;
     UnloadRule unload_rule_;
     LateralRule lateral_rule_;
-    double whole_travel_;  // total strain travelled by the end, including unloadings
+    double whole_travel_;  // strain travelled in the whole test, including unloadings
     double row_spacing_, frame_spacing_, checkpoint_interval_;
     Clock::time_point begun_, last_checkpoint_, last_progress_;
     std::int64_t steps_between_clock_checks_, first_step_;
     double step_seconds_before_;
     double strain_ = 0.0;  // axial strain at the last force computation
     std::size_t events_counted_ = 0;
-    bool stop_asked_ = false;         // whether look() has requested an interrupt
-    std::vector<BreakEvent> unseen_;  // events not yet seen by look(); used only if the test has files
+    bool stop_asked_ = false;         // whether the callback has requested an interrupt
+    std::vector<BreakEvent> unseen_;  // events not yet seen by the callback; used only if files are written
 };
 
 }  // namespace
 
 void load_specimen(VirtualTest& test, const TestHooks& hooks, TestFiles* files) {
     if (test.state.rows.empty()) refuse_resting(test);
-    // Returns memory used for packing, meshing and bonding to the system: a third of the total at 200,000 discs.
+    // Returns to the operating system the memory that packing, meshing and bonding used: a third of all memory at
+    // 200,000 discs.
     malloc_trim(0);
     LoadingLoop(test, hooks, files).run();
 }

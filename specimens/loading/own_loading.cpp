@@ -14,7 +14,7 @@
 namespace crackle {
 namespace {
 
-constexpr const char* own_speed = "the calling program has set the driving part's speed since strain ";
+constexpr const char* own_speed = "the calling program has set the speed of the driving part since a strain of ";
 
 }  // namespace
 
@@ -30,14 +30,14 @@ void set_platen_speed(VirtualTest& test, double speed) {
     if (loading.unloads() || loading.by_lateral_strain()) {
         throw InputError(
             fmt::format("platen speed: found a speed set by the caller while the case controls loading by {}, expected "
-                        "only one of them; remove that key",
+                        "only one of them; remove the key from the case",
                         loading.unloads() ? "a list of unloadings" : "lateral strain"));
     }
     TestSetup& setup = test.setup;
     if (!driven_at_velocity(test.world, setup.apparatus.top, setup.apparatus.axis)) {
         throw InputError(
-            "platen speed: found a driving part that moves freely or under a force along the axis, expected one "
-            "driven at a velocity; set such a drive first");
+            "platen speed: found a driving part that moves freely or under a force along the axis, expected one driven "
+            "at a given velocity; set its velocity first");
     }
     LoadingPath& path = test.state.path;
     const double strain = setup.apparatus.axial_strain(test.world);

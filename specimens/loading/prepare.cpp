@@ -34,16 +34,17 @@ void report_bonded(const TestHooks& hooks, const World& world, const TestSetup& 
     hooks.detail(fmt::format(
         "time step {:.4g} s, {}; exact stable step {:.4g} s{}, guaranteed bound {:.4g} s", world.stepping.time_step,
         test.numerics.time_step ? std::string("given by the case")
-                                : fmt::format("{:.3g} of the bound, followed as contacts open and close",
+                                : fmt::format("{:.3g} of the bound, updated as contacts open and close",
                                               world.stepping.time_step / world.stepping.step_bound),
         setup.stable_time_step, setup.stable_time_step_proved ? "" : " (from below)", setup.time_step_bound));
 }
 
 // A loading rate controlled by a tolerance is derived from the strain at which this fraction of the bonded points has
-// failed according to the linear solution. In six tests of the DEMseg guide's example rock, it is 0.1 to 1.3 times the
-// strain at peak; single slivers fail at a thousandth of that.
+// failed according to the linear solution. In six tests of the DEMseg guide's example rock, this strain is 0.1 to 1.3
+// times the strain at the peak; individual slivers fail at a thousandth of it.
 constexpr double first_yield_share = 0.02;
-// Fraction in tests without platens. Their stress is uneven, and a disc or a beam fails once a few bonds have failed.
+// Fraction for tests without platens, in which the stress is uneven and a disc or a beam fails once a few bonds have
+// failed.
 constexpr double first_yield_share_uneven = 0.001;
 
 // Solving 50,000 cells takes 27 s and 3 GB; both grow faster than the number of bodies. Larger worlds than this are
@@ -59,8 +60,9 @@ void note_no_small_strain(VirtualTest& test, const std::string& why) {
 void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& own, const SolutionVisitor& visit) {
     if (world.bodies.size() > most_bodies_solved) {
         note_no_small_strain(
-            test, fmt::format("found {} bodies, more than the {} up to which a test computes it; use `crackle elastic`",
-                              world.bodies.size(), most_bodies_solved));
+            test,
+            fmt::format("found {} bodies, but a test computes this modulus only for at most {}; use `crackle elastic`",
+                        world.bodies.size(), most_bodies_solved));
         return;
     }
     try {
@@ -92,7 +94,8 @@ void listen_for_emission(VirtualTest& test) {
     }
 }
 
-/// Overlap of bonds, relative to the particle size, above which even polygons that share no face are bonded.
+/// Overlap at bonding, relative to the particle size, above which a notice reports that even polygons without a common
+/// face are bonded.
 constexpr double deep_bond_share = 0.1;
 
 void notice_deep_bonds(VirtualTest& test) {
@@ -103,12 +106,13 @@ void notice_deep_bonds(VirtualTest& test) {
     const double excess = setup.bonds.thick - setup.specimen.mesh_gap;
     if (excess <= deep_bond_share * size) return;
     test.setup.origin.notices.push_back(fmt::format(
-        "bond.thick = {:.4g} m exceeds the gap of {:.4g} m by {:.2g} of the mean particle size, so that polygons "
-        "without a common face are bonded, too; this excess is the overlap at bonding and should be small",
+        "bond.thick = {:.4g} m exceeds the gap of {:.4g} m by {:.2g} of the mean particle size, so polygons without a "
+        "common face are bonded, too; this excess is the overlap at bonding and should be small",
         setup.bonds.thick, setup.specimen.mesh_gap, excess / size));
 }
 
-// A notice is given if the rate in the case exceeds noticed_rate times the initial rate for noticed_tolerance.
+// A notice is given if the strain rate in the case exceeds noticed_rate times the initial rate that rate_tolerance =
+// noticed_tolerance would give.
 constexpr double noticed_tolerance = 0.01, noticed_rate = 3.0;
 
 void notice_fast_loading(VirtualTest& test) {
@@ -122,14 +126,14 @@ void notice_fast_loading(VirtualTest& test) {
         test.description.at(CaseKey::loading_axial_strain_rate), given, given / derived, noticed_tolerance));
 }
 
-/// A copy of the specimen with bonded platens if those of the test are not bonded; otherwise `world` is nullptr.
+/// A copy of the specimen with bonded platens, if the platens of the test are not bonded; otherwise `world` is nullptr.
 struct SeparateBonding {
     const World* world = nullptr;
     const TestSetup* setup = nullptr;
     std::function<void()> while_solving;
 };
 
-/// Whether the specimen carries the pressure of the case `lower`.
+/// Whether the specimen can carry the pressure of the case `lower`.
 bool bears(const VirtualTest& refused, const ResolvedCase& lower, const Specimen& specimen,
            const SeparateBonding& twin) {
     VirtualTest attempt;
@@ -150,7 +154,8 @@ bool bears(const VirtualTest& refused, const ResolvedCase& lower, const Specimen
     }
 }
 
-/// Confines the specimen. If it does not carry the pressure, lower pressures are tried before one is recommended.
+/// Confines the specimen. If it cannot carry the pressure, lower pressures are tried, and the error recommends one that
+/// it can carry.
 void confine_or_advise(VirtualTest& test, const Specimen& specimen, const SeparateBonding& twin) {
     try {
         if (twin.world != nullptr)
@@ -189,7 +194,7 @@ VirtualTest measure_and_confine(BondedTest made, const ResolvedCase& description
     hooks.report_stage(fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds.initial,
                                    test.world.bonds.interfaces_initial, test.world.stepping.time_step));
     report_bonded(hooks, test.world, test.setup, description);
-    hooks.report_work("solving for small strain");
+    hooks.report_work("solving for the small-strain moduli");
     for (std::string& notice : unlikely_numbers(description, test.setup.specimen))
         test.setup.origin.notices.push_back(std::move(notice));
     notice_deep_bonds(test);
@@ -210,7 +215,7 @@ VirtualTest measure_and_confine(BondedTest made, const ResolvedCase& description
         } catch (const InputError& error) {
             note_no_small_strain(test, error.what());
         }
-        // Confining throws if the case makes loading impossible.
+        // Outside the try block, because a specimen that cannot be confined cannot be tested.
         if (description.confined()) confine_or_advise(test, specimen, {&twin.world, &own, while_solving});
     }
     listen_for_emission(test);
@@ -235,7 +240,7 @@ BondedTest make_and_bond(const ResolvedCase& description, const TestHooks& hooks
     test.description = description;
     if (description.material.damping_by_default) {
         hooks.report_stage(
-            fmt::format("damping ratio {:.4g} by default: a particle ringing on its contacts loses 95 % of its "
+            fmt::format("damping ratio {:.4g} by default: a particle that vibrates on its contacts loses 95 % of its "
                         "energy per period",
                         default_damping_ratio));
     }
@@ -276,7 +281,7 @@ VirtualTest prepare_test(BondedTest bonded, const ResolvedCase& description, con
         hooks.report_stage(
             fmt::format("loading with rate_tolerance = {}: initial rate {:.3g} 1/s, wave transit time {:.3g} s",
                         *tolerance, test.state.rate.rate, test.setup.rate_rule.transit_time));
-        // lateral_rule_of() throws if the case makes loading impossible.
+        // Called only as a check: it throws if the lateral strain cannot control the loading.
         lateral_rule_of(description.loading, description.places, test.setup.rate_rule, test.state.poissons_ratio);
     } else {
         if (!test.setup.apparatus.uniaxial) start_by_rate(test);
@@ -284,7 +289,7 @@ VirtualTest prepare_test(BondedTest bonded, const ResolvedCase& description, con
     }
     for (const std::string& notice : test.setup.origin.notices) hooks.report_stage("notice: " + notice);
     test.world.workers
-        .while_solving = {};  // loading polls for interrupts itself, because there are then results to keep
+        .while_solving = {};  // the loading loop polls for interrupts itself, because it has results to keep
     return test;
 }
 

@@ -19,7 +19,7 @@ namespace crackle {
 namespace {
 
 constexpr int most_press_rounds = 50;
-// Largest remaining force after a useful solution with bonds only, relative to the force before it.
+// A linear solution with bonds only is useful if it reduces the largest unbalanced force to at most this fraction.
 constexpr double most_left_by_bonds = 0.5;
 
 /// Unbalanced force on every body, including the normal force on the upper box.
@@ -30,8 +30,8 @@ std::vector<BodyMotion> forces_left(const VirtualTest& test) {
     return left;
 }
 
-/// Rejects a normal spring that is stiffer than the bonds of the upper box. It would limit the time step, which is
-/// derived without the spring.
+/// Rejects a normal spring that is stiffer than the bonds of the upper box. Such a spring would limit the time step,
+/// which is derived without the spring.
 void check_spring(const VirtualTest& test) {
     double holding = 0.0;
     for (const Spring& spring : springs_of(test.world, ClosedPoints::bonded))

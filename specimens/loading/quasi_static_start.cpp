@@ -37,8 +37,8 @@ std::vector<BodyMotion> elastic_motion(const VirtualTest& test, const std::vecto
         motion[b] = setup.apparatus.axis == 1 ? BodyMotion{0.0, share, 0.0} : BodyMotion{share, 0.0, 0.0};
         if (elastic[b]) motion[b] = test.small_strain->moduli.solution.displacement[b];
     }
-    // A driving part that is not bonded is not part of the solution and moves on its own; other unbonded parts stay at
-    // rest. Walls move as in the solution.
+    // A driving part that is not bonded is not part of the solution and moves at its prescribed speed; other unbonded
+    // parts stay at rest. Walls move as in the solution.
     const std::vector<Prescribed> parts = prescribed_parts(setup.apparatus, setup.apparatus.length);
     for (std::size_t k = 0; k < parts.size(); ++k) {
         const BodyIndex body = parts[k].body;
@@ -110,7 +110,7 @@ RateRule rate_rule_of(const VirtualTest& test, double tolerance) {
     if (setup.apparatus.normal_force > 0.0)
         rule.first_strain =
             std::min(rule.first_strain, joint_slip_strain(test.world, setup.apparatus, test.small_strain->moduli));
-    // If nothing fails before, the largest strain of the test is used.
+    // If nothing fails up to the largest strain of the test, that strain is used.
     rule.first_strain = std::min(rule.first_strain, test.description.loading.max_axial_strain);
     rule.stress_floor = modulus * rule.first_strain;
     rule.energy_floor = 0.5 * rule.stress_floor * rule.first_strain * area;
@@ -124,7 +124,7 @@ bool moves_elastically(const VirtualTest& test) {
     return test.small_strain && test.description.loading.platens != PlatenKind::frictional;
 }
 
-/// Whether each body moves as in the linear solution. With bonded parts, these are all bodies that bonds hold.
+/// Whether each body moves as in the linear solution. If the platens are bonded, all bodies held by bonds do.
 std::vector<bool> elastic_bodies(const VirtualTest& test) {
     const bool elastically = moves_elastically(test);
     std::vector<bool> elastic(test.world.bodies.size(), elastically);

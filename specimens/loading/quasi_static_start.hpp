@@ -18,9 +18,9 @@ namespace crackle {
 /// @throws InputError if the specimen has no linear solution
 RateRule rate_rule_of(const VirtualTest& test, double tolerance);
 
-/// Sets the specimen in motion at the initial rate of the rule. Bodies that carry no load move in proportion to their
-/// height. If the platens are not bonded, all bodies do.
-/// @throws InputError if there is no linear solution to derive the rate from
+/// Sets the specimen in motion at the initial loading rate that rate_rule_of() gives. Bodies that carry no load move in
+/// proportion to their height. If the platens are not bonded, all bodies move in this way.
+/// @throws InputError if there is no linear solution from which to derive the rate
 void start_by_tolerance(VirtualTest& test);
 
 /// Sets a specimen without platens in motion at the rate of its case, as start_by_tolerance() does. Without a linear

@@ -91,7 +91,7 @@ class SpecimenFiles {
 /// @param made  the same test after its specimen was made
 std::string case_text(const ResolvedCase& test, const ResolvedCase& made, const fs::path& folder) {
     std::ostringstream text;
-    text << resolved_case_mark << project_version << ": every value in the open. Its inputs, with their SHA-256:\n";
+    text << resolved_case_mark << project_version << ": all values written out. Its input files, with their SHA-256:\n";
     for (const fs::path& input : files_read(test)) {
         text << "#   " << sha256(read_file(input)) << "  " << input.filename().string() << '\n';
     }
@@ -106,7 +106,7 @@ TestTiming timing_of(const VirtualTest& test, const TestOptions& options) {
             test.world.workers.threads};
 }
 
-/// Loads the test with open files, and writes the summary however loading ends.
+/// Loads the specimen while its files are open, and writes the summary however loading ends.
 TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const TestHooks& hooks, OutputFolder& folder,
                            TestFiles& files) {
     TestOutcome outcome;
@@ -130,7 +130,7 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
     }
     outcome.interrupted = test.state.ended_by.empty();
     if (outcome.interrupted) {
-        // The checkpoint keeps neither the interrupt flag nor the frame at the present peak, because the resumed test
+        // The checkpoint keeps neither the interrupt flag nor the frame at the current peak, because the resumed test
         // may reach a higher peak.
         TestState kept = test.state;
         kept.wall_seconds += seconds_since(options.process_start);
@@ -141,10 +141,10 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
     } else {
         write_peak();
         TestState kept = test.state;
-        // No later run adds to these times; zeros keep the file reproducible.
+        // The checkpoint stores these times as 0, so that the file is reproducible; no later run adds to them.
         kept.wall_seconds = kept.step_seconds = 0.0;
         files.write_checkpoint(test.setup, kept, test.world);
-        write_summary();  // complete before the companions start, since they may fail
+        write_summary();  // complete before the companion runs start, since they may fail
         if (options.verify) {
             errors = run_companions(test, hooks);
             outcome.unverified = !errors && test.state.failure.peak_row >= 0;
@@ -156,7 +156,8 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
     return outcome;
 }
 
-/// Adds the location of the earlier results to errors that occur while new results replace them.
+/// Adds to an error, if new results are to replace earlier ones, where the earlier results are and whether they are
+/// complete.
 template <class Work>
 TestOutcome naming_the_fate(const OutputFolder& folder, const Work& work) {
     try {
@@ -173,7 +174,7 @@ TestOutcome naming_the_fate(const OutputFolder& folder, const Work& work) {
     }
 }
 
-/// Handles a test that was already loaded to its end: runs the companions if they are requested and missing.
+/// Handles a test that has already ended: carries out the companion runs if they are requested and missing.
 TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const TestHooks& hooks,
                           const OutputFolder& folder) {
     TestOutcome outcome;
@@ -193,7 +194,7 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
     }
     if (outcome.was_finished) return outcome;
     TestTiming timing{0.0, 0.0, test.world.workers.threads};
-    if (readable)  // the file may have been edited
+    if (readable)  // `threads` is clamped, because the file may have been edited
         timing = {old.run.wall_seconds.value_or(0.0), old.run.step_seconds.value_or(0.0),
                   static_cast<int>(std::clamp<std::int64_t>(old.run.threads.value_or(1), 1, 1'000'000))};
     std::optional<NumericalErrors> errors;
@@ -285,7 +286,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
         });
     }
     if (options.loading_begins) options.loading_begins();
-    // The summary of the interrupted test is removed, because curve and frames continue beyond it.
+    // The summary of the interrupted test is removed, because the resumed test extends curve and frames.
     fs::remove(folder.path() / "summary.json", error);
     hooks.report_stage(fmt::format("resumed at step {}, axial strain {:.4g}", test.world.stepping.steps,
                                    test.setup.apparatus.axial_strain(test.world)));

@@ -20,9 +20,9 @@ struct TestOptions {
     std::filesystem::path folder;  ///< output folder, OUT
     bool force = false;
     bool begins_again = false;  ///< whether to discard, with `force`, what an unfinished test left in OUT.new
-    bool verify = false;        ///< whether to run the companions (specimens/loading/companions.hpp)
+    bool verify = false;        ///< whether to carry out the companion runs (specimens/loading/companions.hpp)
     bool profile = false;       ///< whether to time the phases of a step, for the summary
-    int threads = 0;            ///< number of threads; 0: as stated in the case
+    int threads = 0;            ///< number of threads; 0: the number given in the case
     // Upper limit on the number of threads. Results do not depend on it.
     int most_threads = 1024;
     std::string most_threads_why;  ///< reason for the limit, used in a notice
@@ -39,7 +39,7 @@ struct TestOutcome {
     Summary summary;
     std::filesystem::path folder;  ///< where the results are: OUT, or OUT.new if earlier results are still in OUT
     bool interrupted = false;
-    /// Whether the companions were interrupted; the test is then complete, but no numerical error is stated.
+    /// Whether the companion runs were interrupted; the test is then complete, but its numerical errors are unknown.
     bool unverified = false;
     bool was_finished = false;  ///< whether resume_test() found nothing to do
 };

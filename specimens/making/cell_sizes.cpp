@@ -81,9 +81,8 @@ std::string small_cell_text(const Mesh& mesh) {
     if (!(times > noticed_steps)) return "";
     const Point at = mesh.outline(*smallest).front();
     return fmt::format(
-        "the smallest cell, at ({:.6g}, {:.6g}), has {:.2g} of the mean cell's area: by it the time step is about "
-        "{:.2g} "
-        "times shorter, and a test as much longer",
+        "the smallest cell, at ({:.6g}, {:.6g}), has {:.2g} of the mean cell's area: it makes the time step about "
+        "{:.2g} times smaller, and a test correspondingly longer",
         at.x, at.y, smallest->area / mean, times);
 }
 

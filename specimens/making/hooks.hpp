@@ -27,7 +27,7 @@ struct TestProgress {
     double seconds_left = 0.0;  ///< time until max_axial_strain; the specimen may fail earlier
 };
 
-/// What a test does after look() returns.
+/// What a test does after the callback TestHooks::look has returned.
 enum class AfterLook : std::uint8_t {
     go_on,
     end,       ///< end the test as complete; the current state becomes the last row
@@ -46,11 +46,11 @@ struct TestHooks {
     std::function<void(const std::string& name, const Scene&)>
         made;  ///< called with the circles, then with the polygons, as they are tested
 
-    /// Called during loading, when the current forces are known and nothing has moved yet: at every judged row, or
-    /// every `look_every` steps. World::bonds.events contains the breaks since the last call. The callback may set the
-    /// platen's speed (specimens/loading/own_loading.hpp).
+    /// Called during loading, when the current forces are known and nothing has moved yet: at each row from which peak
+    /// and failure are determined, or every `look_every` steps. World::bonds.events contains the breaks since the last
+    /// call. The callback may set the platen's speed (specimens/loading/own_loading.hpp).
     std::function<AfterLook(VirtualTest&)> look;
-    std::int64_t look_every = 0;  ///< number of steps between calls of `look`; 0: at rows
+    std::int64_t look_every = 0;  ///< number of steps between calls of `look`; 0: called at those rows
 
     /// Returns the packing for a request, either from a store or made by calling `make`. If the callback is empty,
     /// every packing is made.

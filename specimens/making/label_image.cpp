@@ -141,7 +141,7 @@ std::string flaw_of_png(std::string_view bytes) {
                 (depth & (depth - 1U)) != 0 || (type == 3 ? depth == 16 : type != 0 && depth < 8))
                 return fmt::format("{} bits per channel and colour type {}, which PNG does not allow", depth, type);
             if (data[10] != 0 || data[11] != 0 || (data[12] & ~1) != 0)
-                return "a method of compression, filtering or interlacing that PNG does not have";
+                return "a method of compression, filtering or interlacing that PNG does not define";
             row_bytes = (width * colours[type] * depth + 7) / 8 + 1;
             interlaced = data[12] != 0;
             needs_palette = type == 3;

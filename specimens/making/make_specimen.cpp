@@ -66,7 +66,7 @@ Scene read_particles(const parts::Particles& particles, const Places& places, co
 /// Sets velocities and gravity to zero: a test starts with bodies at rest in a world without gravity.
 void bring_to_rest(Scene& scene, std::vector<std::string>& notices) {
     if (scene.gravity.x != 0.0 || scene.gravity.y != 0.0) {
-        notices.push_back("the particle file's gravity is left out: tests run without");
+        notices.push_back("the particle file's gravity is ignored: tests run without gravity");
     }
     scene.gravity = {};
     scene.controls.clear();
@@ -131,7 +131,7 @@ void record_cells(Specimen& specimen, const parts::Packing& packing, const CellS
     if (std::abs(cells.mean / asked->mean - 1.0) <= noticed_diameter_share &&
         std::abs(cells.spread - asked->spread) <= noticed_spread)
         return;
-    specimen.notices.push_back(text + "; more circles would meet them better");
+    specimen.notices.push_back(text + "; more circles would come closer to the requested sizes");
 }
 
 /// Adds traces to a specimen of circles; circles on a trace get flat faces along it.
@@ -204,7 +204,7 @@ void find_sides(Specimen& specimen) {
     specimen.right_ids = measured ? bodies_within(specimen.scene, *shape.right) : std::vector<int>{};
 }
 
-/// The particles at rest, packed or read, with the shape of the test cut from them.
+/// Packs or reads the particles, brings them to rest, and cuts the shape of the test from them.
 Specimen cut_particles(const parts::Particles& particles, const parts::Procedure& test, const TestHooks& hooks) {
     Specimen specimen;
     specimen.scene = particles.packing() != nullptr ? packed_scene(particles, test, hooks, specimen)

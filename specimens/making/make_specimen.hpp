@@ -14,7 +14,7 @@ namespace crackle {
 /// @throws InputError that names the case's key if the specimen cannot be read, packed, meshed or tested;
 /// TestInterrupted
 Specimen make_specimen(const parts::Particles& particles, const parts::Procedure& test, const TestHooks& hooks);
-/// The specimen of a case. @throws as above
+/// The specimen of a case. @throws as the overload above
 inline Specimen make_specimen(const ResolvedCase& test, const TestHooks& hooks) {
     return make_specimen(test, test, hooks);
 }

@@ -44,7 +44,7 @@ bool lies_in(std::span<const Point> outline, Point p) {
     return true;
 }
 
-/// Specimen::cell_centres of a mesh.
+/// Centres of the cells of a mesh, for Specimen::cell_centres.
 std::vector<Vec2> centres_of_cells(const Mesh& mesh, const std::vector<CellCentre>& centres) {
     std::vector<Vec2> found;
     found.reserve(mesh.cells.size());
@@ -67,7 +67,7 @@ MeshRequest request_of(const parts::Mesh& asked, const Shape& shape, const TestH
     return request;
 }
 
-/// Gap between the cells of a mesh for which the case gives none.
+/// Gap between the cells of a mesh for which the case gives no gap.
 double derived_mesh_thick(const Specimen& specimen, const parts::Mesh& asked, const Places& places,
                           const TestHooks& hooks) {
     const Scene& circles = specimen.scene;
@@ -94,8 +94,8 @@ Mesh mesh_along_joints(Specimen& specimen, const MeshRequest& request, const Joi
             if (const std::string as_rock = sources_as_rock(joints); !as_rock.empty())
                 specimen.notices.push_back(
                     "joints without mechanics (" + as_rock +
-                    ") are faces of the mesh with the rock's own properties: they change it by being straight, Voronoi "
-                    "cells by their even rows, too");
+                    ") are faces of the mesh with the rock's own properties: they still affect it, because they are "
+                    "straight and because Voronoi cells along them form even rows");
         }
         return mesh;
     } catch (const MeshInterrupted&) {

@@ -21,9 +21,9 @@ void name_traces(Specimen& specimen, const JointNetwork& joints);
 Mesh bare_cells(const Scene& circles, const parts::Mesh& asked, const Places& places, const Shape& shape = {},
                 const TestHooks& hooks = {});
 
-/// Replaces the circles of a specimen, which its shape has been cut from, with polygons.
+/// Replaces the circles of a specimen with polygons. The shape of the test has already been cut from the circles.
 /// @return the sizes of the cells
-/// @throws InputError that names the case's key if they cannot be meshed; TestInterrupted
+/// @throws InputError that names the case's key if the circles cannot be meshed; TestInterrupted
 CellSizes mesh_specimen(Specimen& specimen, const parts::Mesh& asked, const JointRequest& asked_joints,
                         const Places& places, const TestHooks& hooks);
 

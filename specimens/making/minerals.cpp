@@ -165,7 +165,7 @@ std::vector<MineralShare> assign_minerals(Scene& scene, const parts::Minerals& a
         shares[minerals[b]].reached += areas[b] / all;
         ++shares[minerals[b]].grains;
     }
-    // Only differences that whole grains do not explain are reported; they occur with labels and images.
+    // Only differences larger than the largest grain are reported; they occur with labels and images.
     const double grain = *std::max_element(areas.begin(), areas.end()) / all;
     for (const MineralShare& m : shares) {
         if (m.grains == 0) notices.push_back(fmt::format("no grain is made of {}", m.name));

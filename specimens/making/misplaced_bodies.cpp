@@ -33,7 +33,8 @@ void refuse_outside(const Place& body, const Domain& domain, const std::string& 
 }  // namespace
 
 void refuse_misplaced_bodies(const Scene& scene, const std::string& where) {
-    // Relative to the size of a body; overlapping bodies of a specimen are much farther apart.
+    // Distance below which two bodies coincide, relative to their size; overlapping bodies of a specimen are much
+    // farther apart.
     constexpr double one_place = 0.01;
     // Bodies are sorted along a slanted line, so that bodies in a row or column of a lattice have different
     // coordinates.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The first stage of a specimen: its circles, packed as the case asks.
+// The first stage of a specimen: its circles, packed as the case requests.
 // Tested by tests/specimens/making/cell_sizes_test.cpp.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace crackle {
 
-/// The circles of particles that are to be packed, obtained through hooks.keep_packing if set.
+/// Packs the circles that a case requests, or obtains the packing through hooks.keep_packing if that is set.
 /// @param places  where the values were written, for errors
 /// @throws InputError that names the case's key if the circles cannot be packed; TestInterrupted
 Packing packing_of(const parts::Particles& particles, int threads, const Places& places, const TestHooks& hooks);

@@ -25,7 +25,7 @@ bool circle_overlaps_side(const Scene& scene, const Body& body, Wall side) {
 std::vector<int> polygons_on_side(const Scene& scene, Wall side) {
     double nearest = std::numeric_limits<double>::infinity();
     for (const Vec2 v : scene.vertices) nearest = std::min(nearest, distance_to_side(scene.domain, side, v));
-    // Much smaller than an edge, much larger than round-off in the file.
+    // This tolerance is much smaller than an edge and much larger than round-off in the file.
     const double tolerance = 1e-6 * (scene.domain.x2 - scene.domain.x1);
     std::vector<int> ids;
     for (const Body& body : scene.bodies) {

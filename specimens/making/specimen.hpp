@@ -39,8 +39,8 @@ struct Specimen {
     std::int64_t segments = 0;          ///< number of edges of all polygons
     std::int64_t centres = 0;           ///< number of circles from which polygons were meshed; 0 if none were meshed
     std::vector<SpecimenTrace> traces;  ///< ordered by index
-    parts::Material material;           ///< what its rock is made of
-    parts::Minerals mineral_parts;      ///< the minerals of its rock, if it has any
+    parts::Material material;           ///< material of the rock
+    parts::Minerals mineral_parts;      ///< minerals of the rock, if it has any
     /// Minerals in the order in which the case lists them; empty for a rock with a single material.
     std::vector<MineralShare> minerals;
     /// m, by body of the scene: the centre around which a Voronoi cell was formed; NaN for triangles, and for cells

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Directions of the cracks in a specimen. Each broken bonded point contributes the part of the face that belongs to it
-// (frames/crack_faces.hpp). Its direction is perpendicular to the contact normal at breakage, its weight the length.
+// (frames/crack_faces.hpp). The direction of this part is perpendicular to the contact normal at breakage; its weight
+// is its length.
 // Tested by tests/specimens/measures/crack_rose_test.cpp.
 #pragma once
 
@@ -17,7 +18,7 @@ struct CrackRoses {
     Rose tension_to_peak, shear_to_peak, tension_after, shear_after;
 };
 
-/// @param time_of_peak  s; if NaN, all cracks count as before the peak. Broken bonds of platens are left out.
+/// @param time_of_peak  s; if NaN, all cracks count as formed up to the peak. Broken bonds at platens are left out.
 CrackRoses find_crack_roses(const World& world, const TestSetup& setup, const ContactHistory& history,
                             double time_of_peak);
 

@@ -18,14 +18,14 @@ using Rows = std::span<const CurveRow>;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double first_share = 0.01;  // fraction of the bonds broken at the peak
 constexpr double counted_to = 0.8;    // stress up to which breaks are counted, relative to the peak stress
-// End of the range assumed free of cracks, between the confining pressure (0) and the peak (1).
+// Stress up to which the specimen is assumed free of cracks; 0 is the confining pressure, 1 the peak stress.
 constexpr double quiet_to = 0.25;
 constexpr double deviations_of_noise = 3.0;
 constexpr std::size_t fewest_quiet_rows = 10;
 constexpr std::size_t fewest_rows_to_damage = 10;
-constexpr std::size_t opening_places = 200;   // number of trial stresses of the opening, and of stresses of its fit
-constexpr double compliance_of_cracks = 1.2;  // relative to the elastic lateral compliance
-constexpr double near_largest = 0.98;         // of the area strain
+constexpr std::size_t opening_places = 200;   // number of trial values of `opening`, and of stresses in each fit
+constexpr double compliance_of_cracks = 1.2;  // lateral compliance that indicates cracks, relative to the elastic one
+constexpr double near_largest = 0.98;         // fraction of the largest area strain
 
 double first_percent(Rows rising) {
     const std::int64_t broken = rising.back().bonds_broken;
@@ -38,7 +38,7 @@ double first_percent(Rows rising) {
         ->axial_stress;
 }
 
-/// Number of breakages by largest stress so far: breakages after a stress drop are assigned to the stress before it.
+/// Number of bond breaks at each stress. Breaks after a stress drop are assigned to the largest stress before it.
 std::vector<Burst> bursts_of(Rows rising) {
     std::vector<Burst> bursts;
     std::int64_t before = 0;
@@ -51,7 +51,8 @@ std::vector<Burst> bursts_of(Rows rising) {
     return bursts;
 }
 
-/// Stress at which the inelastic strain leaves its initial scatter. @param rows  up to crack damage
+/// Stress at which the inelastic strain leaves its initial scatter.
+/// @param rows  rows of the curve up to the largest area strain
 /// @param strain  returns the inelastic strain of a row
 template <class Strain>
 double departure(Rows rows, double quiet_stress, Strain&& strain) {
@@ -62,13 +63,13 @@ double departure(Rows rows, double quiet_stress, Strain&& strain) {
     const double mean = sum / static_cast<double>(quiet);
     for (const CurveRow& row : rows.first(quiet)) squares += (strain(row) - mean) * (strain(row) - mean);
     const double band = deviations_of_noise * std::sqrt(squares / static_cast<double>(quiet - 1));
-    // Cracks open, so the area becomes larger than the elastic one.
+    // Opening cracks make the area larger than that of an elastic specimen.
     std::size_t last = rows.size();
     while (last > quiet && strain(rows[last - 1]) < mean - band) --last;
     return last < rows.size() ? rows[last].axial_stress : none;
 }
 
-/// Stress at which the lateral strain is farthest below a line from the first row. @param slope  of the line
+/// Stress at which the lateral strain is farthest below a line through the first row. @param slope  slope of the line
 double farthest_below(Rows rows, double slope) {
     const CurveRow& first = rows.front();
     const auto below = [&](const CurveRow& row) {
@@ -77,15 +78,17 @@ double farthest_below(Rows rows, double slope) {
     return std::ranges::max_element(rows, {}, below)->axial_stress;
 }
 
-/// Stress at which the lateral strain is farthest from the chord. @param rows  up to crack damage
+/// Stress at which the lateral strain is farthest from the line between the first and the last row.
+/// @param rows  rows of the curve up to the largest area strain
 double farthest_from_chord(Rows rows) {
     const CurveRow &first = rows.front(), &last = rows.back();
     const double slope = (last.lateral_strain - first.lateral_strain) / (last.axial_stress - first.axial_stress);
     return std::isfinite(slope) ? farthest_below(rows, slope) : none;
 }
 
-/// Lateral strain beyond the elastic one, where the stress first reaches each of equally spaced values from the first
-/// row to the largest stress. @param compliance  of the elastic lateral strain
+/// Inelastic part of the lateral strain at equally spaced stresses between that of the first row and the largest one.
+/// Each value is taken where the stress is first reached.
+/// @param compliance  elastic lateral strain divided by the stress
 std::array<double, opening_places + 1> inelastic_lateral_strain(Rows rows, double compliance, double largest) {
     std::array<double, opening_places + 1> strains;
     const CurveRow& first = rows.front();
@@ -103,8 +106,9 @@ std::array<double, opening_places + 1> inelastic_lateral_strain(Rows rows, doubl
     return strains;
 }
 
-/// Stress beyond which the inelastic lateral strain is a parabola, by least squares. @param rows  up to crack damage
-/// @param compliance  of the elastic lateral strain
+/// Stress beyond which the inelastic lateral strain is best described by a parabola (least squares).
+/// @param rows  rows of the curve up to the largest area strain
+/// @param compliance  elastic lateral strain divided by the stress
 double opening(Rows rows, double compliance) {
     const double from = rows.front().axial_stress;
     const double largest = std::ranges::max_element(rows, {}, &CurveRow::axial_stress)->axial_stress;
@@ -112,7 +116,8 @@ double opening(Rows rows, double compliance) {
     const auto strains = inelastic_lateral_strain(rows, compliance, largest);
     double all = 0.0;
     for (const double strain : strains) all += strain * strain;
-    // Squared residuals of c max(0, k - place)² with the best c, which must be positive: cracks widen the specimen.
+    // Sum of squared residuals of the fit c max(0, k - place)² with the best c, which must be positive: cracks widen
+    // the specimen.
     const auto left = [&](std::size_t place) {
         double fits = 0.0, squares = 0.0;
         for (std::size_t k = place + 1; k <= opening_places; ++k) {
@@ -135,7 +140,7 @@ double opening(Rows rows, double compliance) {
     return std::lerp(from, largest, static_cast<double>(best) / static_cast<double>(opening_places));
 }
 
-/// Sets crack damage to the middle of the stretch of stresses in which the area strain is nearly the largest.
+/// Sets crack damage to the middle of the range of stresses in which the area strain is close to its largest value.
 template <class Strain>
 void set_damage(CrackThresholds& found, Rows rising, double largest, Strain&& strain) {
     const double least = std::lerp(strain(rising.front()), largest, near_largest);

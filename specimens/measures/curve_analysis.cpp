@@ -12,7 +12,7 @@ constexpr double initial_window = 1.0 / 20.0;  // strain at the window's end, re
 // Stresses at the window's ends, relative to the peak stress.
 constexpr double half_window_from = 0.4, half_window_to = 0.6;
 constexpr double straight_window = 0.3;  // range of stress in the window, relative to the peak stress
-constexpr int window_places = 100;       // number of window positions per peak stress
+constexpr int window_places = 100;       // number of window positions between zero and the peak stress
 // Stresses at the window's ends, relative to the peak stress.
 constexpr double fall_window_from = 0.9, fall_window_to = 0.6;
 

@@ -9,10 +9,11 @@
 
 namespace crackle {
 
-/// Slope of a straight line fitted to rows, with the number of events in this window. NaN for fewer than three rows.
+/// Slope of a straight line fitted to the rows in a window, with counts of events in this window. The slope is NaN for
+/// fewer than three rows.
 struct Tangent {
     double modulus;         // N/m
-    double poissons_ratio;  ///< -(lateral strain)/(axial strain), tension positive in both
+    double poissons_ratio;  ///< -(lateral strain)/(axial strain), extension positive in both
     std::int64_t rows = 0;
     double strain_to = 0.0;
     std::int64_t bonds_broken = 0;     ///< number of bonds that broke within the window
@@ -34,8 +35,8 @@ Tangent tangent_at_half_peak(std::span<const CurveRow> rows, std::int64_t peak_r
 /// and may start at any hundredth of it (ISRM's average modulus, Int. J. Rock Mech. Min. Sci. 16, 1979).
 Tangent tangent_of_straightest(std::span<const CurveRow> rows, std::int64_t peak_row, bool compression);
 
-/// Secant from the first row to where the stress first reaches half the peak: ISRM's secant modulus, and the ratio of
-/// the strains.
+/// ISRM's secant modulus, and the ratio of the strains, from the first row to where the stress first reaches half the
+/// peak.
 Tangent secant_to_half_peak(std::span<const CurveRow> rows, std::int64_t peak_row, bool compression);
 
 /// Slope after the peak, from where the stress has first fallen to 90 % of the peak to where it has fallen to 60 %. It

@@ -8,7 +8,7 @@
 namespace crackle {
 namespace {
 
-/// @param rows  of the cycle, including the row that ends it if there is one
+/// @param rows  rows of the cycle, including the row that ends it if there is one
 LoadingCycle cycle_of(std::span<const CurveRow> rows, bool ended, bool compression) {
     const CurveRow& turn = rows.front();
     const CurveRow& low = *std::ranges::min_element(rows, {}, &CurveRow::axial_strain);

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Unloading and reloading cycles in the rows of a curve.
 //
-// A cycle starts at a row from which the strain decreases. It ends at the first row beyond that strain, or where the
-// strain decreases again: cycles of equal amplitude reverse at the same strain or slightly before. The values of a
-// cycle refer to its start and to its lowest strain (Martin & Chandler, Int. J. Rock Mech. Min. Sci. 31, 1994):
+// A cycle starts at a row from which the strain decreases. It ends at the first row beyond the strain of its first row,
+// or where the strain decreases again. The latter is needed because cycles of equal amplitude reverse at the same
+// strain or slightly before. The values of a cycle refer to its start and to its lowest strain (Martin & Chandler, Int.
+// J. Rock Mech. Min. Sci. 31, 1994):
 //       modulus            (stress - stress at the lowest strain)/(strain - lowest strain)
 //       Poisson's ratio    the same difference of lateral strain divided by that of axial strain, widening positive
 //       permanent strain   lowest strain - stress there/modulus: the strain that would remain at zero stress
 //       loss               work that is not recovered: the loop's area times the specimen's section and length
 // Damage is 1 - modulus/E, where E is the modulus of the intact specimen by the linear solution. If no bond has broken
 // by the end of the cycle, damage is set to 0: at the reversal the platens' stresses include dashpot and inertia
-// forces, which are not damage. If also nothing has slid or come into contact, the specimen is still that of the linear
-// solution. Then the modulus is E and the permanent strain is 0. For other cycles the inertia error is stated. It is
-// half the difference between the stresses of the two platens, at the start and at the lowest strain, divided by the
-// stress difference.
+// forces, which are not damage. If, in addition, nothing has slid or come into contact, the linear solution still
+// holds: the modulus is E and the permanent strain is 0. For other cycles the inertia error is given. It is half the
+// difference between the stresses of the two platens, summed over the start and the lowest strain, and divided by the
+// change of stress between them.
 // Tested by tests/specimens/measures/cycles_test.cpp.
 #pragma once
 
@@ -27,15 +28,15 @@ namespace crackle {
 
 /// One cycle of unloading and reloading.
 struct LoadingCycle {
-    double strain = 0.0, stress = 0.0;          ///< where unloading starts; stress in N/m
+    double strain = 0.0, stress = 0.0;          ///< strain and stress at which unloading starts; N/m
     double low_strain = 0.0, low_stress = 0.0;  ///< strain and stress at the lowest strain
     double modulus = 0.0;                       // N/m
     double poissons_ratio = 0.0;
     double permanent_strain = 0.0;
-    double loop = 0.0;           ///< N/m; area of the hysteresis loop; NaN if the curve ends within the cycle
+    double loop = 0.0;           ///< area of the hysteresis loop, N/m; NaN if the curve ends within the cycle
     double modulus_error = 0.0;  ///< relative error, from the difference between the stresses of the two platens
     bool unbroken = false;       ///< whether no bond has broken by the end of the cycle
-    bool linear = false;         ///< whether, in addition, no bond has slid and no point has started to slide or touch
+    bool linear = false;         ///< whether, in addition, nothing has slid or come into contact
 };
 
 /// The cycles in order; strains and stresses are positive in the direction of loading.
@@ -46,7 +47,7 @@ struct FirstLoading {
     std::vector<CurveRow> rows;
     std::int64_t peak_row = -1;  ///< index of the peak in these rows
 };
-/// @param peak_row  index in `rows`, of a row with a new largest strain; -1: no peak
+/// @param peak_row  index of the peak in `rows`, at which the strain exceeds that of all rows before it; -1: no peak
 FirstLoading first_loading(std::span<const CurveRow> rows, std::int64_t peak_row);
 
 }  // namespace crackle

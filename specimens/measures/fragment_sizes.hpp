@@ -17,7 +17,7 @@ struct FragmentSizes {
     double median_size = 0.0;    ///< m, D50: half of the area is in fragments of at most this size
     RosinRammler law;            ///< size distribution of the fragments with an area of at least two mean particles
 };
-/// Fragments of a frame: bodies that bonds hold together.
+/// Measures the fragments in a frame: groups of bodies that bonds hold together.
 FragmentSizes measure_fragments(const World& world, const TestSetup& setup, const Frame& frame);
 
 }  // namespace crackle

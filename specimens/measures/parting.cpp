@@ -9,7 +9,7 @@ namespace {
 
 struct CrackSum {
     std::int64_t bonds = 0, of_platen = 0;
-    double height = 0.0;  // sum of the heights of its bonds, m
+    double height = 0.0;  // sum of the heights of the crack's bonds, m
 };
 
 }  // namespace

@@ -19,9 +19,9 @@ constexpr auto list_names(PartingPlace) { return in_order("platen", "grip", "gau
 /// The crack with the most broken bonds; a crack is a group of broken bonds connected through common particles.
 struct Parting {
     PartingPlace place = PartingPlace::gauge;
-    double height = 0.0;         ///< m, mean initial height of its bonds above the lower end of the specimen
+    double height = 0.0;         ///< m, mean initial height of the crack's bonds above the specimen's lower end
     std::int64_t bonds = 0;      ///< number of bonded points broken in this crack
-    std::int64_t of_platen = 0;  ///< number of these points that joined a particle to a platen
+    std::int64_t of_platen = 0;  ///< number of broken points in this crack that joined a particle to a platen
 };
 
 /// Location of the largest crack. It is `platen` if at least half of its bonds belong to a platen, and `grip` if it

@@ -11,15 +11,17 @@
 
 namespace crackle {
 
-/// Figures of a direct shear test.
+/// Results of a direct shear test other than its peak; NaN if unknown.
 struct ShearBoxFigures {
-    double residual = std::numeric_limits<double>::quiet_NaN();  ///< N/m, mean over the last tenth of the strain
-    double dilation_at_peak =
-        std::numeric_limits<double>::quiet_NaN();  ///< degrees, atan of the slope of rise over shear displacement
+    double residual =
+        std::numeric_limits<double>::quiet_NaN();  ///< shear stress, N/m, mean over the last tenth of the strain
+    double dilation_at_peak = std::numeric_limits<double>::quiet_NaN();  ///< dilation angle, degrees: arctangent of the
+                                                                         ///< slope of rise over shear displacement
 };
 
 /// @param reached_its_strain  whether the test reached its largest strain
-/// @param height, length  m, by which lateral and axial strain were normalised: rise/height and displacement/length
+/// @param height, length  lengths, m, by which rise and shear displacement were divided to obtain lateral and axial
+/// strain
 ShearBoxFigures measure_shear_box(std::span<const CurveRow> rows, std::int64_t peak_row, bool reached_its_strain,
                                   double height, double length);
 

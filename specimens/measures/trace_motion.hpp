@@ -19,7 +19,7 @@ struct TraceMotion {
     double length = 0.0;                // m, total length of the faces
     double bonded = 0.0, failed = 0.0;  // m, length of the initially bonded faces, and of those that lost all bonds
     double opening = 0.0, slip = 0.0;   // m, means over the faces; defined in trace_faces.hpp
-    // Largest values of a single face, m; the slip of largest magnitude is signed.
+    // Largest values of a single face, m; for slip, the value of largest magnitude, with its sign.
     double largest_opening = 0.0, largest_slip = 0.0;
 
     CRACKLE_FIELDS(faces, length, bonded, failed, opening, slip, largest_opening, largest_slip);
@@ -31,7 +31,7 @@ struct TraceMotion {
 /// Current positions of the bodies in BondRecord::trace_faces. They are stored for every row that may be the peak.
 std::vector<FacePlaces> places_of_faces(const World& world, const BondRecord& bonds);
 
-/// Motion of each trace.
+/// Motion of each trace since loading began, at a given time.
 /// @param places  the positions of the faces' bodies at that time
 /// @param cracks  the cracks formed up to that time
 std::vector<TraceMotion> trace_motions(const BondRecord& bonds, std::span<const FacePlaces> places,

@@ -17,11 +17,12 @@ namespace crackle {
 namespace {
 
 constexpr double fewest_across = 20.0;
-// Stress drop that counts as the first one, relative to the largest stress before it.
+// Smallest stress drop that counts as the first drop, relative to the largest stress before it.
 constexpr double first_drop = 0.01;
 constexpr double centre_share = 0.5, jaw_share = 0.8,
                  jaw_energy = 0.25;  // limits: the first two relative to the radius, the third to the energy
-constexpr double largest_slant = 20.0, split_share = 0.5;  // degrees; fraction of the diameter or height
+// Limits for the largest crack: slant in degrees; extent relative to the diameter or height.
+constexpr double largest_slant = 20.0, split_share = 0.5;
 constexpr double midspan_share = 0.25;  // largest distance of a crack from midspan, relative to the height
 
 // Limits: a fraction of the height, and a fraction of the energy.
@@ -89,8 +90,8 @@ std::vector<BreakPlace> places_of(const TestSetup& setup, const ContactHistory& 
 /// The crack with the most breaks.
 struct LargestCrack {
     std::size_t breaks = 0;
-    double slant = 0.0;                                                 // angle between its longest axis and y, degrees
-    double low = std::numeric_limits<double>::infinity(), high = -low;  // m, its extent along y
+    double slant = 0.0;                                                 // angle between the longest axis and y, degrees
+    double low = std::numeric_limits<double>::infinity(), high = -low;  // m, extent along y
     double middle = 0.0;                                                // m, mean x
 };
 
@@ -171,8 +172,8 @@ std::vector<Verdict> on_disc(const TestedSpecimen& specimen, std::span<const Cur
         moment += place.energy * away;
         if (away > jaw_share) of_jaws += place.energy;
     }
-    Verdict middle{from_the_middle.holds, std::nullopt, "no bond broke before this drop"};
-    Verdict jaws{not_at_the_jaws.holds, std::nullopt, "no bond broke before this drop"};
+    Verdict middle{from_the_middle.holds, std::nullopt, "no bond broke before the stress dropped by 1 %"};
+    Verdict jaws{not_at_the_jaws.holds, std::nullopt, "no bond broke before the stress dropped by 1 %"};
     if (energy > 0.0) {
         middle.holds = moment / energy < centre_share;
         middle.found = fmt::format("{:.2f} R for {} breaks", moment / energy, before);
@@ -219,7 +220,7 @@ std::string broken_claim(const std::string& claim, const std::string& found) {
     for (const Claim& one : {wide_enough, away_from_platens, between_grips, from_the_middle, not_at_the_jaws,
                              split_disc, crack_at_midspan, sheared_gap})
         if (claim == one.holds) return fmt::format(fmt::runtime(one.broken), found);
-    return fmt::format("it does not hold that {}: {}", claim, found);
+    return fmt::format("condition not met: {}: {}", claim, found);
 }
 
 std::vector<Verdict> verdicts_on(const TestSetup& setup, std::span<const CurveRow> rows, const ContactHistory& history,

@@ -28,18 +28,18 @@
 
 namespace crackle {
 
-/// A condition of a valid test.
+/// A condition for a valid test, and whether it holds.
 struct Verdict {
     std::string claim;          ///< condition for validity
-    std::optional<bool> holds;  ///< empty: not known (yet)
-    std::string found;          ///< the values on which it is based, or why there are none
+    std::optional<bool> holds;  ///< empty if it is not known (yet)
+    std::string found;          ///< the values on which the judgement is based, or why there are none
 };
 
 /// A sentence stating that a claim does not hold, with the values found. @param claim, found  from a Verdict, or from
 /// summary.json
 std::string broken_claim(const std::string& claim, const std::string& found);
 
-/// @param failed  whether the peak is final
+/// @param failed  whether the specimen has failed, so that its peak is final
 std::vector<Verdict> verdicts_on(const TestSetup& setup, std::span<const CurveRow> rows, const ContactHistory& history,
                                  bool failed);
 

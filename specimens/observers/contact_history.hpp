@@ -3,7 +3,7 @@
 //
 // The step of each break is known exactly. Contacts are only updated at curve rows, of which a test has at least 2000,
 // whether they are written to curve.csv or not. The age of a contact counts from the row in which it was first seen. A
-// contact that opens and closes between two rows counts as uninterrupted. Steps between rows cost nothing.
+// contact that opens and closes between two rows counts as uninterrupted. Steps between rows take no extra time.
 #pragma once
 
 #include <array>
@@ -29,13 +29,14 @@ struct Crack {
     CRACKLE_FIELDS(time, energy, strength, orientation, bond, shear_mode);
 };
 
-/// A contact point that touches and was never bonded, or whose bond has broken.
+/// A contact point that touches and has no intact bond.
 struct LooseContact {
     ContactPoint point;
     double shear_force = 0.0;  // N, elastic part, at the last update
-    double since = 0.0;        // s, time of the row in which it was first seen
-    /// Elastic normal force, N, at the last update, for a point across a joint, which has its own stiffness and
-    /// force-free overlap. NaN elsewhere, because the positions of the bodies then determine the force.
+    double since = 0.0;        // s, time of the row in which the contact was first seen
+    /// Elastic normal force, N, at the last update, for a point across a joint. Such a point has its own stiffness and
+    /// an overlap at which the force is zero. NaN elsewhere, because the positions of the bodies then determine the
+    /// force.
     double joint_force = std::numeric_limits<double>::quiet_NaN();
 
     CRACKLE_FIELDS(point, shear_force, since, joint_force);
@@ -59,8 +60,8 @@ struct ContactHistory {
 
 /// Records a break.
 void note_break(const BondRecord& bonds, const BreakEvent& event, ContactHistory& history);
-/// Records the points that currently touch without a bond. Requires compute_forces(). Takes time linear in the listed
-/// points.
+/// Records the points that currently touch without a bond. Requires compute_forces(). Takes a time proportional to the
+/// number of listed points.
 void look_at_contacts(const World& world, ContactHistory& history);
 
 /// Index of a point in BondRecord::points; the size of that list if the point was not bonded at the start of loading.

@@ -13,8 +13,8 @@ namespace crackle {
 
 namespace {
 
-// Smallest force at which a point counts as sliding, relative to the mean back-tension. Surfaces that just touch
-// overlap by round-off of their positions, up to 1e-11 of a bond's overlap.
+// Smallest shear force at which a point counts as sliding, relative to the mean bond strength. Surfaces that only just
+// touch may overlap because of round-off, by up to 1e-11 of a bond's overlap.
 constexpr double least_sliding_force = 1e-9;
 
 }  // namespace
@@ -102,7 +102,7 @@ const std::vector<CurveColumn>& curve_columns() {
         {{"lateral_strain", "-",
           "change in the distance between the left and right side particles, divided by its initial value; positive if "
           "the specimen widens",
-          "the distance is that between the mean x of the left side particles and the mean x of the right ones. Side "
+          "the distance is measured from the mean x of the left side particles to the mean x of the right ones. Side "
           "particles lie at a side face in the middle half of the height; nan if a side has none. In direct shear "
           "tests, the column is the rise of the upper half box divided by the height"},
          [](Row r) { return r.lateral_strain; },
@@ -149,14 +149,14 @@ const std::vector<CurveColumn>& curve_columns() {
          [](Row r) { return r.energy_error; },
          false},
         {{"gauge_strain", "-", "axial strain of the gauge length, positive in the direction of loading",
-          "it is measured between the bonded particles within half a mean particle size of the two ends of the gauge "
-          "length. The gauge length is the height without the grips, or without the outer tenths if there are no "
+          "the strain is measured between the bonded particles within half a mean particle size of the two ends of the "
+          "gauge length. The gauge length is the height without the grips, or without the outer tenths if there are no "
           "grips; nan if an end has no particles"},
          [](Row r) { return r.gauge_strain; },
          false},
         {{"bonds_slid", "",
           "number of bonded contact points that have reached their Coulomb limit, including broken ones",
-          "each of them has a row in slips.csv, if that file is written"},
+          "each of these points has a row in slips.csv, if that file is written"},
          [](Row r) { return static_cast<double>(r.bonds_slid); },
          true},
         {{"confinement_work", "J",

@@ -54,8 +54,8 @@ struct CurveRow {
                    contacts_gained);
 };
 
-/// Row for the current step. Requires compute_forces(). The force of a membrane on a platen is not counted as part of
-/// the specimen's force.
+/// Row for the current step. Requires compute_forces(). The force of the membrane on a platen does not count as force
+/// of the specimen.
 CurveRow observe_row(const World& world, const TestSetup& setup);
 
 /// Mean stress of the two platens, N/m, positive in the direction of loading; requires compute_forces().
@@ -65,7 +65,7 @@ double axial_stress(const World& world, const PlacedApparatus& apparatus);
 struct CurveColumn {
     Quantity what;
     double (*value)(const CurveRow&);
-    bool whole;            ///< whether it is a count
+    bool whole;            ///< whether the values are whole numbers
     bool pressed = false;  ///< whether the column exists only in tests with a membrane or a normal force
 };
 /// The columns in file order.

@@ -14,8 +14,8 @@
 
 namespace crackle {
 
-/// A column of events.csv: either a column of every record of breaks (solver/measure/breaks.hpp), or one that tests
-/// add.
+/// A column of events.csv: either one that every record of breaks has (solver/measure/breaks.hpp), or one that is added
+/// in tests.
 struct EventColumn {
     Quantity what;
     std::function<std::string(const BreakEvent&, double axial_strain, std::int32_t trace)> text;

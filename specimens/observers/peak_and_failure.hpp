@@ -7,10 +7,10 @@
 // shortly after loading begins, a tenth of the strain is tiny and stresses may fluctuate if the platens only just touch
 // the specimen.
 //
-// Later stresses may be larger: rubble carries load again once it is wedged. Until a drop has followed, the peak is the
-// largest stress up to the current row; then it is final (`failed`). The test ends (`collapsed`) when the stress stays
-// below another fraction of its largest value (half by default) in the same way. This does not depend on the drop
-// required for the peak.
+// Later stresses may be larger: rubble carries load again once it is wedged. Until such a drop has followed, the peak
+// is the largest stress up to the current row; afterwards the peak is final (`failed`). The test ends (`collapsed`)
+// when the stress stays below another fraction of its largest value (half by default) in the same way. Whether the test
+// ends does not depend on strength_drop.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,9 @@ namespace crackle {
 
 /// A period in which the stress is below a fraction of a maximum.
 struct StressDrop {
-    double since = std::numeric_limits<double>::quiet_NaN();  ///< travel at its start; NaN if the stress is not below
-    std::int64_t row = -1;                                    ///< row in which it started
+    double since =
+        std::numeric_limits<double>::quiet_NaN();  ///< strain travelled at its start; NaN if there is no drop
+    std::int64_t row = -1;                         ///< row of the curve in which the drop started; -1 if there is none
 
     CRACKLE_FIELDS(since, row);
 };
@@ -31,11 +32,11 @@ struct StressDrop {
 /// Finds the peak, the largest stress and failure while rows of a curve are added one by one. Stress and strain are
 /// positive in the direction of loading.
 struct FailureTracker {
-    double strength_drop = 0.1;  ///< stress drop that makes a maximum the peak, relative to the peak
+    double strength_drop = 0.1;  ///< fraction by which stress must drop after a maximum to make it the peak
     double share_of_peak = 0.5;  ///< fraction of the largest stress below which the test ends
     double peak_stress = 0.0;    // N/m
     double peak_strain = 0.0;
-    std::int64_t peak_row = -1;   ///< row of the peak; -1 if there is no stress yet
+    std::int64_t peak_row = -1;   ///< row of the peak; -1 if no stress was positive yet
     double largest_stress = 0.0;  // largest stress up to the last row added, N/m
     double strain_at_largest = 0.0;
     double travel_at_largest = 0.0;
@@ -57,7 +58,7 @@ struct FailureTracker {
                    travel_at_largest, largest_row, drop, collapse, failed, collapsed);
 };
 
-/// Travel over which the stress must stay below the limit, relative to the strain at the maximum.
+/// Range of strain over which the stress must stay below the limit, relative to the strain at the maximum.
 inline constexpr double failure_strain_share = 0.1;
 inline constexpr std::int64_t failure_rows = 10;
 

@@ -17,8 +17,8 @@ struct PhaseName {
 // Names and meanings, in the order of the enumerators of Phase.
 constexpr std::array<PhaseName, phase_count> phase_names{{
     {"broad_phase", "finding pairs of nearby bodies, when the neighbour list is rebuilt"},
-    {"listing", "listing their contact points and carrying over values from the old list"},
-    {"step_bound", "bounding the stable time step, at rebuilds and new contacts"},
+    {"listing", "listing the contact points of nearby bodies, with values carried over from the old list"},
+    {"step_bound", "computing the bound on the stable time step, at rebuilds and when contacts form"},
     {"force", "geometry and forces of contact points; one call per block of points"},
     {"gather", "adding the forces of each block to its bodies"},
     {"bookkeeping", "recording bond breakage, losses and the work of driven bodies"},
@@ -58,7 +58,7 @@ ProfileFigures profile_report(const Profile& profile, std::int64_t particles, st
             samples > 0.0 ? sampled / samples * static_cast<double>(profile.force_passes) : 0.0,
             profile.geometry_sampled.calls);
     }
-    add("rest", "time outside these phases", total - named, 0);
+    add("rest", "time outside the other phases", total - named, 0);
     return report;
 }
 

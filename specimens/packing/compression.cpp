@@ -74,7 +74,7 @@ class Compressor {
         return false;
     }
 
-    /// Reaches target, isotropy and equilibrium together. @return whether all three were reached
+    /// Iterates until target, isotropy and equilibrium are reached together. @return whether all three were reached
     bool finish(bool free_box) {
         load_.freedom = BoxFreedom::shape_kept;
         first_pressure();
@@ -169,9 +169,9 @@ class Compressor {
         const double loosest = reached(lowest), densest = reached(highest);
         throw PackingError(
             PackingInput::void_ratio, "void_ratio",
-            fmt::format(": found {}, expected {:.4f} to {:.4f}, the range of these sizes with this seed. Looser "
-                        "packings carry no load without friction; denser ones overlap by more than a tenth of the mean "
-                        "radius",
+            fmt::format(": found {}, expected {:.4f} to {:.4f}, the range that these sizes reach with this seed. "
+                        "Looser packings carry no load without friction; denser ones overlap by more than a tenth of "
+                        "the mean radius",
                         *target_.void_ratio, densest, loosest));
     }
 

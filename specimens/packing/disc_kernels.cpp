@@ -52,7 +52,8 @@ void DiscAssembly::measure_pairs<InstructionSet::CRACKLE_SET>(std::size_t begin,
             load_as<LaneBits>(first_lanes.data() + lane_count - std::min<std::size_t>(end - first, lane_count));
         const LaneBits touching = (square < reach * reach) & here;
         const Lanes overlap = lanes_of(bits_of(reach - distance) & touching);
-        // Discs with coincident centres have no direction and therefore exert no force; their neighbours separate them.
+        // Discs with coincident centres exert no force on each other, since its direction is undefined; their
+        // neighbours separate them.
         const Lanes pull = lanes_of(bits_of(overlap / distance) & (distance > 0.0));
         const Lanes pull_x = pull * dx, pull_y = pull * dy;
         PairPush* const push = pushes + (first - begin);

@@ -27,11 +27,11 @@ double stress_anisotropy(const AssemblySums& sums);
 /// removed repeatedly; a contact carries load if its overlap exceeds a ten-thousandth of the mean.
 std::vector<bool> find_floating(const DiscAssembly& assembly, const AssemblySums& sums);
 
-/// dT/dr_i [m] for each disc of an assembly in equilibrium under a pressure at constant box shape; 0 for floating
-/// discs. Empty if the stiffness matrix cannot be factorised.
+/// dT/dr_i [m], where T = virial_x - virial_y, for each disc of an assembly in equilibrium under a pressure at constant
+/// box shape; 0 for floating discs. Empty if the stiffness matrix cannot be factorised.
 std::vector<double> anisotropy_gradient(const DiscAssembly& assembly, const BoxLoad& load, const AssemblySums& sums);
 
-/// Swaps radii so that, to first order, T becomes zero. The assembly must be relaxed afterwards.
+/// Swaps radii so that, to first order, T = virial_x - virial_y becomes zero. The assembly must be relaxed afterwards.
 /// @return number of swaps; 0 if the sizes allow none
 int exchange_radii(DiscAssembly& assembly, const BoxLoad& load, const AssemblySums& sums);
 

@@ -100,7 +100,7 @@ std::mt19937_64 stream(std::uint64_t seed, int attempt) {
 }
 
 /// Number of circles that fill a given fraction of the box.
-/// @throws InputError if it is outside the limits for a packing
+/// @throws InputError if the number is outside the limits for a packing
 std::size_t count_for_box(const PackingRequest& request, double mean_square, double fill) {
     const double count = std::round(fill * *request.width * *request.height / (std::numbers::pi * mean_square));
     if (count < static_cast<double>(min_packing_circles) || count > static_cast<double>(max_packing_circles)) {

@@ -19,9 +19,10 @@
 //
 // Equal circles cannot be swapped. With a given count, the aspect ratio of the box may then change by up to
 // max_aspect_error. The circles do not depend on the material, which only determines the stresses in the report and the
-// time step of the deck.
+// time step in the particle file.
 //
-// The reachable void ratios end where frictionless circles jam: looser arrangements cannot carry load at rest.
+// The largest reachable void ratio is that at which frictionless circles jam: looser arrangements cannot carry load in
+// equilibrium.
 #pragma once
 
 #include <cstdint>
@@ -107,15 +108,15 @@ Packing make_packing(const PackingRequest& request, const PackingCallback& progr
 /// Report for a scene of single circles between four walls, computed from the scene alone.
 PackingReport measure_packing(const Scene& scene, const SizeDistribution& sizes);
 
-/// Sentences on the limits that the packing violates.
+/// Returns a sentence for each limit that the packing violates.
 std::vector<std::string> packing_notices(const PackingReport& report);
 
 /// Scene with circles 1, 2, … in a box between four walls, at rest, with deck_time_step().
 Scene scene_of_circles(const std::vector<CircleElement>& circles, double width, double height, const Material& material,
                        int threads);
 
-/// Time step for a deck with these circles, s: a tenth of 2·sqrt(m/k_n) for the lightest circle. A circle has at most
-/// about six contacts, with dashpots, so the stability limit of the bonded specimen is a few times larger.
+/// Time step for an input file (deck) with these circles, s: a tenth of 2·sqrt(m/k_n) for the lightest circle. A circle
+/// has at most about six contacts, with dashpots, so the stability limit of the bonded specimen is a few times larger.
 double deck_time_step(const Scene& scene);
 
 }  // namespace crackle

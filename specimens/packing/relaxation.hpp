@@ -14,8 +14,8 @@
 // There are two methods. FIRE uses the power summed over all discs, and stops them all when the fastest ones move
 // uphill. In large packings, some region is always yielding, and these stops delay all other regions. Discs in large
 // packings therefore move against a viscous drag that damps the longest waves critically. Numbers of force computations
-// with FIRE and with drag: 28,300 and 13,500 for 20,000 discs, 61,700 and 15,500 for 50,000 discs. They are from quench
-// to equilibrium, for radii from 1 to 2 and a mean overlap of 0.4 % of the mean radius.
+// with FIRE and with drag: 28,300 and 13,500 for 20,000 discs, 61,700 and 15,500 for 50,000 discs. These numbers cover
+// the path from quench to equilibrium, for radii from 1 to 2 and a mean overlap of 0.4 % of the mean radius.
 // Tested by tests/specimens/packing/packing_test.cpp.
 #pragma once
 
@@ -53,8 +53,9 @@ struct RelaxationResult {
 /// the pressure if that is larger.
 double imbalance(const DiscAssembly& assembly, const BoxLoad& load, const AssemblySums& sums);
 
-/// Number of discs from which the drag method replaces FIRE, except in a fixed box: quenching starts far from rest,
-/// where FIRE's stops help. For fewer discs the stops cost little, and FIRE keeps published packings bit-identical.
+/// Number of discs from which the drag method replaces FIRE, except in a fixed box: quenching starts far from
+/// equilibrium, where FIRE's stops help. For fewer discs the stops cost little, and FIRE keeps published packings
+/// bit-identical.
 inline constexpr std::size_t drag_from = 8000;
 
 /// Relaxes until the imbalance is at most `tolerance`. On failure, `converged` is false and the assembly keeps the last

@@ -97,7 +97,7 @@ std::vector<std::string> packing_notices(const PackingReport& r) {
     if (!r.isotropic) {
         notices.push_back(
             fmt::format("the stresses of the packing differ: |sx - sy|/(sx + sy) = {:.2g}, above {}; use more circles, "
-                        "or a box that is wider than a few of them",
+                        "or a box that is more than a few circles wide",
                         r.anisotropy, max_anisotropy));
     }
     if (std::abs(r.aspect_error) > max_aspect_error) {
@@ -107,7 +107,8 @@ std::vector<std::string> packing_notices(const PackingReport& r) {
     }
     if (std::abs(r.radius_scale - 1.0) > max_radius_scaling) {
         notices.push_back(fmt::format(
-            "radii were multiplied by {:.4f} to fill the box, by more than {} of the requested sizes; use more circles",
+            "radii were multiplied by {:.4f} to fill the box, a change of more than {} of the requested sizes; use "
+            "more circles",
             r.radius_scale, max_radius_scaling));
     }
     return notices;

@@ -70,7 +70,7 @@ enum class PackingInput : std::uint8_t {
     whole,  ///< the request as a whole
 };
 
-/// A request for a packing that cannot be met. Its message is name and text.
+/// A request for a packing that cannot be met. Its message consists of `name` and `text`.
 class PackingError : public InputError {
   public:
     PackingError(PackingInput wrong, const std::string& name, std::string found_and_expected)

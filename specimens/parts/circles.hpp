@@ -84,7 +84,7 @@ struct ParticleFile {
     bool operator==(const ParticleFile&) const = default;
 };
 
-/// Stands for the gap that follows from the number of cells, once they have been counted.
+/// Placeholder for a gap that is derived from the number of cells once they have been counted.
 struct DerivedGap {
     bool operator==(const DerivedGap&) const = default;
 };

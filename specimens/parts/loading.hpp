@@ -69,9 +69,9 @@ struct LoadingValues {
     double strength_drop = 0.0;
     double stop_at_share_of_peak = 0.0;
     PlatenKind platens = PlatenKind::bonded;
-    std::optional<double> span;       ///< m; empty: as usual for the kind of test
+    std::optional<double> span;       ///< m; empty: the default for the kind of test
     std::optional<double> pad_width;  ///< m; empty: derived from the size of the specimen and of its particles
-    std::optional<double> box_gap;    ///< m; empty: two mean particles
+    std::optional<double> box_gap;    ///< m; empty: twice the mean particle size
 
     bool operator==(const LoadingValues&) const = default;
 };
@@ -98,7 +98,7 @@ struct Loading : LoadingValues {
         const auto* given = std::get_if<RateTolerance>(&rate);
         return given == nullptr ? nullptr : &given->value;
     }
-    /// Whether the lateral strain, instead of the axial strain, grows at a steady rate.
+    /// Whether the lateral strain, instead of the axial strain, increases at a steady rate.
     bool by_lateral_strain() const { return control == LoadingControl::lateral; }
     /// Whether the specimen is unloaded and reloaded.
     bool unloads() const { return !unloading.at.empty(); }

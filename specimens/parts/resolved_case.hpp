@@ -45,7 +45,7 @@ struct Numerics {
 /// What the test writes.
 struct Output {
     std::int64_t curve_rows = 2000;
-    std::optional<std::int64_t> frames;  ///< empty: default_frames() of the number of bodies, once they are made
+    std::optional<std::int64_t> frames;  ///< empty: default_frames() for the number of bodies that are made
     FramePrecision frame_precision = FramePrecision::single_;
     bool slips = false;
     bool emission = false;
@@ -56,7 +56,7 @@ struct Output {
     bool operator==(const Output&) const = default;
 };
 
-/// What the particles are and consist of.
+/// The particles of a test: their source, mesh, material, minerals and joints.
 struct Particles {
     std::variant<Packing, ParticleFile> source;
     std::optional<Mesh> mesh;  ///< empty: the test uses the particles as they are
@@ -95,7 +95,8 @@ struct Procedure {
     double pressure() const { return confinement ? confinement->pressure : 0.0; }
     /// Whether a pressure acts on the sides.
     bool confined() const { return test_kind(loading.kind).confined; }
-    /// Whether a force other than that of the driving part does work; the curve then has a column for this work.
+    /// Whether a pressure or normal force does work in addition to the driving part; the curve then has a column for
+    /// it.
     bool pressed() const { return test_kind(loading.kind).pressed(); }
     /// Whether the whole packing lies between platens, so that stress and strain are those of the rock.
     bool uniaxial() const { return test_kind(loading.kind).uniaxial; }
@@ -107,13 +108,14 @@ struct Procedure {
 
 }  // namespace parts
 
-/// One virtual test. Its parts are independent of how they were written; each stage takes those that it needs.
+/// One virtual test. Its parts do not depend on the form in which they were written; each stage uses the parts that it
+/// needs.
 struct ResolvedCase : parts::Particles, parts::Procedure {
     std::string title;
     parts::Bonds bond;
     parts::Output output;
     std::vector<std::filesystem::path> case_files;  ///< the case file and the files that it includes
-    std::vector<std::filesystem::path> data_files;  ///< files that its parts name
+    std::vector<std::filesystem::path> data_files;  ///< files named by the parts of the case
 
     bool operator==(const ResolvedCase&) const = default;
 };

@@ -42,13 +42,13 @@ struct MaterialValues : BondConstants, FaceConstants {
     std::optional<double> damping_ratio;                  // -
     std::optional<double> normal_damping, shear_damping;  // N s/m; either of them replaces a damping ratio
 
-    /// Stiffnesses of faces of this rock. @throws InputError if Poisson's ratio is
-    /// not to be had with this ratio of k_n to k_s
+    /// Stiffnesses of faces of this rock. @throws InputError if no stiffnesses give this Poisson's ratio with this
+    /// ratio of k_n to k_s
     FaceModuli face_moduli() const;
     /// Law of faces of this rock.
     FaceLaw face_law() const;
     double mesh_correction = 0.0;           ///< c_κ of its mesh (solver/laws/face_bond.hpp)
-    std::optional<double> stiffness_ratio;  ///< k_n over k_s of faces; empty: cells have no pressure
+    std::optional<double> stiffness_ratio;  ///< k_n over k_s of faces; empty: no pressure acts in the cells
 
     /// Replaces the values of `material`. Bond constants that are absent become 0, or the friction angle.
     void apply_to(crackle::Material& material) const;
@@ -69,12 +69,12 @@ struct Mineral {
     std::string name;
     MaterialValues material;
     std::optional<double> asked;  ///< area fraction that the case states
-    double share = 0.0;           ///< area fraction that is requested: as stated, or what the others leave
+    double share = 0.0;           ///< area fraction that is requested: as stated, or the remainder left by the others
 
     bool operator==(const Mineral&) const = default;
 };
 
-/// Minerals that grains get at random, until the areas are as requested.
+/// Minerals that are assigned to grains at random until the areas are as requested.
 struct RandomGrains {
     std::int64_t seed = 1;
 
@@ -134,7 +134,7 @@ struct BondValues {
     /// Strengths as factors of the mean back-tension, which then replace those of the materials.
     std::optional<double> tensile_factor, cohesion_factor;
 
-    /// What is true of bonds by their law.
+    /// Properties of the bonds' law.
     const BondLawFacts& facts() const { return facts_of(law); }
 
     bool operator==(const BondValues&) const = default;

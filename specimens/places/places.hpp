@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the values of a test were written. The parts of a resolved case carry it, so that an error found long after
-// reading still names file, line and key. Code that finds the error names the value by an enumerator.
+// Where the values of a test were written. The parts of a resolved case carry these places, so that an error found long
+// after reading still names file, line and key. Code that finds the error names the value by an enumerator.
 // Tested by tests/specimens/places/places_test.cpp.
 #pragma once
 
@@ -84,7 +84,7 @@ constexpr auto list_names(CaseKey) {
         "loading.control", "confinement.pressure", "numerics.time_step");
 }
 
-/// The places of all keys of a case, as its reader keeps them.
+/// The places of all keys of a case, as its reader stores them.
 struct WrittenPlaces {
     std::filesystem::path source;                 ///< the case file
     std::map<std::string, std::string> position;  ///< "table.key" or "list[2].key" → "file:line"
@@ -104,12 +104,12 @@ class Places {
     std::string at(CaseKey key) const { return named(name_of(key)); }
     /// Place of a key of a table that may occur several times. @param entry  index of the table, from 0
     std::string at(CaseKey key, std::size_t entry) const;
-    /// Whether a file or a setting gives the key.
+    /// Whether a file or a setting sets the key.
     bool gives(CaseKey key) const { return written_ && written_->position.contains(name_of(key)); }
     /// The case that was read; null if there is none.
     const std::shared_ptr<const WrittenPlaces>& written() const { return written_; }
 
-    /// Whether both are of the same case.
+    /// Whether both objects refer to the same case.
     bool operator==(const Places&) const = default;
 
   private:

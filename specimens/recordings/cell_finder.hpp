@@ -39,7 +39,7 @@ class CellFinder {
         return found;
     }
 
-    /// Whether a body is a circle or a clump of circles; false for an unknown one.
+    /// Whether a body is a circle or a clump of circles; false for an unknown body.
     bool is_circle(int id) const {
         const auto entry = of_id_.find(id);
         return entry != of_id_.end() && places_[static_cast<std::size_t>(entry->second)].radius > 0.0;

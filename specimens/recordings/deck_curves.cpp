@@ -96,7 +96,7 @@ std::vector<Curve> read_bodies(const fs::path& file, const StepTimes& times, con
         Curve& curve = curve_of_body(words, all);
         const double time = times.at(step);
         if (!curve.time.empty() && !(time > curve.time.back()))
-            words.refuse("body", fmt::format("one row of it for step {}", step));
+            words.refuse("body", fmt::format("only one row of this body for step {}", step));
         curve.time.push_back(time);
         read(words, curve);
     });

@@ -55,8 +55,8 @@ struct DeckVelocityCurve {
 struct DeckCurves {
     bool in_time = true;  ///< false if `time` contains step numbers because the run has only one frame
     DeckEnergyCurve energy;
-    std::vector<DeckBodyCurve> bodies;          ///< in the order of their first rows
-    std::vector<DeckVelocityCurve> velocities;  ///< in the order of their first rows
+    std::vector<DeckBodyCurve> bodies;          ///< in the order in which the bodies first appear in the file
+    std::vector<DeckVelocityCurve> velocities;  ///< in the order in which the bodies first appear in the file
 };
 
 /// Reads the curves of a run. A missing file gives no rows. An incomplete last row, from a killed run, is ignored.

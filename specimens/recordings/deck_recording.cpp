@@ -8,8 +8,8 @@
 // sum of its circles' areas, as in the computation of its mass.
 //
 // Bonds are the contacts with a back-tension in the first frame. A bond is recognised in a later frame by its bodies,
-// its back-tension and its position. The back-tension is constant until the bond breaks. Points of a face with equal
-// back-tension are far apart.
+// its back-tension and its position. The back-tension is constant until the bond breaks. Bonded points with equal
+// back-tension on the same face are far apart, so their positions distinguish them.
 // Tested by tests/tools/commands/view_test.cpp.
 
 #include <fmt/format.h>
@@ -52,7 +52,7 @@ std::vector<Chain> joined(const std::vector<DeckSegment>& segments) {
     }
     for (Chain& chain : chains) {
         const Vec2 first = chain.points.front(), last = chain.points.back();
-        // The last point repeats the first.
+        // The last point of a closed chain repeats the first.
         chain.closed = chain.points.size() > 3 && first.x == last.x && first.y == last.y;
         if (chain.closed) chain.points.pop_back();
     }
@@ -200,7 +200,7 @@ class DeckMotion {
     std::int32_t cell_of(int id, Vec2 place) const {
         if (id < 0) return recorded_walls[static_cast<std::size_t>(-id - 1)];
         const std::int32_t cell = finder_.find(id, place);
-        if (cell < 0) throw InputError(fmt::format("cont.dat: found body {}, which output.dat does not have", id));
+        if (cell < 0) throw InputError(fmt::format("cont.dat: found body {}, which is not in output.dat", id));
         return cell;
     }
 
@@ -227,14 +227,13 @@ class DeckMotion {
         for (const char* name : {"body_i", "body_j"}) {
             for (const double id : *events.find(name)) {
                 if (!area_of_body_.contains(static_cast<int>(id)))
-                    throw InputError(
-                        fmt::format("{}: found body {}, which output.dat does not have", file.string(), id));
+                    throw InputError(fmt::format("{}: found body {}, which is not in output.dat", file.string(), id));
             }
         }
     }
 
-    /// Index of the bond to which a contact belongs, among bonds not found yet; empty if the contact was not bonded in
-    /// the first frame.
+    /// Index of the bond to which a contact belongs, among the bonds not yet assigned to a contact; empty if the
+    /// contact was not bonded in the first frame.
     std::optional<std::size_t> bond_of(const DeckContact& contact, const std::vector<Place>& now,
                                        const std::vector<bool>& found) const {
         const auto candidates = bonds_of_.find(pair_of(contact));
@@ -253,7 +252,7 @@ class DeckMotion {
         return nearest;
     }
 
-    /// Current position of a bond that moves with the first of its cells.
+    /// Current position of a bond, which is assumed to move with the first of its two cells.
     Vec2 carried(const RecordedBond& bond, const std::vector<Place>& now) const {
         const Place &cell = now[static_cast<std::size_t>(bond.i)],
                     &start = places_[0][static_cast<std::size_t>(bond.i)];

@@ -15,7 +15,7 @@
 namespace crackle {
 
 std::vector<std::pair<double, double>> read_measured_curve(const std::filesystem::path& file) {
-    constexpr const char* expected = "columns axial_strain and axial_stress, the first line their names";
+    constexpr const char* expected = "columns axial_strain and axial_stress, with their names in the first line";
     const std::string text = read_text(file, most_bytes_of_table);
     refuse_foreign(file.string(), text, fmt::format("a table with {}", expected));
     TableReader reader(file.string(), text, TableReader::Form::table);

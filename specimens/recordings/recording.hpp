@@ -61,10 +61,11 @@ struct FrameHead {
     std::optional<double> axial_strain, axial_stress;
     std::optional<std::int64_t> step;
     std::vector<std::string> roles;  ///< which of "start", "peak" and "end" this frame shows
-    std::string file;                ///< name shown to users
+    std::string file;                ///< file of the frame, as shown to users
 };
 
-/// Values at one moment, by cell or by bond. Apart from the displacements, values that the source lacks are empty.
+/// Values at one moment, for each cell or each bond. Values that the source lacks are empty; displacements always
+/// exist.
 struct RecordedFrame {
     std::vector<double> ux, uy, angle;  ///< m, rad; displacements of RecordedCell::centre since the first frame
     std::vector<double> vx, vy, rotation_rate;

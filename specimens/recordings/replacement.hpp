@@ -9,9 +9,10 @@
 namespace crackle {
 
 inline constexpr const char* staging_suffix = ".new";
-/// Name of the marker in OUT.new. It shows that the folder belongs to a test with --force and may be discarded.
+/// Name of the marker in OUT.new. It shows that the folder belongs to a test started with --force and may be discarded.
 inline constexpr const char* staged_mark = "replaces-older-results";
-/// First line of the marker once the results are complete and are being moved to OUT. The names of their frames follow.
+/// First line of the marker once the results are complete and are being moved to OUT. The following lines are the names
+/// of the frames.
 inline constexpr const char* moving_line = "complete, being moved";
 
 /// Whether the results in a folder are being moved. @param frames  receives the marker's lines after the first

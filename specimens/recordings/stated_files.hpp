@@ -21,7 +21,8 @@ using FileMarks = std::vector<std::pair<std::string, FileMark>>;
 void state_files(Summary& summary, const FileMarks& files);
 
 /// The files recorded in a summary; empty for summaries of earlier versions, which recorded none.
-/// @param name  of the summary, for the message @throws InputError if state_files() did not write the entry
+/// @param name  file name of the summary, for messages
+/// @throws InputError if the entry is not one that state_files() writes
 FileMarks stated_files(const Summary& summary, const std::string& name);
 
 /// Whether a summary records a file. @param name  name of the file in the test's folder

@@ -74,7 +74,8 @@ void append_cells(const fs::path& file, const PolyData& data, std::vector<Record
     }
 }
 
-/// Position of a contact on its line: for circles, the end that is not a centre; for polygons, the middle of the gap.
+/// Position of a contact on the line drawn for it: next to the centre if a body is a circle, else the middle of the
+/// line.
 Vec2 place_of(const PolyData& data, const PolyData::Cell& line, bool first_is_circle, bool second_is_circle) {
     const auto at = [&](std::size_t corner) { return data.points[line.points[corner]]; };
     if (first_is_circle) return at(1);
@@ -82,7 +83,7 @@ Vec2 place_of(const PolyData& data, const PolyData::Cell& line, bool first_is_ci
     return 0.5 * (at(0) + at(1));
 }
 
-constexpr double unbonded = 4.0;  // state of contacts without a bond, which are listed after all bonds
+constexpr double unbonded = 4.0;  // `state` of contacts that were never bonded, which are listed after all bonds
 
 /// Reads the frames of one test, one after the other.
 class TestFrames {
@@ -197,7 +198,8 @@ class TestFrames {
     std::size_t bonds_ = 0;
 };
 
-/// Calls `use` with the name of each role and the file of its frame; empty if the test has none.
+/// Calls `use` with each role (start, peak, end) and the file name of its frame, which is empty if there is no such
+/// frame.
 void each_role(const TestResults& results, const auto& use) {
     const FrameFiles& files = results.summary.frames;
     use("start", files.frame_start.value_or(""));

@@ -77,7 +77,8 @@ NumberTable number_table(const std::filesystem::path& file, std::string_view tex
                 table.columns[k].push_back(static_cast<double>(word - words.begin()));
                 continue;
             }
-            // A missing value, such as a strain without a gauge, is written as nan; no value is infinite.
+            // A missing value, such as the gauge strain if there are no particles to measure it, is written as nan. No
+            // value is infinite.
             const std::optional<double> value = number_of(found);
             if (!value || std::isinf(*value))
                 reader.refuse_number(found, fmt::format("a number or nan for {:.40}", table.names[k]));

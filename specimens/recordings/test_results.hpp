@@ -51,13 +51,12 @@ NumberTable number_table(const std::filesystem::path& file, std::string_view tex
 
 /// Reads broken bonds from events.csv of a test or of a deck's run. @param needed  names of required columns
 /// @param text  text that starts with the header, which is line `names_line` of the file
-/// @param again  how to write the file again, for messages
+/// @param again  advice on how to write the file again, for messages
 NumberTable break_table(const std::filesystem::path& file, std::string_view text,
                         const std::vector<const char*>& needed, const char* again, int names_line = 1);
 
 /// Reads the results of a test. @param folder  results of `crackle test -o`
-/// @throws InputError that names a file that is missing, invalid or not as the test wrote it (stated_files.hpp), and
-/// how to create it
+/// @throws InputError if a file is missing, invalid or not as the test wrote it (stated_files.hpp)
 TestResults read_results(const std::filesystem::path& folder);
 
 }  // namespace crackle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Runs work in a separate thread while the simulation steps: frames are drawn and compressed there.
+// Runs jobs in a separate thread while the simulation continues; the jobs draw and compress frames.
 // Tested by tests/specimens/results/background_test.cpp.
 #pragma once
 
@@ -26,7 +26,7 @@ class Background {
     /// Waits while more than `most_waiting` jobs are in the queue, so that a job's data are copied only when there is
     /// room.
     void make_room(std::size_t most_waiting);
-    /// Adds a job, and returns without waiting. @throws what an earlier job has thrown
+    /// Adds a job, and returns without waiting. @throws any exception that an earlier job has thrown
     void add(std::function<void()> job);
     /// Waits until all jobs are done.
     void wait();

@@ -19,7 +19,7 @@ namespace crackle {
 /// The first bytes of a checkpoint; the version number follows.
 inline constexpr const char* checkpoint_title = "crackle test checkpoint ";
 
-/// All that a test needs to be resumed.
+/// Everything that is needed to resume a test.
 struct TestCheckpoint {
     std::string case_hash;  ///< SHA-256 of OUT/case.toml
     TestSetup setup;
@@ -31,8 +31,8 @@ struct TestCheckpoint {
 void save_test(std::ostream& out, const std::string& case_hash, const TestSetup& setup, const TestState& state,
                const World& world);
 
-/// Loads a checkpoint; the stream is read twice (load_world()). @throws InputError if the data are foreign, damaged,
-/// truncated or from a newer version; the message contains `name`
+/// Loads a checkpoint; the stream is read twice (load_world()). @throws InputError if the data are not a checkpoint of
+/// this version, or are damaged or truncated; the message contains `name`
 TestCheckpoint load_test(std::istream& in, const std::string& name);
 
 }  // namespace crackle

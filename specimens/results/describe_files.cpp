@@ -52,7 +52,7 @@ void print_table(std::ostream& out, const char* what, std::span<const Quantity> 
 constexpr const char* introduction =
     R"(# Files of a test
 
-Printed by `crackle test --files`, from the declarations by which the files are written.
+Printed by `crackle test --files` and generated from the same declarations as the files themselves.
 
 `crackle test CASE.toml -o OUT` leaves in `OUT/`:
 
@@ -61,9 +61,9 @@ Printed by `crackle test --files`, from the declarations by which the files are 
 )";
 
 constexpr const char* folder_text = R"(
-A folder that contains files of anything but a test is refused, and so is a folder that contains an input of the case. A test's folder is recognised by the
+A folder is refused if it contains files that are not results of a test, or an input of the case. A test's folder is recognised by the
 first bytes of `case.toml` or `checkpoint`. A folder with results is also refused. With `--force`, new results are written to `OUT.new`, marked by a file
-`replaces-older-results`, and replace the old results once they are complete. New results that were interrupted and resumed by `--resume OUT.new` do the same.
+`replaces-older-results`, and replace the old results once they are complete. If that test is interrupted, `crackle test --resume OUT.new` continues it and replaces the old results in the same way.
 Other files are kept. While `OUT.new` contains a test that can be resumed, `--force` is refused; remove `OUT.new` first. `crackle report OUT` adds
 `report.html`. Until a file is complete, its name consists of 16 hexadecimal digits and `.crackle_tmp`. If a stopped run leaves such files,
 the next run removes them. Results are never written through a symbolic link.
@@ -71,13 +71,13 @@ the next run removes them. Results are never written through a symbolic link.
 After a signal, a full disk or a power failure, either the earlier results are complete, or there is a checkpoint. `--resume` continues
 from the checkpoint and produces the same bytes. A checkpoint receives its name only when it and all data that it refers to are on disk. `curve.csv`, `events.csv`, `slips.csv`
 and `ae.csv` must still begin with their contents at the time of the checkpoint (checked by hash), otherwise the test is not resumed. If these files are moved or changed
-while the test runs, it ends with an error. `summary.json` states the length and hash of these files and of the checkpoint. Commands that read
+while the test runs, the test ends with an error. `summary.json` states the length and hash of these files and of the checkpoint. Commands that read
 results, and `--resume` of a finished test, refuse a file that differs from the one that the test wrote.
 
 Units are those of the case; the cases supplied use SI units. All quantities are per unit thickness: masses are in kg, forces in N, and stresses and moduli are
 forces divided by lengths, in N/m. «Positive in the direction of loading» means that compression is positive if the specimen is compressed, and tension is positive if it is
 pulled. A normal force is positive if it pushes the bodies apart. Angles are in radians, counter-clockwise. Ids are those of the particle file or
-packing, independent of the internal numbering; platens have the largest ids. Numbers that are read back have identical bits. The physics is described
+packing, independent of the internal numbering; platens have the largest ids. Numbers are written with enough digits to be read back exactly. The physics is described
 in [solver/MODEL.md](../../solver/MODEL.md) and [specimens/METHODS.md](../METHODS.md).
 )";
 

@@ -19,10 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds collection_interval{1};
-/// Number of frames that may wait to be drawn, and the largest specimen for which more than one may wait.
+/// Number of frames that may wait to be drawn, and the largest number of bodies for which several may wait.
 constexpr std::size_t most_waiting = 4, most_bodies_of_several = 20'000;
 
-/// Removes frame files that are not listed in the state: they were written after its checkpoint and may not come again.
+/// Removes frame files that are not listed in the state: they were written after the checkpoint, and the resumed test
+/// might not write them again.
 void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
     std::set<std::string> listed;
     for (const FrameEntry& entry : state.frames)
@@ -105,7 +106,7 @@ void TestFiles::draw(Frame frame, const TestSetup& setup, const TestState& state
     struct Job {
         Frame frame;
         std::vector<Crack> cracks;
-        std::string collection;  // contents of frames.pvd, to be written after the frame; empty: written later
+        std::string collection;  // contents of frames.pvd, to be written after the frame; empty if written later
     };
     const auto job = std::make_shared<const Job>(
         Job{std::move(frame), {first, first + cracks}, collects ? due_collection(state) : ""});

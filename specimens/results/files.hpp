@@ -17,14 +17,15 @@
 
 namespace crackle {
 
-/// Writes summary.json, which records the lengths and hashes of these files (stated_files.hpp) and of the checkpoint,
-/// if there is one.
+/// Writes summary.json. It records the given lengths and hashes of files (stated_files.hpp), and those of the
+/// checkpoint if there is one.
 void write_summary(const OutputFolder& folder, Summary& summary, FileMarks files);
 
 /// The files of a test while it runs.
 class TestFiles {
   public:
-    /// Starts new files if the state has no rows; otherwise continues them from the state and removes later contents.
+    /// Starts the files of a new test. For a resumed test, continues the files from the checkpoint and removes what was
+    /// written after it.
     TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, const FileOptions& options);
 
     /// Adds a row to curve.csv.
@@ -35,11 +36,11 @@ class TestFiles {
     void add(ResultTable table, const std::string& line);
     /// Takes a frame of the current state, as take_frame() does, and adds it to state.frames in the order of rows. The
     /// frame's file is written in the background; it is complete before a checkpoint or a summary is written.
-    /// frames.pvd follows within a second, or at that time: replacing a file costs more than a frame of a small
-    /// specimen. World and setup must outlive this object.
+    /// frames.pvd is replaced at most once a second, and before a checkpoint or a summary, because replacing a file
+    /// costs more than a frame of a small specimen. World and setup must outlive this object.
     void add_frame(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,
                    const World& world);
-    /// Stores the current state as the frame of the peak, which each later peak replaces; while the stress rises, every
+    /// Stores the current state as the frame of the peak, instead of the previous one; while the stress rises, every
     /// row is a new peak. The frame is stored in state.peak_frame, or on disk for a large specimen.
     void keep_peak(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,
                    const World& world);
@@ -47,7 +48,7 @@ class TestFiles {
     void add_peak(const TestSetup& setup, TestState& state, const World& world);
     /// Flushes the files, records their lengths in the state, and writes the checkpoint once all data are on disk.
     void write_checkpoint(const TestSetup& setup, TestState& state, const World& world);
-    /// Flushes without writing a checkpoint. Used for a run that has failed; its last good checkpoint stays.
+    /// Flushes without writing a checkpoint. Used for a run that has become unstable; its last checkpoint stays valid.
     void flush();
     /// Writes summary.json, with the lengths and hashes of all files of the test.
     void write_summary(Summary& summary, const TestState& state);
@@ -64,11 +65,11 @@ class TestFiles {
     std::string case_hash_;
     FileOptions options_;
     std::array<std::optional<GrowingFile>, result_tables> tables_;  // files of the tables that this test writes
-    std::optional<FrameOnDisc> peak_on_disc_;                       // used instead of TestState::peak_frame
-    std::optional<FramePainter> painter_;                           // exists once there is a frame
-    bool collection_due_;                                           // whether frames.pvd is older than the state
+    std::optional<FrameOnDisc> peak_on_disc_;  // for large specimens, used instead of TestState::peak_frame
+    std::optional<FramePainter> painter_;      // exists once there is a frame
+    bool collection_due_;                      // whether frames.pvd is older than the state
     std::chrono::steady_clock::time_point collected_;
-    Background background_;  // last member, because its remaining jobs use the others
+    Background background_;  // last member, so that its jobs end before the other members are destroyed
 };
 
 }  // namespace crackle

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A text file that grows while a test runs. A checkpoint records its length and a hash of its contents, so that it can
-// be continued.
+// A text file that grows while a test runs. A checkpoint records the file's length and a hash of its contents, so that
+// a resumed test can continue the file.
 // Tested by tests/specimens/results/growing_file_test.cpp.
 #pragma once
 
@@ -19,8 +19,9 @@ namespace crackle {
 /// A file to which rows are appended, with a hash of its contents.
 class GrowingFile {
   public:
-    /// Keeps the marked bytes and continues after them; a mark of 0 bytes starts a new file.
-    /// @throws InputError if the file does not begin with the marked bytes, or cannot be written.
+    /// Keeps the first bytes of the file, whose number and hash are in `marked`, and continues after them. 0 bytes
+    /// start a new file.
+    /// @throws InputError if the file does not begin with these bytes, or cannot be written.
     GrowingFile(std::filesystem::path path, const FileMark& marked);
     ~GrowingFile();
 

@@ -51,7 +51,7 @@ void strength(Strength& s, const PlacedApparatus& apparatus, const TestState& st
     (f.failed ? s.peak_strain : s.peak_strain_so_far) = f.peak_row < 0 ? NAN : f.peak_strain;
     s.largest_stress = f.largest_row < 0 ? NAN : f.largest_stress;
     s.strain_at_largest_stress = f.largest_row < 0 ? NAN : f.strain_at_largest;
-    // In other kinds of test, stress divided by strain is not a modulus of the rock.
+    // If the test is not uniaxial, stress divided by strain is not a modulus of the rock.
     s.youngs_modulus = apparatus.uniaxial ? state.youngs_modulus : NAN;
     s.poissons_ratio = state.poissons_ratio;
     s.gauge_modulus = state.gauge_modulus;
@@ -94,7 +94,7 @@ void nominal(NominalFigures& n, const TestSetup& setup, const TestState& state, 
     if (!test_kind(setup.apparatus.kind).shear_box) return;
     n.normal_stress = setup.apparatus.normal_force / setup.specimen.width;
     if (setup.apparatus.normal_spring > 0.0) {
-        // Normal stress when the box has risen by `rise` times the height.
+        // Normal stress when the upper half box has risen by `rise` times the height of the specimen.
         const auto grown = [&](double rise) {
             return (setup.apparatus.normal_force + setup.apparatus.normal_spring * rise * setup.specimen.height) /
                    setup.specimen.width;
@@ -136,7 +136,7 @@ void confinement(ConfinementFigures& c, const PlacedApparatus& apparatus, const 
     c.membrane = MembraneFigures{m.points.size(), m.wrapped, m.jumped, m.open, m.work};
 }
 
-/// Adds the stresses at which cracks start to form and to coalesce, for a compression test.
+/// Adds the stresses at which cracks start to form and to coalesce, if this is a compression test.
 void cracking(CrackingFigures& c, const parts::Loading& loading, const TestSetup& setup, const TestState& state) {
     const std::optional<CrackThresholds> t = crack_thresholds_of(loading, setup.apparatus, state);
     if (!t) return;
@@ -253,7 +253,7 @@ void acoustic_emission(Summary& s, const TestState& state) {
                               OtherBValue{other.b, other.events, other.completeness}};
 }
 
-/// Energies up to a row as fractions of the platens' work.
+/// Energies up to a row as fractions of the work done on the specimen.
 EnergyShares energy_of(const CurveRow& first, const CurveRow& row) {
     const double work = row.platen_work + row.confinement_work;
     return {work,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Makes the summary of a test: all its figures and their numerical errors. If the specimen has not failed, the keys of
-// figures that refer to the peak end in _so_far. Tested by tests/specimens/results/files_test.cpp.
+// Makes the summary of a test: all its results and their numerical errors. If the specimen has not failed, keys of
+// results that refer to the peak end in _so_far. Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,8 @@ namespace crackle {
 
 struct NumericalErrors;
 
-/// Wall-clock times of the whole test, including resumed parts, s. Only these keys differ between two runs of a case.
+/// Wall-clock times of the whole test, including resumed parts, and the number of threads. Only summary keys made from
+/// these differ between two runs of a case.
 struct TestTiming {
     double wall_seconds = 0.0;  ///< wall-clock time of the whole test, s
     /// Wall-clock time of the stepping loop, s, with neighbour list rebuilds, bond breakage and observers.
@@ -32,7 +33,7 @@ FirstLoading rows_without_cycles(const parts::Loading& loading, const TestState&
 std::optional<CrackThresholds> crack_thresholds_of(const parts::Loading& loading, const PlacedApparatus& apparatus,
                                                    const TestState& state);
 
-/// Makes the summary, which states values of all parts of the case.
+/// Makes the summary, which contains values from all parts of the case.
 /// @param errors  the numerical errors from companion runs; null if there are none
 Summary make_summary(const ResolvedCase& test, const TestSetup& setup, const TestState& state, const World& world,
                      const TestTiming& timing, const NumericalErrors* errors = nullptr);

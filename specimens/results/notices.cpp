@@ -15,7 +15,8 @@ namespace crackle {
 namespace {
 
 constexpr std::int64_t rows_that_resolve = 100;
-// Twice the largest value found for the DEMseg guide's example rock with default values.
+// Relative imbalance of the energy account that causes a notice: twice the largest value found for the DEMseg guide's
+// example rock with default values.
 constexpr double closing_error_to_mention = 2e-3;
 constexpr double share_above_to_mention = 0.25;
 constexpr double excess_to_mention = 0.1;
@@ -67,12 +68,12 @@ void note_numerics(Notices& notices, const TestSetup& setup, const TestState& st
     }
 }
 
-/// Notices on what the specimen did to the parts that hold it.
+/// Notices on the membrane, the platens and the upper half of a shear box.
 void note_holding(Notices& notices, const TestSetup& setup, const TestState& state, const World& world) {
     if (world.membrane.open > 0) {
         notices.emplace_back(
             "the specimen separated so far that the membrane could not be wrapped around it again; the pressure then "
-            "acted along the last membrane");
+            "acted along the membrane as it was last wrapped");
     }
     const std::optional<Parting> parting = find_parting(setup, state.history);
     if (state.failure.failed && setup.apparatus.uniaxial && !setup.apparatus.compression && parting &&
@@ -95,7 +96,7 @@ void note_holding(Notices& notices, const TestSetup& setup, const TestState& sta
     }
 }
 
-/// Notices on unloadings that were not reached, and on the error of the loading rate.
+/// Notices on unloadings that were not reached, and on inertia and dashpot forces due to the loading rate.
 void note_loading(Notices& notices, const parts::Loading& loading, const TestState& state, double viscous_share) {
     if (const std::size_t asked = loading.unloading.at.size(); state.path.unloaded < static_cast<std::int64_t>(asked))
         notices.push_back(fmt::format("the test ended after {} of {} unloadings", state.path.unloaded, asked));
@@ -143,8 +144,8 @@ std::string notice_of_companions(const FailureTracker& failure, const NumericalE
                            100.0 * e.rate.or_nan());
     };
     return fmt::format(
-        "the peak jumps to another branch: the peak stress changes by {}, the peak strain by {}; report the peak with "
-        "its stated error, or the mean of several packings",
+        "a run with another time step or rate fails in another way (on another branch): the peak stress changes by {}, "
+        "the peak strain by {}; report the peak with its stated error, or the mean of several packings",
         changes(*errors.figures.peak_stress), changes(*errors.figures.peak_strain));
 }
 

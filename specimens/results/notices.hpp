@@ -12,12 +12,13 @@
 
 namespace crackle {
 
-/// Notices from the setup of the test, and notices on its results.
+/// All notices of a test: those from its setup, and those on its results.
 /// @param viscous_share  the fraction of the largest stress that dashpots carry when loading begins
 std::vector<std::string> notices_of(const parts::Loading& loading, const char* stress_unit, const TestSetup& setup,
                                     const TestState& state, const World& world, double viscous_share);
 
-/// A sentence stating that companions disagree about the peak; empty if they agree or have not run.
+/// A notice if companion runs became unstable, the specimen has not failed, or the peaks disagree; empty if the peaks
+/// agree.
 std::string notice_of_companions(const FailureTracker& failure, const NumericalErrors& errors);
 
 }  // namespace crackle

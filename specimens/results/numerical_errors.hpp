@@ -12,10 +12,10 @@ namespace crackle {
 /// Numerical errors of a test, estimated from companions: runs of the same specimen with another time step, rate or
 /// damping.
 struct NumericalErrors {
-    /// Errors of the peak and, in compression tests, of crack stresses; also the companions' results.
+    /// Errors of the peak and, in compression tests, of crack stresses; also the results of the companions.
     ErrorsByFigure figures;
-    std::optional<bool> peak_converged;  ///< whether no companion with other time step or rate is on another branch;
-                                         ///< empty: no failure so far
+    std::optional<bool> peak_converged;  ///< whether the peaks with other time step and rate are on the same branch;
+                                         ///< empty if the specimen has not failed
 };
 
 }  // namespace crackle

@@ -60,7 +60,7 @@ std::vector<ResultFile> files_of_a_test() {
 }
 
 constexpr const char* report_name =
-    "report.html";  // made from the results by another command; outdated once they are replaced
+    "report.html";  // made from the results by another command; outdated once the results are replaced
 
 [[noreturn]] void cannot_write(const fs::path& path, int error) {
     fail_writing(error, fmt::format("{}: cannot be written ({}), expected a writable folder with free space",
@@ -71,7 +71,7 @@ bool holds_results(const fs::path& folder) {
     return std::ranges::any_of(result_files(), [&](const ResultFile& file) { return is_there(folder / file.name); });
 }
 
-/// @throws InputError, SystemFailure if an existing file cannot be read, which must not be mistaken for "no"
+/// @throws InputError, SystemFailure if the file exists but cannot be read, because the answer is then unknown
 bool begins_with(const fs::path& file, const std::string& mark) {
     if (!is_file(file)) return false;
     errno = 0;
@@ -159,8 +159,8 @@ void replace_frames(const fs::path& from, const fs::path& to, const std::set<std
 /// Replaces old results with complete new ones, or resumes the replacement. @param names  names of the new frames
 void move_staged(const fs::path& working, const fs::path& target, const std::set<std::string>& names) {
     if (is_report_page(target / report_name)) remove_or_throw(target / report_name);
-    // As long as the first file is still here, nothing has been moved, so extra files in `target` belong to the old
-    // results.
+    // As long as the first file is still in `working`, nothing has been moved, so extra files in `target` belong to the
+    // old results.
     if (is_there(working / result_files().front().name)) {
         for (const ResultFile& file : result_files())
             if (file.name != std::string(frames_folder) && !is_there(working / file.name))
@@ -177,12 +177,13 @@ void move_staged(const fs::path& working, const fs::path& target, const std::set
     }
     bring_all_to_disc(target);  // otherwise a power failure might leave some old results and none of the new ones
     remove_or_throw(working / staged_mark);
-    // Set if files remain: foreign files, or files that a network file system keeps while they are open.
+    // The error is set if files remain: foreign files, or files that a network file system keeps while they are open.
     std::error_code not_empty;
     fs::remove(working, not_empty);
 }
 
-/// Tests writing by creating a file: permission bits do not reveal full disks and read-only mounts.
+/// Checks that the folder is writable by creating a file, because permission bits do not reveal full disks and
+/// read-only mounts.
 void probe(const fs::path& folder) {
     NewFile file(folder / "probe");
     file.stream() << "probe\n";
@@ -230,11 +231,9 @@ OutputFolder OutputFolder::create(const fs::path& wanted, Earlier earlier, std::
         }
         working = fs::path(target.string() + staging_suffix);
         if (!is_there(working / staged_mark))
-            refuse_foreign_files(
-                working,
-                fmt::format(
-                    "no other files where new results grow before they replace those in {}; move or remove them",
-                    target.string()));
+            refuse_foreign_files(working, fmt::format("only new results, which are written here until they replace "
+                                                      "those in {}; move or remove other files",
+                                                      target.string()));
         if (earlier == Earlier::replaced && is_there(working / "checkpoint")) {
             throw InputError(
                 fmt::format("{0}: found a test that is not finished, expected none beside {1}; go on with "
@@ -264,7 +263,7 @@ OutputFolder OutputFolder::reopen(const fs::path& wanted) {
     const bool is_staged = target.extension() == staging_suffix && is_there(target / staged_mark);
     if (is_staged) target.replace_extension();
     complete_move(target);
-    // Results that were being moved are now in their final folder.
+    // If complete_move() has moved the results, they are in their final folder and no longer staged.
     const bool staged = is_staged && is_there(folder_given / staged_mark);
     const fs::path working = staged ? folder_given : target;
     if (!is_folder(working)) {
@@ -277,7 +276,9 @@ OutputFolder OutputFolder::reopen(const fs::path& wanted) {
         if (!is_of_a_test(target))
             refuse_foreign_files(
                 target,
-                fmt::format("results of an earlier test, which those in {} replace; move it away", working.string()));
+                fmt::format(
+                    "only results of an earlier test, which are to be replaced with those in {}; move other files away",
+                    working.string()));
         make_folder(target);
         folder.locks_.emplace_back(target);
     }
@@ -316,11 +317,12 @@ void OutputFolder::write(const std::string& name, const std::function<void(std::
 std::string OutputFolder::fate_of_earlier_results() const {
     if (frames_being_moved(working_)) {
         return fmt::format(
-            "the new results are complete in {} and only partly in {}: `crackle test --resume {}` completes that",
+            "the new results are complete, but moving them from {} to {} was interrupted; `crackle test --resume {}` "
+            "completes the move",
             working_.string(), target_.string(), target_.string());
     }
     return fmt::format("earlier results in {} {}", target_.string(),
-                       holds_results(target_) ? "are as they were" : "are no longer there");
+                       holds_results(target_) ? "are unchanged" : "no longer exist");
 }
 
 void OutputFolder::finish() {
@@ -328,7 +330,7 @@ void OutputFolder::finish() {
     std::string mark = std::string(moving_line) + '\n';
     const std::set<std::string> names = names_in(working_ / "frames");
     for (const std::string& name : names) mark += name + '\n';
-    write(staged_mark, mark, Durable::yes);  // any later command completes the move
+    write(staged_mark, mark, Durable::yes);  // from here on, any later command completes the move
     bring_all_to_disc(working_);             // nothing is moved before the new file names are on disk
     move_staged(working_, target_, names);
     moved_from_ = std::exchange(working_, target_);

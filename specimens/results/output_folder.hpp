@@ -48,7 +48,7 @@ enum class Earlier {
 /// The folder of a test's results, locked against other processes. New results are written beside earlier ones.
 class OutputFolder {
   public:
-    /// @param inputs  files of the case, which must not lie where results are written
+    /// @param inputs  input files of the case, which must not lie in a folder to which results are written
     /// @throws InputError if the folder contains results (unless they are replaced) or foreign files, is in use by
     /// another process, or cannot be written.
     static OutputFolder create(const std::filesystem::path& wanted, Earlier earlier,
@@ -61,7 +61,7 @@ class OutputFolder {
     /// Takes over the folder and its lock.
     OutputFolder(OutputFolder&&) = default;
     OutputFolder& operator=(OutputFolder&&) = delete;
-    /// Removes what create() made if nothing was written to it, and the folder out of which results were moved.
+    /// Removes what create() made if nothing was written to it, and the folder from which results were moved.
     ~OutputFolder();
 
     const std::filesystem::path& path() const { return working_; }   ///< folder to which files are currently written
@@ -70,15 +70,15 @@ class OutputFolder {
     bool staged() const { return working_ != target_; }
 
     /// Writes a whole file, first under a temporary name. @param name  relative to the folder
-    /// @param durable  the file receives its name only when it and all earlier writes are on disk, so that it never
-    /// refers to data lost in a power failure
+    /// @param durable  whether the file receives its name only when it and all earlier writes are on disk, so that it
+    /// never refers to data lost in a power failure
     void write(const std::string& name, const std::string& bytes, Durable durable = Durable::no) const;
-    /// Writes a file that is too large to hold in memory, in the same way.
+    /// Writes a file that is too large to hold in memory, also first under a temporary name.
     void write(const std::string& name, const std::function<void(std::ostream&)>& write_to,
                Durable durable = Durable::no) const;
     /// Replaces the old results with the staged ones; afterwards path() equals target().
     void finish();
-    /// For a staged folder whose finish() did not complete: a sentence on the state of the earlier results.
+    /// A sentence on the state of the earlier results, for messages if finish() was not completed.
     std::string fate_of_earlier_results() const;
 
   private:

@@ -18,9 +18,9 @@ std::vector<Quantity> meanings(const std::vector<Column>& columns) {
 
 bool always(const FileOptions& /*options*/) { return true; }
 
-// In the order of ResultTable.
+// Properties of the tables, in the order of the enumerators of ResultTable.
 constexpr auto all_facts = std::to_array<ResultTableFacts>({
-    {.holds = "one row per observed step",
+    {.holds = "one row for each recorded point of the stress-strain curve",
      .section = R"(
 One row for each of `output.curve_rows` equal parts of `loading.max_axial_strain`; the first row is at the start of loading, the last at the end of the test.
 Peak, failure and moduli are determined from at least 2000 rows, even if fewer are written. Counts, losses and work are totals since loading began.

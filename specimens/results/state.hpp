@@ -44,7 +44,7 @@ struct TestState {
     std::vector<CurveRow> rows;
     FailureTracker failure;
     ContactHistory history;
-    Frame peak_frame;                ///< kept until the peak is final; for large specimens TestFiles keeps it
+    Frame peak_frame;                ///< frame at the current peak; TestFiles stores those of large specimens
     std::vector<FrameEntry> frames;  ///< frames that have been written
     std::int64_t next_frame =
         0;           ///< index of the next frame, which is taken at this multiple of the strain between frames
@@ -60,7 +60,7 @@ struct TestState {
     double poissons_ratio = std::numeric_limits<double>::quiet_NaN();
     double gauge_modulus =
         std::numeric_limits<double>::quiet_NaN();  ///< stress divided by the strain of the gauge length, N/m
-    double modulus_residual = std::numeric_limits<double>::quiet_NaN();  ///< relative error of the solve
+    double modulus_residual = std::numeric_limits<double>::quiet_NaN();  ///< relative residual of the linear solution
 
     Emission emission;
 

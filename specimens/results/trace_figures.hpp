@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Results for joints in summary.json: breakages on them, and their opening, slip and failure by source and by trace, at
-// the peak and at the end.
+// Results for joints in summary.json: bond breaks on joints, and the opening, slip and failure of each joint set and
+// each trace, at the peak and at the end.
 // Tested by tests/specimens/setup/trace_faces_test.cpp.
 #pragma once
 

@@ -10,7 +10,8 @@
 namespace crackle {
 namespace {
 
-/// Adds the intact faces of a world. @param tensile, cohesion sums of strengths of those that can break, N
+/// Adds the intact faces of a world to the record. @param tensile, cohesion  N, sums to which the strengths of the
+/// faces that can break are added
 void record_faces(BondRecord& bonds, const World& world, double& tensile, double& cohesion) {
     const Faces& faces = world.faces;
     for (FaceIndex k = 0; k < faces.size(); ++k) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bonds of a specimen when its loading began, and the joint traces among them.
+// The bonds of a specimen at the start of loading, and its joint traces.
 // Tested by tests/specimens/setup/setup_test.cpp.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace crackle {
 
-/// Points bonded at the start of loading, and the places of the bodies at which they were bonded.
+/// Points bonded at the start of loading, and the positions of the bodies when these bonds were made.
 struct BondRecord {
     BondLaw law = BondLaw::back_tension;
     double thick = 0.0;                 // m, of segments
@@ -55,7 +55,7 @@ struct BondRecord {
     const BondLawFacts& facts() const { return facts_of(law); }
 };
 
-/// Records the bonds of a world and where its bodies are. Requires compute_forces().
+/// Records the bonds of a world and the positions of its bodies. Requires compute_forces().
 /// @param grip  m, depth at each end within which bonds never break
 BondRecord record_bonds(const World& world, const std::vector<SpecimenTrace>& traces, double grip);
 

@@ -7,7 +7,7 @@
 namespace crackle {
 namespace {
 
-/// Strengths of a pair of minerals in place of the smaller ones of both.
+/// Replaces the smaller strengths of two minerals with those that are given for the pair.
 FaceLaw law_of_pair(FaceLaw law, const MaterialPair& pair) {
     if (pair.bond.tensile_strength) law.tensile_strength = *pair.bond.tensile_strength;
     if (pair.bond.cohesion) law.cohesion = *pair.bond.cohesion;
@@ -17,7 +17,7 @@ FaceLaw law_of_pair(FaceLaw law, const MaterialPair& pair) {
     return law;
 }
 
-/// Reference points by body of the world, whose bodies have another order than those of the scene.
+/// Reference points in the order of the bodies of the world, which differs from their order in the scene.
 std::vector<Vec2> references_of(const World& world, const Specimen& specimen) {
     if (specimen.cell_centres.empty()) return {};
     std::unordered_map<int, Vec2> centre_of_id;

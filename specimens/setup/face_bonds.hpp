@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The faces of a specimen whose bonds are faces (solver/faces): laws of its minerals, reference points of its cells,
-// and the faces of platens and grips.
+// Input for bonding a specimen by faces (bond.law = "face", solver/faces): laws of its minerals, reference points of
+// its cells, and the faces of platens and grips.
 // Tested by tests/specimens/setup/face_bonds_test.cpp.
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace crackle {
 
-/// The request for the faces of a world made from a specimen. Platens that are not bonded have none. @param gap
-/// distance between facing edges, m
+/// The request to bond the faces of a world made from a specimen. Platens that are not bonded have no faces.
+/// @param gap  distance between facing edges, m
 FaceBonding face_bonding_of(const World& world, const Specimen& specimen, const parts::Bonds& bonds, PlatenKind platens,
                             double gap);
 

@@ -27,14 +27,14 @@ struct Gauges {
     /// @param low, high  m, y of the ends @param particle  m, mean size
     void find_ends(const World& world, std::span<const BodyIndex> bodies, double low, double high, double particle);
 
-    /// Mean growth of the width, relative; NaN if a side has no particles.
+    /// Relative increase of the mean width; NaN if a side has no particles.
     double lateral_strain(const World& world) const;
     /// As lateral_strain(), with medians of the displacements since the start instead of means, so that particles that
     /// have come off a side do not affect it.
     double median_lateral_strain(const World& world, std::span<const StartPlace> start) const;
-    /// Mean growth between the axial gauge's ends, relative; NaN if an end has no particles.
+    /// Relative increase of the mean distance between the axial gauge's ends; NaN if an end has no particles.
     double axial_growth(const World& world) const;
-    /// Makes the current distances the reference of strains.
+    /// Makes the current distances the reference for strains.
     void strains_begin_at(const World& world);
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Path of a platen that may reverse: its speed and the distance it has travelled, as a strain.
 //
-// Speed changes are limited so that the stresses at the two platens differ by at most the tolerance. A strain
+// Speed changes are limited so that the stresses at the two platens differ by at most tolerance·E·ε1. A strain
 // acceleration a makes them differ by ρ·height²·a/2 = E·T²·a/2, where T is the transit time of a wave. Hence a =
 // 2·tolerance·ε1/T² (ε1 and T as in loading_rate.hpp).
 // Tested by tests/specimens/loading/unloading_test.cpp.
@@ -31,7 +31,7 @@ struct LoadingPath {
         std::numeric_limits<double>::infinity();  ///< strain travelled when the caller took over the speed
     double farthest = -std::numeric_limits<double>::infinity();  ///< largest strain in the curve rows so far
 
-    /// Strain travelled, back and forth; equal to the strain if the platen never reverses.
+    /// Total strain travelled, back and forth; equal to the strain if the platen never reverses.
     double travel(double strain) const {
         return travelled + (std::signbit(speed) ? turned_at - strain : strain - turned_at);
     }

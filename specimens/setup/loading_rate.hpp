@@ -25,8 +25,8 @@ struct RateRule {
     double tolerance = 0.0;         ///< 0: the case gives the rate, and the other members are unused
     double transit_time = 0.0;      // s
     double first_strain = 0.0;      ///< axial strain ε1 at which the specimen starts to fail by the linear solution
-    double stress_floor = 0.0;      // N/m, stress at that strain
-    double energy_floor = 0.0;      // J, strain energy at that strain
+    double stress_floor = 0.0;      // N/m, stress at the strain ε1
+    double energy_floor = 0.0;      // J, strain energy at the strain ε1
     double kinetic_per_rate = 0.0;  // J s2, kinetic energy of the elastic motion at a strain rate of 1/s
 
     CRACKLE_FIELDS(tolerance, transit_time, first_strain, stress_floor, energy_floor, kinetic_per_rate);

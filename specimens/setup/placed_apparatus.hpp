@@ -44,9 +44,9 @@ struct PlacedApparatus {
 
     /// Whether a pressure acts on the specimen's sides.
     bool confined() const { return confining_pressure > 0.0; }
-    /// Whether walls press its sides.
+    /// Whether walls press on the specimen's sides.
     bool has_walls() const { return std::ranges::any_of(parts, &SetupPart::wall); }
-    /// Whether a force other than that of the driving part does work on the specimen.
+    /// Whether a pressure or normal force does work on the specimen, in addition to the driving part.
     bool pressed() const { return confined() || test_kind(kind).shear_box; }
     /// Whether a body holds or drives the specimen.
     bool is_platen(BodyIndex body) const {
@@ -56,7 +56,7 @@ struct PlacedApparatus {
     double sense() const { return compression ? 1.0 : -1.0; }
     /// Displacement of the driving part along its axis divided by `length`; positive in the direction of loading.
     double axial_strain(const World& world) const;
-    /// Makes the driving part's current position the reference of strains.
+    /// Makes the driving part's current position the reference for strains.
     void strains_begin_at(const World& world);
 };
 
@@ -67,7 +67,7 @@ PlacedApparatus place_apparatus(const World& world, const Platens& platens, Load
 struct PartForces {
     double driver = 0.0, supports = 0.0;
 };
-/// Forces of the last pass, N.
+/// Forces on the parts from the last compute_forces(), N.
 PartForces forces_on_parts(const World& world, const PlacedApparatus& apparatus);
 
 }  // namespace crackle

@@ -57,8 +57,8 @@ inline constexpr double cut_circles_offset = 0.25;
 /// @param thick  segment thickness when bonds are made, m
 Platens add_platens(Scene& scene, const Specimen& specimen, const parts::Procedure& test, double thick);
 
-/// Moves frictional platens and walls from their parked positions to those where loading starts. Bonded ones are
-/// already there.
+/// Moves frictional platens and walls from their parked positions to those where loading starts. Bonded platens are
+/// already in place.
 void place_platens(World& world, const Platens& platens);
 
 }  // namespace crackle

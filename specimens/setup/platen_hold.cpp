@@ -74,10 +74,10 @@ void check_part_hold(const World& world, const TestSetup& setup, const Places& p
             "or {}",
             places.at(CaseKey::loading_kind), found, part.body == setup.apparatus.top ? kind.driver : kind.support,
             width,
-            setup.bonds.facts().by_faces ? "hold it by loading.platens = \"frictional\""
+            setup.bonds.facts().by_faces ? "hold the specimen by loading.platens = \"frictional\""
             : setup.bonds.facts().bonds_across_gaps
-                ? "give the bonds a reach (bond.range, bond.gap)"
-                : fmt::format("use bond.law = {}, whose bonds have a reach (bond.range, bond.gap)",
+                ? "let the bonds bridge a larger gap (bond.range, bond.gap)"
+                : fmt::format("use bond.law = {}, whose bonds can bridge gaps (bond.range, bond.gap)",
                               laws_with(&BondLawFacts::bonds_across_gaps))));
     }
 }

@@ -19,7 +19,7 @@
 
 namespace crackle {
 
-/// What is tested, and its sizes.
+/// The tested part of a specimen, and its dimensions.
 struct TestedSpecimen {
     SpecimenKind kind = SpecimenKind::circles;
     bool polygons = false;
@@ -41,7 +41,7 @@ struct Provenance {
     std::vector<MineralShare> minerals;  ///< empty for a rock with a single material
 };
 
-/// A specimen when its loading began.
+/// The state of a specimen at the start of loading.
 struct TestSetup {
     TestedSpecimen specimen;
     PlacedApparatus apparatus;
@@ -60,7 +60,7 @@ struct TestSetup {
     /// Axial strain between the ends of the axial gauge length; NaN if an end has no particles.
     double gauge_strain(const World& world) const;
 
-    // Checkpoints hold the members of the parts in this order.
+    // Checkpoints store the members of all parts in this order.
     CRACKLE_FIELDS(apparatus.kind, apparatus.uniaxial, apparatus.compression, specimen.kind, specimen.polygons,
                    specimen.width, specimen.height, apparatus.axis, apparatus.section, apparatus.length,
                    apparatus.stress_intensity, specimen.notch, apparatus.span, specimen.area, specimen.middle,
@@ -95,7 +95,7 @@ constexpr std::size_t members_with_parts() {
 
 }  // namespace detail
 
-/// Whether the fields of a setup are the members of its parts, none of them missing.
+/// Whether CRACKLE_FIELDS of TestSetup lists all members of its parts.
 template <>
 constexpr bool lists_all_fields<TestSetup>() {
     return detail::listed_fields<TestSetup>() ==
@@ -108,7 +108,7 @@ constexpr bool lists_all_fields<TestSetup>() {
 TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, LoadingKind kind,
                        double grip);
 
-/// Makes the current positions the reference of strains and gauge lengths. The positions in `start` are kept: bonds
+/// Makes the current positions the reference for strains and gauge lengths. The positions in `start` are kept: bonds
 /// refer to the positions in which they were made, and rotations are measured from them.
 void strains_begin_at(TestSetup& setup, const World& world);
 

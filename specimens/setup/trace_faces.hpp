@@ -7,8 +7,8 @@
 //
 //     opening = u·n      slip = u·t, positive if an observer looking across sees the far side move left (sinistral)
 //
-// The result is the same from either side. The deformation of the face's own springs is included, so an intact face
-// also moves a little under load.
+// The result does not change if i and j are exchanged. The deformation of the face's own springs is included, so an
+// intact face also moves a little under load.
 // Tested by tests/specimens/setup/trace_faces_test.cpp.
 #pragma once
 
@@ -51,7 +51,7 @@ struct FacePlaces {
 
     CRACKLE_FIELDS(i, j);
 };
-/// Motion of a face. @param start places of its bodies when loading began @param now current places
+/// Motion of a face. @param start  initial positions of its bodies @param now  their current positions
 FaceMotion motion_of(const TraceFace& face, const FacePlaces& start, const FacePlaces& now);
 
 /// Finds the faces on traces, sorted by bodies. The bodies must still be where they were bonded.

@@ -34,7 +34,8 @@ struct UnloadRule {
 /// @param modulus N/m, of the linear solution
 UnloadRule unload_rule_of(const parts::Unloading& asked, const RateRule& rate, double modulus);
 
-/// Initial speed, 1/s, from which the platen can still stop before the first reversal. @param allowed  1/s, as below
+/// Initial speed, 1/s, from which the platen can still stop before the first reversal. @param allowed  1/s, strain rate
+/// allowed by the tolerance
 double first_speed(const UnloadRule& rule, double allowed);
 
 /// Chooses the next speed and stores it in the path. @param allowed  1/s, strain rate allowed by the tolerance

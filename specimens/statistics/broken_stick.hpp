@@ -2,7 +2,7 @@
 // Fits two straight lines that meet, to find where a curve changes its slope:
 //       y = a + b x + c max(0, x - s)
 // The parameters a, b, c and s are found by least squares (Hudson, J. Am. Stat. Assoc. 61, 1966). For counts that grow
-// in bursts, the interval of s comes from resampling the bursts.
+// in bursts, the confidence interval of s is found by resampling the bursts.
 // Tested by tests/specimens/statistics/broken_stick_test.cpp.
 #pragma once
 
@@ -19,27 +19,28 @@ struct BrokenStick {
     double slope_above = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Fits two lines; NaN for fewer than five points. @param x  ascending values @param y  values of the same number
+/// Fits two lines; NaN for fewer than five points. @param x  ascending values @param y  as many values as in x
 BrokenStick fit_broken_stick(std::span<const double> x, std::span<const double> y);
 
-/// Several counts that occur together, at the same x.
+/// Several events that occur together, at the same x.
 struct Burst {
     double x;
     std::int64_t count;
 };
 
-/// Value at which a count changes its slope, with its 95 % interval.
+/// Value at which the slope of a cumulative count changes, with its 95 % interval.
 struct BurstBreak {
     double at = std::numeric_limits<double>::quiet_NaN();
     double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Smallest number of bursts for which a break is determined.
+/// Smallest number of bursts for which a change of slope is determined.
 inline constexpr std::size_t fewest_bursts = 10;
 
-/// Value between 0 and `end` at which the cumulative count changes its slope. The count is evaluated at 200 equally
-/// spaced values. The 95 % interval consists of percentiles of 1,000 bootstrap fits, each to as many bursts as there
-/// are, drawn with replacement. The same bursts give the same interval. The result is NaN if there are too few bursts.
+/// Finds the value between 0 and `end` at which the slope of the cumulative count changes. The count is evaluated at
+/// 200 equally spaced values. The 95 % interval consists of percentiles of 1,000 bootstrap fits, each to a sample of
+/// the bursts, of the same number and drawn with replacement. The same bursts give the same interval. The result is NaN
+/// if there are too few bursts.
 /// @param bursts  bursts in any range; those beyond `end` are ignored
 BurstBreak find_burst_break(std::span<const Burst> bursts, double end);
 

@@ -26,7 +26,7 @@ struct Rose {
     double cosine = 0.0, sine = 0.0;  ///< weighted sums of cosine and sine of the doubled angle
     double squares = 0.0;             ///< sum of the squared weights
 
-    /// Adds a line. @param angle  rad; any multiple of a turn may be added
+    /// Adds a line. @param angle  rad, in any range
     void add(double angle, double line_weight);
 
     /// Mean direction of the lines, degrees from 0 to 180; NaN without lines.

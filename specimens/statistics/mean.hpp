@@ -9,8 +9,8 @@
 
 namespace crackle {
 
-/// Smallest number of values for the bootstrap. With fewer, bootstrap means cannot leave the range of the values, and
-/// Student's t is used.
+/// Smallest number of values for the bootstrap. With fewer values, Student's t is used, because bootstrap means always
+/// lie within the small range of the values.
 inline constexpr std::size_t fewest_of_bootstrap = 8;
 
 /// Mean of independent values. Members that are undefined, such as the deviation of a single value, are NaN.
@@ -21,8 +21,8 @@ struct MeanFigure {
     double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< standard error of the mean
     /// 95 % interval of the mean. For 8 to 200 values, it consists of percentiles of 10,000 bootstrap means, at levels
     /// for which the interval is as wide as Student's t (expanded percentile interval, Hesterberg, Am. Stat. 69, 2015).
-    /// For fewer values, bootstrap means cannot leave their range; for more, both methods agree. Student's t is used in
-    /// these cases. The same values give the same interval.
+    /// Student's t is used for fewer values, because bootstrap means always lie within their small range, and for more
+    /// values, because both methods then agree. The same values give the same interval.
     double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
 
     double variation() const { return deviation / mean; }  ///< coefficient of variation
@@ -31,19 +31,19 @@ struct MeanFigure {
 MeanFigure mean_of(std::span<const double> values);
 
 /// Half-width of the 95 % interval of the difference between two means of independent values, from Student's t with
-/// Welch's degrees of freedom (Biometrika 34, 1947). NaN if one of them has fewer than two values.
+/// Welch's degrees of freedom (Biometrika 34, 1947). NaN if either mean is that of fewer than two values.
 double difference_half_width(const MeanFigure& a, const MeanFigure& b);
 
-/// Errors of a mean due to the time step and the loading rate, in units of the figure; positive if the mean is too
+/// Errors of a mean due to the time step and the loading rate, in the unit of the mean; positive if the mean is too
 /// large. They are estimated from companion runs of the same packings at half the step and at half the rate. A
 /// first-order error is twice the change that halving causes (Richardson). This estimate is used for both errors. For
 /// the step it is an upper bound if the second order of leapfrog prevails, for which the error is 4/3 of the change.
 /// Standard errors take into account that the three runs of a packing belong together.
 struct MeanBias {
-    std::size_t packings = 0;  ///< number of packings with results of all three runs
+    std::size_t packings = 0;  ///< number of packings with a test and both companion runs
     double step = std::numeric_limits<double>::quiet_NaN(), step_error = std::numeric_limits<double>::quiet_NaN();
     double rate = std::numeric_limits<double>::quiet_NaN(), rate_error = std::numeric_limits<double>::quiet_NaN();
-    double value = std::numeric_limits<double>::quiet_NaN();  ///< sum of both errors
+    double value = std::numeric_limits<double>::quiet_NaN();  ///< sum of `step` and `rate`
     double standard_error = std::numeric_limits<double>::quiet_NaN();
 
     /// Whether at least one of the three errors differs significantly from zero (95 %, Student's t).
@@ -57,7 +57,8 @@ MeanBias bias_of(std::span<const double> asked, std::span<const double> half_ste
 /// @param share  0 to 1
 double percentile(std::span<const double> sorted, double share);
 
-/// Fraction of `count` values' bootstrap means cut off at either end so that the interval is as wide as Student's t.
+/// Fraction of the bootstrap means of `count` values to cut off at either end, so that the interval is as wide as that
+/// of Student's t.
 double expanded_tail(std::size_t count);
 
 /// Number of packings that reduces the standard error to `goal`: (deviation/goal)², at least 2.

@@ -12,7 +12,7 @@
 namespace crackle {
 namespace {
 
-// Range of n for the search, which uses log n: from pieces spread over decades to pieces equal to within one percent.
+// Range of exponents n that is searched: from sizes spread over decades to sizes equal to within one percent.
 constexpr double least_exponent = 0.02, largest_exponent = 100.0;
 constexpr int half_digits = 26;  // rounding limits the position of a minimum to half the digits of a double
 

@@ -13,7 +13,7 @@ namespace crackle {
 /// Size distribution: a fraction exp(-(x/x0)^n) of the area lies in pieces larger than x.
 struct RosinRammler {
     double size = std::numeric_limits<double>::quiet_NaN();      ///< x0, m: 1/e of the area lies in larger pieces
-    double exponent = std::numeric_limits<double>::quiet_NaN();  ///< n; the larger it is, the more uniform the sizes
+    double exponent = std::numeric_limits<double>::quiet_NaN();  ///< n; larger if the sizes are more uniform
     std::size_t pieces = 0;
 };
 

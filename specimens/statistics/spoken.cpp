@@ -26,7 +26,7 @@ std::string spoken_stress(double value, const std::string& unit, int digits) {
         double factor;
         char letter;
     };
-    // Smallest value that is rounded up to the next prefix.
+    // Smallest multiple of a prefix that rounds to 1 and is therefore printed with this prefix.
     const double rounded_up = 1.0 - 0.5 * std::pow(10.0, -digits);
     for (const Prefix& prefix : {Prefix{1e9, 'G'}, Prefix{1e6, 'M'}, Prefix{1e3, 'k'}}) {
         if (unit == "Pa" && std::isfinite(value) && std::abs(value) >= rounded_up * prefix.factor)

@@ -10,7 +10,7 @@ namespace crackle {
 
 /// A count with its noun: "1 packing", "2 packings". @param noun  singular of a noun whose plural ends in s
 std::string counted(std::int64_t count, const char* noun);
-/// A count with its noun, for sizes of containers.
+/// A count with its noun, for a count that is the size of a container.
 std::string counted(std::size_t count, const char* noun);
 
 /// A value below a bound, with at least three digits and as many as are needed to show that it is below the bound:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figures of summary.json from broken bonds: damage, directions, joints, acoustic emission, energies.
+// Quantities in summary.json on damage: broken bonds, fragments, crack directions, joints, acoustic emission and
+// energies.
 // Tested by tests/tools/readme_test.py and tests/specimens/summary/summary_test.cpp.
 #pragma once
 
@@ -15,10 +16,11 @@ CRACKLE_FIGURES(
     FragmentLaw,
     (Number, size, "m",
      "size parameter of the Rosin-Rammler distribution: a fraction 1/e of the area lies in larger fragments",
-     "null if fewer than five fragments are in the fit, or if their sizes are all equal or spread too widely"),
-    (Number, exponent, "-", "exponent of the Rosin-Rammler distribution: the larger, the more uniform the sizes",
+     "null if the distribution is fitted to fewer than five fragments, or if their sizes are all equal or spread too "
+     "widely"),
+    (Number, exponent, "-", "exponent of the Rosin-Rammler distribution; it is larger if the sizes are more uniform",
      "null if `size` is null"),
-    (Count, fragments, "", "number of fragments in the fit"));
+    (Count, fragments, "", "number of fragments to which the distribution is fitted"));
 
 /// The largest group of broken bonds.
 CRACKLE_FIGURES(
@@ -36,8 +38,8 @@ CRACKLE_FIGURES(
      "number of bonded contact points that reached their Coulomb limit before they broke"),
     (Count, bonds_broken_in_shear, "",
      "number of bonded contact points that broke in shear, as defined by `mode` in events.csv. Back-tension bonds "
-     "seldom do: such a bond breaks when its overlap vanishes, and its Coulomb limit vanishes with the overlap; see "
-     "bonds_broken_after_sliding"),
+     "seldom break in shear: such a bond breaks when its overlap vanishes, and its Coulomb limit vanishes with the "
+     "overlap; see bonds_broken_after_sliding"),
     (Count, bonds_broken_in_tension, "",
      "number of bonded contact points that broke in tension, as defined by `mode` in events.csv"),
     (Count, bonds_broken_in_shear_to_peak, "", "number of bonded contact points that broke in shear up to the peak"),
@@ -75,9 +77,11 @@ CRACKLE_FIGURES(
     (Count, cracks, "", "number of broken bonded contact points of this kind, excluding those at platens",
      "`*` is tension_to_peak, shear_to_peak, tension_after or shear_after; tension and shear are defined by `mode` in "
      "events.csv"),
-    (Number, length, "m", "total length of the faces along which these points were bonded"),
+    (Number, length, "m",
+     "total length of the cracks of this kind: the parts of faces at which bonded points of this kind broke"),
     (Number, direction, "degrees",
-     "mean direction of the cracks, computed from doubled angles because a line has no sense",
+     "mean direction of the cracks, computed from doubled angles, because a crack and the same crack turned by 180 "
+     "degrees have the same direction",
      "null if there are no cracks; resultant and rayleigh are then null as well"),
     (Number, resultant, "-",
      "length of the mean vector of the doubled angles: 0 if the directions cancel, 1 if all cracks are parallel"),
@@ -98,27 +102,27 @@ CRACKLE_FIGURES(JointMotion,
                  "null if no face was bonded initially (open joints)"),
                 (Number, opening, "m",
                  "mean opening along the face normals since loading began, weighted by face length, positive if the "
-                 "faces separate; it includes the deformation of the faces' springs"),
+                 "faces separate; it includes the deformation of the contact springs"),
                 (Number, slip, "m",
                  "mean slip along the faces since loading began, weighted by face length; positive if an observer "
                  "looking across the face sees the far side move to the left"),
                 (Number, largest_opening, "m", "largest opening of any single face"),
                 (Number, largest_slip, "m", "signed slip of the face with the largest slip in magnitude"));
 
-/// State of the traces of one source, or of one trace.
+/// State of a single trace, or of all traces of one [[joint_set]] or [[trace]].
 CRACKLE_FIGURES(JointFigures, (Word, source, "", "name of the joint set or trace"),
                 (Number, length, "m", "total length of the traces inside the box of the specimen"),
                 (Count, faces, "", "number of faces between bodies that lie on the traces"),
-                (Number, length_of_faces, "m", "total length of these faces",
+                (Number, length_of_faces, "m", "total length of the faces that lie on the traces",
                  "a face that several traces share is counted for only one of them"),
-                (Number, bonded_share, "-", "fraction of the length of these faces that was bonded when loading began"),
+                (Number, bonded_share, "-", "fraction of length_of_faces that was bonded when loading began"),
                 (Stated<JointMotion>, at_peak, "",
-                 "state of these faces at the peak, or at the largest stress if the specimen has not failed"),
+                 "state of the faces at the peak, or at the largest stress if the specimen has not failed"),
                 (Stated<JointMotion>, at_end, "",
-                 "state of these faces at the end of the test, with the same keys as at_peak"),
-                (Count, traces, "", "number of traces from this source"));
+                 "state of the faces at the end of the test, with the same keys as at_peak"),
+                (Count, traces, "", "number of traces that belong to the joint set or trace"));
 
-/// Breaks on joints, and the motion of joints.
+/// Bond breaks on and off joints, and the motion of joints.
 CRACKLE_FIGURES(
     JointedFigures,
     (Count, bonds_broken_on_joints, "",
@@ -138,15 +142,18 @@ CRACKLE_FIGURES(
 /// Acoustic events.
 CRACKLE_FIGURES(
     EmissionFigures, (Count, events, "", "number of acoustic events, equal to the number of rows of ae.csv"),
-    (Number, opening, "-", "fraction of the events with a moment whose source opened (R above 30)"),
-    (Number, shear, "-", "fraction of the events with a moment whose source slid (R from -30 to 30)"),
-    (Number, closing, "-", "fraction of the events with a moment whose source closed (R below -30)"),
+    (Number, opening, "-",
+     "fraction of events whose source opened (R of ae.csv above 30), among the events that have a moment"),
+    (Number, shear, "-",
+     "fraction of events whose source slid (R of ae.csv from -30 to 30), among the events that have a moment"),
+    (Number, closing, "-",
+     "fraction of events whose source closed (R of ae.csv below -30), among the events that have a moment"),
     (Count, without_moment, "",
      "number of events that have no moment or magnitude because no force around the source changed"),
     (Number, largest_magnitude, "-", "largest moment magnitude Mw of all events"),
     (Number, radius, "m", "radius of the source region of a single break, equal to the mean particle diameter"),
     (Number, window, "s",
-     "time for which a source of this radius stays open after a break: the radius divided by half the shear wave "
+     "time after a single break within which another break may join its event: `radius` divided by half the shear wave "
      "speed"),
     (Number, shear_wave_speed, "m/s",
      "shear wave speed sqrt(G/density), with G = E/(2 (1 + nu)) from youngs_modulus and poissons_ratio, or with G from "
@@ -154,15 +161,16 @@ CRACKLE_FIGURES(
     (Word, speed_from, "",
      "origin of the shear modulus: `moduli` for youngs_modulus and poissons_ratio, `mean field` if these are unknown",
      "the mean-field estimate assumes that all bonds deform in one uniform pure shear, and omits bonds to platens; it "
-     "is an upper bound of G for the rest of the specimen"),
+     "is an upper bound on G of the specimen without these bonds"),
     (Number, density, "kg/m2", "mass per area of the specimen, including its pores"),
     (Number, damping_ratio, "-", "ratio of the normal dashpot to critical damping, averaged over the bonds"));
 
-/// b-value for another magnitude of completeness.
-CRACKLE_FIGURES(OtherBValue, (Number, b, "-", "b-value for this magnitude of completeness"),
-                (Count, events, "", "number of events above this magnitude of completeness"),
+/// b-value for a magnitude of completeness found in another way.
+CRACKLE_FIGURES(OtherBValue, (Number, b, "-", "b-value for the magnitude of completeness given here"),
+                (Count, events, "", "number of events above the magnitude of completeness given here"),
                 (Number, completeness, "-",
-                 "magnitude of completeness Mw at which the events are closest to a straight line"));
+                 "magnitude of completeness (Mw), chosen so that the magnitudes of larger events come closest to a "
+                 "straight frequency-magnitude line"));
 
 /// b-value of the moment magnitudes.
 CRACKLE_FIGURES(BValueFigures,
@@ -171,20 +179,21 @@ CRACKLE_FIGURES(BValueFigures,
                  "then null as well"),
                 (Number, error, "-", "standard error of b (Shi & Bolt)"),
                 (List<double>, interval, "-",
-                 "lower and upper ends of the 95 % confidence interval of b, valid if the magnitudes follow the law"),
+                 "lower and upper ends of the 95 % confidence interval of b, valid if the magnitudes follow a straight "
+                 "frequency-magnitude line"),
                 (Count, events, "", "number of events above the magnitude of completeness, from which b is estimated"),
                 (Flag, few, "", "whether b is estimated from fewer than 200 events"),
                 (Number, completeness, "-",
                  "magnitude of completeness Mw by the method of maximum curvature: the middle of the fullest bin of "
                  "width 0.1, plus 0.2"),
                 (Flag, straight, "",
-                 "whether the magnitudes are consistent with a straight line in the Kolmogorov-Smirnov test at the 5 % "
-                 "level; if not, b has little meaning"),
+                 "whether the magnitudes are consistent with a straight frequency-magnitude line in the "
+                 "Kolmogorov-Smirnov test at the 5 % level; if not, b has little meaning"),
                 (Stated<OtherBValue>, least_distance, "",
                  "b-value with the magnitude of completeness that minimises the distance of the events from a straight "
-                 "line. No error is stated, because the same events determine that magnitude"));
+                 "frequency-magnitude line. No error is stated, because the same events determine that magnitude"));
 
-/// Distribution of the work done on the specimen.
+/// Parts of the work done on the specimen that were stored or dissipated.
 CRACKLE_FIGURES(EnergyShares,
                 (Number, work, "J", "total work done on the specimen: platen_work plus confinement_work of curve.csv"),
                 (Number, strain, "-", "change of the strain energy in contacts, as a fraction of the work"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figures of summary.json on the specimen, the numerics and the run.
+// Quantities in summary.json that describe the specimen, the numerics and the run.
 // Tested by tests/tools/readme_test.py and tests/specimens/summary/summary_test.cpp.
 #pragma once
 
@@ -38,21 +38,21 @@ CRACKLE_FIGURES(
     (Count, platen_bottom_id, "", "id of the lower platen (or first support) in events.csv and frames"),
     (Count, platen_top_id, "", "id of the upper platen (or driving part) in events.csv and frames"));
 
-/// Rates, time steps and balances.
+/// Loading rates, time steps and force and energy balances.
 CRACKLE_FIGURES(
     NumericsFigures,
     (Number, rate_tolerance, "-",
-     "tolerance of the inertia error: the out-of-balance of the platens, or the ratio of kinetic to strain energy. It "
-     "sets the largest loading rate and slows loading when the error exceeds it",
+     "tolerance of the inertia error, which is the out-of-balance of the platens or the ratio of kinetic to strain "
+     "energy. The largest loading rate is derived from the tolerance, and loading slows down when the error exceeds it",
      "only if the loading rate is controlled by a tolerance, as are all keys up to `wave_transit_time`"),
     (NumberBySense, axial_strain_rate, "1/s", "mean axial strain rate of the test: travelled strain divided by time",
      "if the loading rate is controlled by a tolerance",
-     {{"axial strain rate given in the case; the mean rate if a callback took over the platen speed",
+     {{"axial strain rate given in the case; the mean rate if a callback took control of the platen speed",
        "if the case gives the loading rate"}}),
     (List<double>, axial_strain_rate_range, "1/s", "smallest and largest axial strain rate during the test"),
     (Number, strain_share_above_tolerance, "-",
      "fraction of the travelled strain during which the inertia error exceeded rate_tolerance",
-     "if a callback took over the platen speed, only the strain before that moment counts"),
+     "if a callback took control of the platen speed, only the strain before that moment counts"),
     (Number, wave_transit_time, "s", "time that a wave takes to cross the specimen: height/sqrt(E/density)"),
     (Number, viscous_stress_share, "-",
      "stress carried by dashpots when loading begins, divided by the largest stress; both without the confining "
@@ -72,7 +72,7 @@ CRACKLE_FIGURES(
     (Number, time_step_mean, "s", "mean time step of the test"),
     (NumberBySense, stable_time_step, "s",
      "exact limit of stable time steps when the bonds were made. Below it, 4M - 2dt C - dt^2 K is positive definite, "
-     "as a Cholesky factorisation shows",
+     "as a Cholesky factorisation shows; M, C and K are the mass, damping and stiffness matrices",
      "",
      {{"bound on stable time steps when the bonds were made. It is exact for the symmetric matrix that bounds the "
        "contact law's unsymmetric stiffness",
@@ -85,26 +85,26 @@ CRACKLE_FIGURES(
      "numerics.safety_factor, and smaller if time_step_bound requires a shorter step"),
     (Number, time_step_bound, "s",
      "largest time step with guaranteed stability, found without an eigenvalue solve and updated as contacts open and "
-     "close; stated is its value when loading began"),
+     "close; the value given is that at the start of loading"),
     (Count, steps, "", "number of time steps"), (Number, simulated_time, "s", "simulated time since loading began"),
     (Count, list_builds, "", "number of times the neighbour list was built"),
     (Aside<std::int64_t>, seed, "", "random seed of the packing", "null if the particles were read from a file"));
 
-/// Relative errors of one figure.
+/// Relative errors of one quantity.
 CRACKLE_FIGURES(
     ErrorFigures,
-    (Number, time_step, "-", "relative change of the figure at half the time step",
-     "the figures are youngs_modulus, peak_stress and peak_strain, and in compression tests also "
+    (Number, time_step, "-", "relative change of the quantity at half the time step",
+     "the quantities are youngs_modulus, peak_stress and peak_strain, and in compression tests also "
      "crack_initiation_stress and crack_damage_stress. 0 for youngs_modulus, which comes from a linear solution"),
-    (Number, rate, "-", "relative change of the figure at half the loading rate", "0 for youngs_modulus"),
+    (Number, rate, "-", "relative change of the quantity at half the loading rate", "0 for youngs_modulus"),
     (Number, energy_closing, "-", "absolute value of energy_closing_error", "null for youngs_modulus"),
-    (Number, damping, "-", "larger of the relative changes of the figure at half and at double the damping",
+    (Number, damping, "-", "larger of the relative changes of the quantity at half and at double the damping",
      "0 for youngs_modulus"),
     (Number, resolution, "-",
-     "relative error due to the spacing of rows: difference between the row that defines the figure and the row before "
-     "it",
+     "relative error due to the spacing of rows: difference between the row that defines the quantity and the row "
+     "before it",
      "0 for youngs_modulus"),
-    (Number, stated, "-", "relative error to report with the figure, defined under numerical_errors"));
+    (Number, stated, "-", "relative error to report with the quantity, defined under numerical_errors"));
 
 /// Another run of the same specimen.
 CRACKLE_FIGURES(
@@ -124,7 +124,7 @@ CRACKLE_FIGURES(
     (Number, crack_initiation_stress, "N/m", "crack initiation stress of the companion run, for compression tests"),
     (Number, crack_damage_stress, "N/m", "crack damage stress of the companion run, for compression tests"));
 
-/// Relative errors by figure, and the companion runs from which they are estimated.
+/// Relative errors of several quantities, and the companion runs from which they are estimated.
 CRACKLE_FIGURES(ErrorsByFigure, (Stated<ErrorFigures>, youngs_modulus), (Stated<ErrorFigures>, peak_stress),
                 (Stated<ErrorFigures>, peak_strain), (Stated<ErrorFigures>, crack_initiation_stress),
                 (Stated<ErrorFigures>, crack_damage_stress), (Stated<Table<CompanionFigures>>, companions));
@@ -138,7 +138,7 @@ CRACKLE_FIGURES(PackingFigures,
                 (Number, coordination, "-",
                  "coordination number: twice the number of contacts between circles, divided by the number of circles"),
                 (Number, coordination_of_carrying, "-",
-                 "coordination number of the circles that touch something, with contacts on walls included"),
+                 "coordination number of the circles that touch something, including their contacts with walls"),
                 (Number, floating, "", "number of circles without any contact"),
                 (Number, stress_x, "N/m", "mean stress on the two side walls, positive in compression"),
                 (Number, stress_y, "N/m", "mean stress on the bottom and top walls, positive in compression"),
@@ -153,7 +153,7 @@ CRACKLE_FIGURES(PackingFigures,
                  "only for specimens meshed for the test, as is cell_spread"),
                 (Number, cell_spread, "-", "coefficient of variation of the cells' equivalent diameters"));
 
-/// Fraction of one mineral.
+/// Area fraction and number of grains of one mineral.
 CRACKLE_FIGURES(MineralFigures, (Word, name, "", "name of the mineral in the case"),
                 (Number, area_share, "-", "fraction of the total grain area that the case requests for the mineral",
                  "null if labels or an image assign the minerals and the case states no fraction"),
@@ -175,16 +175,17 @@ CRACKLE_FIGURES(PhaseFigures, (Word, phase, "", "name of the phase"),
                 (Number, ns_per_particle_step, "ns", "wall-clock time spent in the phase per particle and time step"),
                 (Word, meaning, "", "description of the phase"));
 
-/// Distribution of the stepping loop's time.
-CRACKLE_FIGURES(ProfileFigures,
-                (Number, step_seconds, "s",
-                 "wall-clock time of the stepping loop, without the time that the profile's own samples take"),
-                (Count, steps, "", "number of time steps"),
-                (Count, force_passes, "", "number of times the forces at all contact points were computed"),
-                (Number, points_per_particle, "-",
-                 "number of listed contact points per particle, averaged over the steps"),
-                (Number, force_ns_per_point, "ns", "wall-clock time of a force pass per listed contact point"),
-                (List<PhaseFigures>, phases));
+/// Time of the stepping loop, by phase.
+CRACKLE_FIGURES(
+    ProfileFigures,
+    (Number, step_seconds, "s",
+     "wall-clock time of the stepping loop, without the time that the profile spends on its timing samples"),
+    (Count, steps, "", "number of time steps"),
+    (Count, force_passes, "", "number of times the forces at all contact points were computed"),
+    (Number, points_per_particle, "-", "number of listed contact points per particle, averaged over the steps"),
+    (Number, force_ns_per_point, "ns",
+     "wall-clock time of a computation of all forces, divided by the number of listed contact points"),
+    (List<PhaseFigures>, phases));
 
 /// The program and its speed.
 CRACKLE_FIGURES(
@@ -196,7 +197,7 @@ CRACKLE_FIGURES(
      "wall-clock time of the stepping loop, including neighbour list rebuilds, bond breakage and observers"),
     (Aside<double>, particle_steps_per_second, "1/s",
      "number of particles times number of time steps, divided by step_seconds"),
-    (Aside<ProfileFigures>, profile, "", "distribution of the stepping loop's wall-clock time", "only with --profile"));
+    (Aside<ProfileFigures>, profile, "", "wall-clock time of the stepping loop, by phase", "only with --profile"));
 
 /// Length and hash of a file.
 CRACKLE_FIGURES(FileFigures, (Count, bytes, unlisted, "length of the file in bytes"),

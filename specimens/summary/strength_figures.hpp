@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Figures of summary.json from the curve: what was tested, strength, moduli, cracking, cycles.
+// Quantities in summary.json on what was tested, strength, moduli, validity, confinement, cracking and cycles.
 // Tested by tests/tools/readme_test.py and tests/specimens/summary/summary_test.cpp.
 #pragma once
 
@@ -14,26 +14,25 @@
 namespace crackle {
 
 /// What was tested, and how the test ended.
-CRACKLE_FIGURES(Description, (Text, title, unlisted, "title of the case, used as the heading of the report"),
-                (Stated<LoadingKind>, kind, unlisted, "kind of test, as in `loading.kind`"),
-                (Stated<SpecimenKind>, specimen, unlisted, "type of specimen: `circles`, `delaunay` or `voronoi`"),
-                (Stated<PlatenKind>, platens, unlisted,
-                 "how the platens hold the specimen: `bonded`, `glued` or `frictional`"),
-                (Stated<BondLaw>, bond_law, unlisted, "bond law: `back_tension`, `coulomb` or `face`"),
-                (Stated<StiffnessUnits>, material_units, unlisted,
-                 "what the material's stiffness and strengths refer to: `point` (a contact point) or `area` (the area "
-                 "of a face); with `area`, stresses are already in Pa"),
-                (Flag, failed, unlisted,
-                 "whether the specimen has failed, so that its peak is final: after the peak, the stress stayed lower "
-                 "than the peak by more than the fraction `loading.strength_drop`. It did so over a tenth of the "
-                 "strain at the peak and over at least ten rows (of at least 2000), or the test ended by failure"),
-                (Flag, interrupted, unlisted, "whether the test was interrupted before its end and can be resumed"),
-                (Word, ended_by, unlisted,
-                 "reason why the test ended: `failure`, `max_axial_strain`, `caller` (a callback in Python), "
-                 "`interrupt` or `instability`. `failure` means that the stress stayed below the fraction "
-                 "`loading.stop_at_share_of_peak` of its largest value, over the same strain and rows as for `failed`"),
-                (Text, note, unlisted,
-                 "only if the specimen has not failed: explains to which stress the peak and moduli refer"));
+CRACKLE_FIGURES(
+    Description, (Text, title, unlisted, "title of the case, used as the heading of the report"),
+    (Stated<LoadingKind>, kind, unlisted, "kind of test, as in `loading.kind`"),
+    (Stated<SpecimenKind>, specimen, unlisted, "type of specimen: `circles`, `delaunay` or `voronoi`"),
+    (Stated<PlatenKind>, platens, unlisted, "how the platens hold the specimen: `bonded`, `glued` or `frictional`"),
+    (Stated<BondLaw>, bond_law, unlisted, "bond law: `back_tension`, `coulomb` or `face`"),
+    (Stated<StiffnessUnits>, material_units, unlisted,
+     "what the material's stiffness and strengths refer to: `point` (a contact point) or `area` (the area "
+     "of a face); with `area`, stresses are already in Pa"),
+    (Flag, failed, unlisted,
+     "whether the specimen has failed, so that its peak is final: after the peak, the stress stayed lower "
+     "than the peak by more than the fraction `loading.strength_drop`. It did so over a tenth of the "
+     "strain at the peak and over at least ten rows (of at least 2000), or the test ended by failure"),
+    (Flag, interrupted, unlisted, "whether the test was interrupted before its end and can be resumed"),
+    (Word, ended_by, unlisted,
+     "reason why the test ended: `failure`, `max_axial_strain`, `caller` (a callback in Python), `interrupt` or "
+     "`instability`. `failure` means that the stress stayed below the fraction `loading.stop_at_share_of_peak` of its "
+     "largest value, over the same strain and number of rows as for `failed`"),
+    (Text, note, unlisted, "only if the specimen has not failed: explains to which stress the peak and moduli refer"));
 
 /// Counts within the window of the initial tangent.
 CRACKLE_FIGURES(TangentWindow, (Count, rows, "", "number of rows of the curve in the window"),
@@ -48,7 +47,7 @@ CRACKLE_FIGURES(TangentWindow, (Count, rows, "", "number of rows of the curve in
 CRACKLE_FIGURES(
     Strength,
     (Stress, peak_stress, "N/m", "strength of the specimen, positive in the direction of loading",
-     "it is the first maximum of the axial stress that is followed by a lasting drop of more than the fraction "
+     "the peak is the first maximum of the axial stress that is followed by a lasting drop of more than the fraction "
      "`loading.strength_drop`"),
     (Stress, peak_stress_so_far, "N/m",
      "largest axial stress, positive in the direction of loading; replaces `peak_stress` if the specimen has not "
@@ -58,7 +57,7 @@ CRACKLE_FIGURES(
      "axial strain at the largest axial stress, positive in the direction of loading; replaces `peak_strain` if the "
      "specimen has not failed"),
     (Stress, largest_stress, "N/m", "largest axial stress of the whole test, positive in the direction of loading",
-     "a notice reports if it occurs after the peak"),
+     "a notice reports if this stress occurs after the peak"),
     (Number, strain_at_largest_stress, "-",
      "axial strain at the largest axial stress of the whole test, positive in the direction of loading"),
     (Stress, youngs_modulus, "N/m",
@@ -96,7 +95,7 @@ CRACKLE_FIGURES(
      "regression line rises"),
     (Number, brittleness_index, "-",
      "brittleness index (M - E)/M, with M = post_peak_modulus and E = youngs_modulus: 1 if the stress drops at once, "
-     "larger the more slowly it falls",
+     "and larger if it falls more slowly",
      "null if E or M is null"));
 
 /// Definitions of stress and strain for a test without platens, and results derived from its peak.
@@ -124,7 +123,8 @@ CRACKLE_FIGURES(
      "normal stress on the upper half of the shear box when shearing began, positive in compression",
      "only for direct shear tests, as are all keys up to `dilation_end`"),
     (Stress, normal_stress_at_peak, "N/m",
-     "normal stress on the upper half of the shear box at the peak, including the increase due to its rise",
+     "normal stress on the upper half of the shear box at the peak, including the increase due to the rise of this "
+     "half",
      "only for tests with `loading.normal_stiffness`"),
     (Stress, normal_stress_at_peak_so_far, "N/m",
      "normal stress on the upper half of the shear box at the largest shear stress; replaces `normal_stress_at_peak` "
@@ -137,7 +137,7 @@ CRACKLE_FIGURES(
      "The slope is found by linear regression over the rows whose strain is within a tenth of that at the peak"),
     (Number, dilation_end, "m", "rise of the upper half box at the end of the test, positive if the joint opens"));
 
-/// A claim that must hold for a valid test.
+/// A condition that must hold for a valid test, and whether it does.
 CRACKLE_FIGURES(JudgedClaim, (Word, claim, unlisted, "condition for a valid test"),
                 (Flag, holds, unlisted, "whether the condition holds; null if unknown"),
                 (Word, found, unlisted, "values on which the judgement is based"));
@@ -179,12 +179,12 @@ CRACKLE_FIGURES(
      "membrane around the specimen: chains of points on its particles, with pressure on the straight pieces between "
      "them"));
 
-/// Crack initiation by other definitions.
+/// Crack initiation stresses by other definitions.
 CRACKLE_FIGURES(
     OtherInitiation,
     (Number, lateral_compliance, "N/m",
-     "axial stress beyond which the lateral strain grows at more than 1.2 times its elastic rate nu/E. There it is "
-     "farthest below a line of that slope, up to the largest area strain"),
+     "axial stress beyond which the lateral strain grows at more than 1.2 times its elastic rate nu/E. It is the "
+     "stress, up to the largest area strain, at which the lateral strain is farthest below a line of that slope"),
     (Number, first_percent, "N/m",
      "axial stress at which the number of broken bonds reaches 1 % of its value at the peak"),
     (Number, count_break, "N/m",
@@ -195,38 +195,39 @@ CRACKLE_FIGURES(
      "lower and upper ends of the 95 % confidence interval of count_break, by resampling the bursts of "
      "bond breakage"),
     (Number, crack_strain, "N/m",
-     "axial stress at which the inelastic area strain, area strain - (1 - nu) stress/E, leaves a band of "
-     "three standard deviations about its initial mean and stays outside until crack damage. The band is "
-     "that of the rows below a quarter of the peak"),
+     "axial stress at which the inelastic area strain, area strain - (1 - nu) stress/E, leaves a band of three "
+     "standard deviations about its initial mean and stays outside until crack damage. Mean and deviation are those of "
+     "the rows below a quarter of the peak"),
     (Number, lateral_strain, "N/m",
      "axial stress at which the curve of lateral strain against stress is farthest from its chord between "
      "the start and the largest area strain"),
     (Number, spread, "N/m", "difference between the largest and the smallest of all six crack initiation stresses"));
 
 /// Stresses at which cracks form and coalesce, in a compression test.
-CRACKLE_FIGURES(CrackingFigures,
-                (Stress, crack_initiation_stress, "N/m",
-                 "crack initiation stress: axial stress beyond which the lateral strain exceeds the elastic one, nu "
-                 "stress/E, by a parabola, by a fit up to the largest area strain",
-                 "only for compression tests, as are all keys of `crack_initiation` and `crack_damage`. Null if the "
-                 "specimen has no side particles, or if its area strain is largest among the first ten rows"),
-                (Number, crack_initiation_error, "N/m",
-                 "error of crack_initiation_stress: its distance from crack_initiation.lateral_compliance"),
-                (Number, crack_initiation_over_peak, "-", "crack_initiation_stress divided by the peak stress"),
-                (Stated<OtherInitiation>, crack_initiation, "N/m",
-                 "crack initiation stresses by five other definitions, and the spread of all six",
-                 "a definition that cannot be evaluated is null"),
-                (Stress, crack_damage_stress, "N/m",
-                 "crack damage stress: middle of the stretch of axial stresses up to the peak in which the area strain "
-                 "is within 2 % of its largest value",
-                 "null as crack_initiation_stress"),
-                (Number, crack_damage_error, "N/m",
-                 "error of crack_damage_stress: half the length of this stretch of stresses"),
-                (Number, crack_damage_reversal, "N/m",
-                 "axial stress at the largest area strain up to the peak; the peak stress if the specimen's area "
-                 "decreased up to there"),
-                (Number, crack_damage_strain, "-", "axial strain at which crack_damage_stress is first reached"),
-                (Number, crack_damage_over_peak, "-", "crack_damage_stress divided by the peak stress"));
+CRACKLE_FIGURES(
+    CrackingFigures,
+    (Stress, crack_initiation_stress, "N/m",
+     "crack initiation stress: axial stress beyond which the lateral strain exceeds the elastic one, nu stress/E. The "
+     "excess is fitted by a parabola that begins at this stress, up to the largest area strain",
+     "only for compression tests, as are all keys of `crack_initiation` and `crack_damage`. Null if the "
+     "specimen has no side particles, or if its area strain is largest among the first ten rows"),
+    (Number, crack_initiation_error, "N/m",
+     "error of crack_initiation_stress: its distance from crack_initiation.lateral_compliance"),
+    (Number, crack_initiation_over_peak, "-", "crack_initiation_stress divided by the peak stress"),
+    (Stated<OtherInitiation>, crack_initiation, "N/m",
+     "crack initiation stresses by five other definitions, and the spread of all six",
+     "a definition that cannot be evaluated is null"),
+    (Stress, crack_damage_stress, "N/m",
+     "crack damage stress: middle of the range of axial stresses up to the peak in which the area strain is within 2 % "
+     "of its largest value",
+     "null under the same conditions as crack_initiation_stress"),
+    (Number, crack_damage_error, "N/m",
+     "error of crack_damage_stress: half the width of the range of stresses of which it is the middle"),
+    (Number, crack_damage_reversal, "N/m",
+     "axial stress at the largest area strain up to the peak; the peak stress if the specimen's area decreased up to "
+     "the peak"),
+    (Number, crack_damage_strain, "-", "axial strain at which crack_damage_stress is first reached"),
+    (Number, crack_damage_over_peak, "-", "crack_damage_stress divided by the peak stress"));
 
 /// One unloading and reloading.
 CRACKLE_FIGURES(

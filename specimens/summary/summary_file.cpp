@@ -124,7 +124,7 @@ Summary read_summary(const std::string& file, std::string_view text) {
     };
     Json json;
     const auto bound_depth = [&](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
-        // A summary has five levels, and is written recursively.
+        // The limit prevents deep recursion; a summary has five levels.
         if (depth > 100) refuse("more than 100 nested brackets, expected a test's summary");
         return true;
     };

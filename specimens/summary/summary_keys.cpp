@@ -10,7 +10,7 @@ namespace {
 /// Lists the keys of the visited members.
 struct KeyLister {
     std::vector<SummaryKey>& keys;
-    std::set<std::type_index>& tables;  ///< types of the tables listed before
+    std::set<std::type_index>& tables;  ///< types of the tables that have been listed
     std::string prefix = "";
     bool again = false;
 

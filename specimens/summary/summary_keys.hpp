@@ -16,20 +16,20 @@ namespace crackle {
 struct SummaryKey {
     std::string name;
     std::string unit, meaning, more;  ///< members as in Quantity
-    bool converted = false;           ///< whether it is a stress or modulus, which also has a value in Pa under ..._pa
+    bool converted = false;           ///< whether the value is a stress or modulus, also given in Pa under ..._pa
     bool again = false;               ///< whether the key belongs to a type of table that has been listed before
 };
 /// The keys in file order. Keys in a table follow the table as `table.key`, with `*` for any name and `[]` for each
 /// entry of a list. A key whose meaning depends on the test is listed once per meaning.
 const std::vector<SummaryKey>& summary_keys();
 
-/// A key without the suffix of a converted value.
+/// Removes the suffix `_pa` of a converted value from a key, if it has this suffix.
 std::string_view without_suffix(std::string_view key);
 
 /// Unit and meaning as printed in summary.json. @param area_units  whether stresses are already in Pa
 std::string stated_in(const Quantity& what, bool area_units);
-/// Adds `units`, which lists the unit and meaning of each key present in the summary, and the converted values of
-/// stresses.
+/// Adds `units`, which lists the unit and meaning of each key present in the summary. Also adds the values of stresses
+/// in Pa.
 void state_units(Summary& summary);
 
 }  // namespace crackle

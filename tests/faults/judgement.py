@@ -15,7 +15,7 @@ GOOD = (UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, REFUSED)
 SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE = (
     "exit 0, results wrong", "earlier results lost", "continued from a mixture", "hung", "aborted", "not correct afterwards", "wrong message", "wrong exit code")
 BAD = (SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE)
-OF_TESTS = ("failed by the system", "ended with a system error")  # messages about tests of a campaign or calibration do not state the cause
+OF_TESTS = ("failed because of the system", "ended with a system error")  # messages about tests of a campaign or calibration do not state the cause
 
 
 def worst_of(faults):

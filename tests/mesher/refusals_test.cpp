@@ -118,7 +118,7 @@ TEST(MeshRefusal, WhatIsAdvisedWorks) {
                 if (traced) request.traces = {{{0.0, 0.31}, {1.0, 0.62}}, {{0.0, 0.62}, {1.0, 0.4}}};
                 const std::string text = refusal(centres, unit, request).what();
                 if (text == "no refusal") continue;
-                const double most = number_behind(text, by_inset ? "use an inset of " : "use a thick of ");
+                const double most = number_behind(text, by_inset ? "use an inset of " : "set thick to ");
                 EXPECT_GT(most, 0.0) << text;
                 MeshRequest advised = request;
                 (by_inset ? *advised.inset : advised.mesh_gap) = most;

@@ -41,7 +41,7 @@ void check_folder(const fs::path& folder, const Rock& rock) {
     if (!is_there(folder) || is_there(folder / "search" / "campaign.sqlite") ||
         is_there(folder / "search" / "packings"))
         return;
-    // A calibration that failed at its first file has left an empty folder.
+    // A calibration that failed while it wrote its first file leaves an empty folder `search`.
     if (names_in(folder) == std::set<std::string>{"search"} && names_in(folder / "search").empty()) return;
     remove_leftovers(folder, Leftovers::old);
     refuse_foreign_files(folder, "a new or empty folder, or the folder of a calibration; choose another with -o");
@@ -72,10 +72,10 @@ CommandLine describe_calibrate() {
     po::options_description options;
     options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the calibration")  //
         ("workers", po::value<int>()->value_name("N"),
-         "processes that run tests (default: one per available processor)")                                         //
+         "number of processes that run tests (default: one per available processor)")                               //
         ("retry", "repeat tests that ended without a result because of their case (refused, unstable, timed out)")  //
         ("dry-run", "check the file and all corners of its bounds; run nothing, write nothing")                     //
-        ("long", "run tests although they take more than a day, or 1e10 steps")                                     //
+        ("long", "run the tests even if they take more than a day, or 1e10 steps")                                  //
         ("keys", "list all keys of a rock file");
     return {
         .synopses = {"crackle calibrate ROCK.toml -o DIR [OPTIONS]"},

@@ -66,8 +66,8 @@ std::optional<CampaignFigure> targets_plane(const Rock& rock, const CalibrationO
     plot::Series tried{"tried", {}, {}, false}, frontier{"compromises", {}, {}, true}, target{"target", {}, {}, false},
         reached{"reached by fresh packings", {}, {}, false};
     for (const std::vector<double>& means : outcome.tried_means) {
-        // Points farther from the targets than this factor are not shown: the search may start so far away that nothing
-        // else could be distinguished.
+        // Points are not shown if a mean differs from its target by more than this factor: the search may start so far
+        // away that nothing else could be distinguished.
         constexpr double near = 2.5;
         const auto off = [&](std::size_t k) { return std::abs(std::log(means[k] / rock.targets[k].value)); };
         if (!(std::max(off(x), off(y)) < std::log(near))) continue;

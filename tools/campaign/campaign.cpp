@@ -80,15 +80,15 @@ CommandLine describe_campaign() {
     po::options_description options;
     options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")  //
         ("workers", po::value<int>()->value_name("N"),
-         "processes that run tests (default: one per available processor)")  //
+         "number of processes that run tests (default: one per available processor)")  //
         ("verify",
          "also run each test at half the time step and at half the rate, to report the bias of every mean with its "
          "standard error")                                                                                          //
         ("retry", "repeat tests that ended without a result because of their case (refused, unstable, timed out)")  //
         ("shard", po::value<std::string>()->value_name("I/N"),
-         "run share I of N into DIR/shards/I.sqlite; `crackle campaign gather` merges shares")  //
-        ("dry-run", "check the plan and estimate its hours; run nothing, write nothing")        //
-        ("long", "run tests although they take more than a day, or 1e10 steps")                 //
+         "run share I of N, with results in DIR/shards/I.sqlite; `crackle campaign gather` merges shares")  //
+        ("dry-run", "check the plan and estimate its hours; run nothing, write nothing")                    //
+        ("long", "run the tests even if they take more than a day, or 1e10 steps")                          //
         ("keys", "list all keys of a plan");
     return {.synopses = {"crackle campaign PLAN.toml -o DIR [OPTIONS]", "crackle campaign show|gather|submit ..."},
             .description =

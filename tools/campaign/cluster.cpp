@@ -53,8 +53,9 @@ void call_sbatch(const fs::path& script) {
 
 CommandLine describe_campaign_submit() {
     po::options_description options;
-    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")    //
-        ("shards", po::value<int>()->value_name("N"), "number of shares (default: five minutes of work each)")  //
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")  //
+        ("shards", po::value<int>()->value_name("N"),
+         "number of shares (default: shares of about five minutes of work)")  //
         ("workers", po::value<int>()->value_name("N")->default_value(1),
          "worker processes per share, all on one node")  //
         ("verify", "as for crackle campaign")            //

@@ -49,10 +49,10 @@ CommandLine describe_campaign_show() {
     po::options_description options;
     options.add_options()(
         "figure", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME..."),
-        "figures of summary.json (default: youngs_modulus poissons_ratio peak_stress peak_strain)")  //
-        ("all", "all figures")                                                                       //
-        ("csv", "print the statistics as CSV")                                                       //
-        ("tests", "print CSV with one row per test: axes, seed, variant, state and all figures")     //
+        "keys of summary.json to print (default: youngs_modulus poissons_ratio peak_stress peak_strain)")  //
+        ("all", "print all numeric keys")                                                                  //
+        ("csv", "print the statistics as CSV")                                                             //
+        ("tests", "print CSV with one row per test: axes, seed, variant, state and all results")           //
         ("wrong", "print the tests that ended without a result, with the reason");
     return {.synopses = {"crackle campaign show DIR [OPTIONS]"},
             .description =

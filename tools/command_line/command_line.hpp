@@ -32,7 +32,7 @@ struct Choices {
 /// An option that has an effect only together with at least one of several others.
 struct Companion {
     std::string option;  ///< its long name
-    Arguments one_of;    ///< long names of the others
+    Arguments one_of;    ///< long names of the other options
 };
 
 struct OptionSection {
@@ -103,8 +103,8 @@ ParsedWords parse_words(const std::string& name, const CommandLine& line, const 
 InputError without_effect(const std::string& name, const std::string& word, const std::string& input);
 
 /// Refuses options that were given but have no effect.
-/// @param used long names of the options that have an effect @throws without_effect() for the first option given that
-/// is not among them
+/// @param used long names of the options that have an effect @throws InputError, made by
+/// without_effect(), for the first given option that is not in `used`
 void refuse_unused(const std::string& name, const po::variables_map& given, const std::string& input,
                    const Arguments& used);
 

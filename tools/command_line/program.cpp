@@ -106,7 +106,8 @@ SelectedCommand selected(const Command& command, const std::string& name, const 
     return chosen;
 }
 
-/// The command that words after the program's name select. Other requests are carried out by printing.
+/// The command selected by the words after the program's name. Requests such as --help and --version are answered here
+/// by printing; no command is then selected.
 SelectedCommand selected(const Program& program, const Arguments& words) {
     if (words.empty()) {
         print_overview(program, std::cerr, Stream::err);
@@ -156,7 +157,7 @@ const std::vector<ExitCode>& exit_codes() {
     static const std::vector<ExitCode> all{
         {exit_done, "done"},
         {exit_claim_fails,
-         "a row of crackle-bench fails, a target of crackle calibrate is not reached, tests of crackle campaign end "
+         "a row of crackle-bench fails, a target of crackle calibrate is not reached, or tests of crackle campaign end "
          "without a result"},
         {exit_bad_input, "bad input"},
         {exit_unstable, "the run became unstable (the output so far is kept)"},
@@ -184,12 +185,13 @@ SelectedCommand select_command(const Program& program, int argc, char** argv) {
 }
 
 int end_output(int code) {
-    // Fails if the result cannot be written to stdout; a full disc may be noticed only with the last bytes.
+    // Fails if the result cannot be written to stdout; a full disc may cause an error only when the last bytes are
+    // written.
     errno = 0;
     const bool written = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
     if (written || code != exit_done) return code;
     if (reader_is_gone()) return exit_system_fails;  // the reader, such as `| head`, needs no more output
-    report_error(fmt::format("standard output: {}, expected room for everything that is printed",
+    report_error(fmt::format("standard output: {}, expected enough space for the output",
                              errno != 0 ? std::generic_category().message(errno) : "cannot be written"));
     return exit_system_fails;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A program with subcommands, such as `crackle` and `crackle-bench`: table of commands, --help and --version. Failures
-// are reported by one message and an exit code.
+// A program with subcommands, such as `crackle` and `crackle-bench`: table of commands, --help and --version. It
+// reports a failure by one message and an exit code.
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
@@ -21,7 +21,7 @@ struct Command {
     const char* summary;
     CommandLine (*describe)();
     int (*run)(const Invocation& given);
-    /// Table of subcommands that the next word can select; for any other word, run() is called. Null if there are none.
+    /// Table of subcommands; run() is called if the next word names none of them. Null if there are no subcommands.
     const std::vector<Command>& (*studies)() = nullptr;
 };
 
@@ -37,7 +37,7 @@ inline constexpr int exit_done = 0;
 inline constexpr int exit_claim_fails = 1;
 inline constexpr int exit_bad_input = 2;  // InputError, invalid options
 inline constexpr int exit_unstable = 3;   // UnstableRun
-// SystemFailure, out of memory, stdout cannot be written, failure in a library
+// SystemFailure, lack of memory, an error while writing to stdout, or a failure in a library
 inline constexpr int exit_system_fails = 4;
 inline constexpr int exit_interrupted = 130;  // usual shell exit code for SIGINT
 
@@ -47,8 +47,8 @@ struct ExitCode {
 };
 const std::vector<ExitCode>& exit_codes();
 
-/// The command that a command line selects. Where it selects none, for example with --help, everything has been
-/// printed.
+/// The command selected by a command line. If no command is selected, for example with --help, the requested text has
+/// already been printed.
 struct SelectedCommand {
     SelectedCommand();
     SelectedCommand(SelectedCommand&& other) noexcept;
@@ -60,11 +60,12 @@ struct SelectedCommand {
     std::unique_ptr<Invocation> given;
 };
 
-// A program's main() calls these three, so that a command runs directly below main().
+// A program's main() calls the three functions below and, between them, the command itself. The command thus runs
+// directly below main() on the call stack.
 
 /// Prepares the process and selects a command. @throws InputError, SystemFailure
 SelectedCommand select_command(const Program& program, int argc, char** argv);
-/// Completes standard output after a command. @return `code`, or exit_system_fails after an error is reported
+/// Writes all pending output to stdout after a command. @return `code`, or exit_system_fails after an error is reported
 int end_output(int code);
 /// Reports the exception that is being handled. @param called  the command, for messages @return exit code
 int report_failure(const char* called);

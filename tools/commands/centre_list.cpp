@@ -17,7 +17,7 @@
 namespace crackle::tools {
 namespace {
 
-/// Values in the first line that contains any; empty if there is none.
+/// Values in the first line that has values; empty if no line has values.
 std::optional<std::vector<std::string>> first_values(std::string_view text) {
     if (text.find('"') != std::string_view::npos) {  // quotes occur only in a heading, since numbers need none
         TableReader reader("", text, TableReader::Form::table);

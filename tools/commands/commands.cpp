@@ -15,7 +15,7 @@ const std::vector<Command>& commands() {
         {"run", "runs a DEMseg deck (in_gm.dat, in_bc.dat) and writes DEMseg's output files", describe_run, run_deck},
         {"test", "one virtual test: specimen, bonding, platens, loading; curve, events, summary, frames", describe_test,
          test},
-        {"elastic", "the same specimen by a sparse solve: moduli, first break and slip, stable time step",
+        {"elastic", "the same specimen by a sparse linear solve: moduli, first break and slip, stable time step",
          describe_elastic, elastic},
         {"campaign", "a table of tests on all processors or a cluster: means, scatter, bias", describe_campaign,
          campaign, campaign_studies},

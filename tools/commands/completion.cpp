@@ -197,8 +197,8 @@ CommandLine describe_completion() {
             .operand = "SHELL",
             .operand_words = {"bash", "zsh", "fish"},
             .examples = {{"source <(crackle completion bash)", "in this shell"},
-                         {"crackle completion bash >> ~/.bash_completion", "in all future shells"},
-                         {"crackle completion zsh >> ~/.zshrc", "the same for zsh"},
+                         {"crackle completion bash >> ~/.bash_completion", "in all future sessions of bash"},
+                         {"crackle completion zsh >> ~/.zshrc", "in all future sessions of zsh"},
                          {"crackle completion fish > ~/.config/fish/completions/crackle.fish"}}};
 }
 

@@ -168,9 +168,10 @@ std::string elastic_as_json(const VirtualTest& test, const ElasticAnalysis& a,
     if (compliance) json["compliance"] = compliance_as_json(*compliance);
     const std::string stress = test.description.stress_unit();
     json["units"] = {
-        {"youngs_modulus", stress + ", small strain, all bonds intact and sticking; replaced by nominal_modulus if the "
-                                    "test is not between platens: stress divided by strain as its kind defines them"},
-        {"poissons_ratio", "-, by the definition of the curve's lateral strain"},
+        {"youngs_modulus",
+         stress + ", small strain, all bonds intact and sticking; replaced by nominal_modulus if the test is not "
+                  "between platens: stress divided by strain as the kind of test defines them"},
+        {"poissons_ratio", "-, from the lateral strain as defined for the curve"},
         {"stable_time_step", "s, exact: 4M - 2dt C - dt^2 K positive definite below it, checked by Cholesky if proved"},
         {"time_step_bound", "s, guaranteed stable below this value, found without an eigenvalue solve"},
         {"time_step", "s, time step that crackle test uses"},
@@ -180,7 +181,8 @@ std::string elastic_as_json(const VirtualTest& test, const ElasticAnalysis& a,
         {"bond_strength", "N"},
         {"x", "m"},
         {"y", "m"},
-        {"zero_energy_modes", "motions that store no energy: floating particles, particles on one circle contact"},
+        {"zero_energy_modes",
+         "motions that store no energy: floating particles, and particles held by a single circle contact"},
         {"zero_energy_bodies", "ids of the bodies that move in these modes"},
         {"residual", "|f - Ku| / |f|, the numerical error of the solve"},
         {"angular_frequencies", "rad/s, of the lowest modes that store energy, with the platens held"},
@@ -199,20 +201,21 @@ CommandLine describe_elastic() {
     po::options_description options;
     options.add_options()("json", "print one JSON object")  //
         ("strain", po::value<double>()->value_name("X")->default_value(1e-4, "1e-4"),
-         "axial strain of the forces that --bonds writes")  //
+         "axial strain at which --bonds computes the forces")  //
         ("bonds", po::value<std::string>()->value_name("FILE"),
          "CSV file to write: forces in all bonds, compression positive. The shear force acts on body_i, along the "
-         "normal from i to j turned by +90 degrees. Strains of break and slip are inf if they never occur; the "
+         "normal from i to j turned by +90 degrees. Strains at break and slip are inf if these never occur; the "
          "strength of an unbreakable bond is inf")      //
         ("force", "replace an existing file of bonds")  //
         ("modes", po::value<int>()->value_name("N")->default_value(0), "lowest vibration modes to find");
     return {.synopses = {"crackle elastic CASE.toml [OPTIONS]"},
             .description =
                 "Makes and bonds the specimen of CASE.toml with its platens, and solves the linear equations of its "
-                "stiffness matrix. Prints small-strain Young's modulus and Poisson's ratio, and the bonds that break "
-                "first (linear, no slip) and slip first. Also prints the exact stable time step and the number of "
-                "motions that store no energy. For a jointed rock it also prints the moduli, and those predicted for "
-                "persistent joint sets. Takes no time step; writes nothing unless an option requests it.",
+                "stiffness matrix. Prints the small-strain Young's modulus and Poisson's ratio, the bond that breaks "
+                "first (linear, no slip), and the contact point that slips first. Also prints the exact stable time "
+                "step and the number of motions that store no energy. For a jointed rock it also prints the moduli of "
+                "the rock without platens, and the moduli predicted for persistent joint sets. Takes no time step; "
+                "writes no file unless an option requests it.",
             .options = {{"options", options}},
             .operand = "CASE.toml",
             .companions = {{"strain", {"bonds"}}, {"force", {"bonds"}}},

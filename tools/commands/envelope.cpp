@@ -40,8 +40,8 @@ constexpr std::size_t enough_confinements = 5;
 // Largest confinement for Hoek-Brown, relative to the unconfined strength (ibid.).
 constexpr double largest_share = 0.5;
 constexpr double trusted_misfit = 0.1;  // misfit about as large as the scatter between packings
-constexpr double trusted_factor =
-    1.5;  // accepted factor between a strength ratio and hoek_martin(), about the scatter of its data
+// Accepted factor between a strength ratio and hoek_martin(); it is about the scatter of Hoek and Martin's data.
+constexpr double trusted_factor = 1.5;
 constexpr double smallest_m = 4.0, largest_m = 35.0;  // range of m for intact rocks in Hoek and Brown's tables
 
 /// Notices about the fitted parameters for the user, one sentence each.
@@ -147,7 +147,8 @@ Json as_json(const EnvelopeFigure& e, const std::vector<std::string>& notices) {
         {"mohr_coulomb", stress + ", friction_angle in degrees: strength + slope * confining_pressure"},
         {"hoek_brown", stress + ": confining_pressure + sqrt(m strength confining_pressure + strength^2)"},
         {"low, high",
-         "95 % intervals of the fitted parameters, by resampling packings; for fewer than 8 packings, by Student's t"},
+         "95 % intervals of the fitted parameters, by resampling the packings, or by Student's t if there are fewer "
+         "than 8"},
         {"misfit", "-, root mean square of the law's deviations from the means, relative to the means"},
         {"strength_ratio", "-, ratio of Hoek-Brown's unconfined strength to the mean tensile strength"},
         {"strength_ratio_by_m", "-, 8.62 + 0.7 m, Hoek & Martin 2014"}};

@@ -105,7 +105,7 @@ std::string command_text(const std::string& name, const CommandLine& line) {
 }
 
 std::string manual_page() {
-    // Left-aligned, so that long names of files and options neither stretch lines nor cause warnings.
+    // The page is left-aligned, so that long names of files and options neither stretch lines nor cause warnings.
     std::string out = fmt::format(
         ".\\\" Made by `crackle man`.\n.TH CRACKLE 1 \"\" \"crackle {}\" \"Virtual rock tests\"\n.ad l\n.nh\n"
         ".SH NAME\ncrackle \\- makes bonded rock specimens and tests them\n"

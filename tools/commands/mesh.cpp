@@ -139,7 +139,8 @@ Source centres_of_deck(const std::string& name, const std::string& text, const p
     source.thick = circles.thick;
     source.scene.bodies.clear();
     source.scene.circles.clear();
-    // The time step for the circles does not apply to polygons; 0 means that it is chosen from their stable bound.
+    // The time step for the circles does not apply to polygons; 0 means that the time step is chosen from the stable
+    // bound of the polygons.
     source.scene.time_step = 0.0;
     return source;
 }
@@ -314,15 +315,15 @@ CommandLine describe_mesh() {
     const auto word = [](const char* name) { return po::value<std::string>()->value_name(name); };
     po::options_description options, plain;
     options.add_options()("kind", word("KIND"),
-                          "delaunay or voronoi (default: both, in two files, as by DEMseg's volonoi.f)")  //
-        ("thick", number(), "gap between facing edges (default: thick of the in_gm.dat)")                 //
-        ("inset", number(), "depth by which edges move inwards, m (default: half the gap)")               //
+                          "delaunay or voronoi (default: both, in two files, as DEMseg's volonoi.f does)")  //
+        ("thick", number(), "gap between facing edges (default: the value of thick in in_gm.dat)")          //
+        ("inset", number(), "depth by which edges move inwards, m (default: half the gap)")                 //
         ("boundary", word("WHICH")->default_value("domain"),
          "outer edge of triangles. domain: flat faces for platens, made by projecting the outer centres; centres: the "
-         "outermost centres, as volonoi.f made the 537 triangles from 304 circles in DEMseg's guide")      //
-        ("merge", "merge cells that the inset destroys into neighbours, instead of an error")              //
-        ("joints", word("FILE"), "file of joints, whose traces become edges (see crackle joints)")         //
-        ("output,o", word("FILE"), "file to write, or folder (default: in_gm_tri.dat or in_gm_volo.dat)")  //
+         "outermost centres, as volonoi.f made the 537 triangles from 304 circles in DEMseg's guide")          //
+        ("merge", "merge cells that the inset destroys into their neighbours, instead of reporting an error")  //
+        ("joints", word("FILE"), "file of joints, whose traces become edges (see crackle joints)")             //
+        ("output,o", word("FILE"), "file to write, or folder (default: in_gm_tri.dat or in_gm_volo.dat)")      //
         ("force", "replace an existing output");
     plain.add_options()("domain", word("X1 X2 Y1 Y2"), "the domain, m")               //
         ("bounding-box", "use the bounding box of the centres as the domain")         //

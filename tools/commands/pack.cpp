@@ -38,7 +38,7 @@ SizeDistribution sizes_of(const po::variables_map& values) {
     }
     if (median || deviation) {
         if (!median || !deviation)
-            throw InputError("--lognormal-median and --lognormal-deviation: found one, expected both");
+            throw InputError("--lognormal-median and --lognormal-deviation: found only one, expected both");
         return LognormalRadii{*median, *deviation, low.value_or(0.0), high.value_or(0.0)};
     }
     if (!low || !high)
@@ -97,15 +97,16 @@ CommandLine describe_pack() {
                           "number of circles, which determines the size of the box")                               //
         ("height-to-width", number(), "ratio of height to width of the box, with --count (default: 2)")            //
         ("width", number(), "width of the box, m; met exactly by scaling the radii by at most 0.5 %")              //
-        ("height", number(), "height of the box, m; met like the width")                                           //
+        ("height", number(), "height of the box, m; met exactly, as for --width")                                  //
         ("radius-min", number(), "smallest radius, m (uniform distribution, unless lognormal options are given)")  //
         ("radius-max", number(), "largest radius, m")                                                              //
         ("lognormal-median", number(), "median radius, m")                                                         //
         ("lognormal-deviation", number(), "standard deviation of ln(radius)")                                      //
         ("sieve", po::value<std::string>()->value_name("FILE"),
-         "grading curve, a table with the columns size (diameter, m) and passing_by_mass")                    //
-        ("mean-overlap", number(), "target: mean over circles and bottom and top wall, m")                    //
-        ("void-ratio", number(), "target: (box - circles) / circles")                                         //
+         "grading curve, a table with the columns size (diameter, m) and passing_by_mass")  //
+        ("mean-overlap", number(),
+         "target: mean overlap of circles with each other and with the bottom and top walls, m")              //
+        ("void-ratio", number(), "target: (area of the box - area of the circles) / area of the circles")     //
         ("seed", po::value<std::int64_t>()->value_name("N")->default_value(1), "seed of the random numbers")  //
         ("threads", po::value<int>()->value_name("N")->default_value(1),
          "number of threads; does not affect the results")                                                       //
@@ -121,7 +122,7 @@ CommandLine describe_pack() {
         .description =
             "Packs random circles between four smooth walls to mechanical equilibrium and writes them as an "
             "in_gm.dat.",
-        .options = {{"options", options}, {"material of the file", material}},
+        .options = {{"options", options}, {"material stated in the file", material}},
         .verbose = "seconds of each stage, packing attempts",
         .examples = {
             {"crackle pack --count 304 --radius-min 1.333e-2 --radius-max 2.667e-2 --mean-overlap 7.74e-5 -o "

@@ -87,8 +87,8 @@ std::string strain_text(double strain) {
 /// Index of the frame for a word (start, peak, end), or of the frame nearest to a given strain.
 std::size_t frame_at(const Recording& test, const std::string& at) {
     if (test.frames.empty())
-        throw InputError(
-            fmt::format("plot: {}: found no frames, expected those of a test (output.frames of its case)", test.name));
+        throw InputError(fmt::format(
+            "plot: {}: found no frames, expected a test with frames (output.frames in its case)", test.name));
     const auto has_role = [&](const FrameHead& head) {
         return std::find(head.roles.begin(), head.roles.end(), at) != head.roles.end();
     };
@@ -114,7 +114,7 @@ std::size_t frame_at(const Recording& test, const std::string& at) {
                                     test.frames.begin());
 }
 
-/// @param asked the requested moments; if empty, the usual ones, two of which may coincide
+/// @param asked the requested moments; if empty, start, peak and end, of which two may coincide
 Panel drawings_of(const Recording& test, const fs::path& folder, const std::optional<Words>& asked,
                   const DrawingStyle& style) {
     std::vector<DrawnMoment> drawn;
@@ -165,7 +165,7 @@ void add_emission_panels(std::vector<Panel>& panels, const std::vector<Recording
     }
 }
 
-/// Checks the values of --what. @param of the kind of input that has these values, for the message
+/// Checks the values of --what. @param of end of the message, which names the kind of input; may be empty
 void expect_words(const Words& what, const Words& known, const char* of) {
     for (const std::string& word : what) {
         if (std::ranges::find(known, word) != known.end()) continue;
@@ -200,8 +200,8 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
         for (const Recording& test : tests) {
             if (has_area_strain(test.results)) continue;
             throw InputError(
-                fmt::format("plot: {}: found no lateral strain, expected that of a specimen with particles "
-                            "along its sides; leave strain out of --what",
+                fmt::format("plot: {}: found no lateral strain, expected a specimen with particles along its sides; "
+                            "leave strain out of --what",
                             test.name));
         }
     }
@@ -209,7 +209,7 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
         for (const Recording& test : tests) {
             if (has_emission(test.results)) continue;
             throw InputError(
-                fmt::format("plot: {}: found no ae.csv, expected one; it needs output.emission of the case and a "
+                fmt::format("plot: {}: found no ae.csv, expected one; it requires output.emission in the case, and a "
                             "linear solution (see notices of summary.json); leave emission out of --what",
                             test.name));
         }
@@ -260,7 +260,7 @@ bool are_runs_of_decks(const Words& paths) {
 
 /// Bodies selected by --bodies; if not given, the first few.
 std::vector<int> drawn_bodies(const po::variables_map& given, const Recording& deck, Messages& messages) {
-    constexpr std::size_t most = 8;  // number of curves that can be distinguished
+    constexpr std::size_t most = 8;  // largest number of curves that a reader can distinguish
     std::vector<int> watched = watched_bodies(deck);
     if (given.contains("bodies")) {
         std::vector<int> bodies = given["bodies"].as<std::vector<int>>();
@@ -313,7 +313,7 @@ void plot_decks(const po::variables_map& given, const Words& folders, const Look
     if (!messages.quiet()) print_text(output.string() + '\n');
 }
 
-/// Draws all diagrams of a campaign, below each other. @return exit code
+/// Draws all diagrams of a campaign, one below the other. @return exit code
 int plot_campaign(const po::variables_map& given, const fs::path& folder, const Look& look, Messages& messages) {
     expect_options(given, "a campaign's folder", {"what", "figure", "test", "measured"});
     const Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
@@ -426,10 +426,10 @@ CommandLine describe_plot() {
          "names of the tests in legends and above specimens, one per test (default: what distinguishes them, or the "
          "title of a single test)")  //
         ("units", po::value<std::string>()->value_name("UNITS"),
-         "units in labels for the run of a deck, whose files state no units: si, cgs (cm, dyn, erg) or mm-g-s (mm, uN, "
-         "nJ)")  //
+         "units to name in the labels of a deck run, because decks state no units: si, cgs (cm, dyn, erg) or mm-g-s "
+         "(mm, uN, nJ)")  //
         ("bodies", po::value<std::vector<int>>()->multitoken()->value_name("NUMBER"),
-         "bodies to draw for the run of a deck, out of those listed in in_bc.dat (default: the first eight)")  //
+         "ids of the bodies to draw for the run of a deck; in_bc.dat must list them (default: the first eight)")  //
         ("guide", po::value<std::string>()->value_name("FOLDER"),
          "folder with the six tests of tools/quickstart, from which figures 26 to 29 of DEMseg's guide are drawn")  //
         ("format", po::value<std::string>()->value_name("FORMAT")->default_value("pdf"),
@@ -479,7 +479,7 @@ int plot(const Invocation& given) {
     if (given.operands.empty() != values.contains("guide")) {
         throw InputError(
             values.contains("guide")
-                ? "plot: found folders of tests and --guide, expected one of them"
+                ? "plot: found folders of tests and --guide, expected only one of the two"
                 : "plot: found no folder of results, expected at least one: crackle plot OUT... (see --help)");
     }
     if (!values.contains("output"))

@@ -49,11 +49,11 @@ int report_campaign(const Invocation& given) {
 CommandLine describe_report() {
     po::options_description options;
     options.add_options()("output,o", po::value<std::string>()->value_name("FILE"),
-                          "page to write; default: OUT/report.html for one test, else report.html")  //
+                          "page to write; default: OUT/report.html for one test, otherwise report.html")  //
         ("title", po::value<std::string>()->value_name("TEXT")->default_value("", ""),
          "heading; default: the test's title")  //
         ("frames", po::value<std::size_t>()->value_name("N")->default_value(default_page_frames),
-         "largest number of frames per test, evenly spaced; start, peak and end are always included")  //
+         "maximum number of frames per test, spaced evenly; start, peak and end are always included")  //
         ("test", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME"),
          "tests of a campaign to show (default: all)")  //
         ("measured", po::value<std::string>()->value_name("FILE"),

@@ -55,12 +55,12 @@ CommandLine describe_run() {
         ("force", "replace the outputs of an earlier run")                                                            //
         ("seed", po::value<std::uint64_t>()->value_name("N"), "seed of the random circles of mode 0 (default: 1)")    //
         ("law", po::value<std::string>()->value_name("LAW"),
-         "contact law of segments: rounded, or demseg, the law of DEMseg's guide (demseg_mean: with the mean of its "
-         "disc cases); default: rounded, or for a continued run its earlier law")  //
+         "contact law of segments: rounded; demseg, the law of DEMseg's guide, which adds the overlaps of a pair's "
+         "discs; or demseg_mean, which takes their mean; default: rounded, or for a continued run its earlier law")  //
         ("integrator", po::value<std::string>()->value_name("NAME"),
          "treatment of contacts that open and close: leapfrog, as in DEMseg's guide, or consistent, which conserves "
-         "energy; default: leapfrog, or for a continued run its earlier choice")             //
-        ("allow-unstable", "accept a time step above the stable bound, and runaway energy")  //
+         "energy; default: leapfrog, or for a continued run its earlier choice")                            //
+        ("allow-unstable", "accept a time step above the stable bound, and an unbounded growth of energy")  //
         ("threads", po::value<int>()->value_name("N")->default_value(1),
          "number of threads; does not affect the results");
     return {.synopses = {"crackle run DIR [OPTIONS]"},
@@ -97,7 +97,7 @@ int run_deck(const Invocation& given) {
     watch_interrupts();
     messages.progress().begin("", static_cast<double>(deck.last_step() - deck.first_step()), "steps");
     deck.run([&](const World& now) {
-        // Reading the clock takes as long as a step of a small deck.
+        // Progress is updated only every 16th step, because reading the clock takes as long as a step of a small deck.
         if ((now.stepping.steps & 15) == 0)
             messages.progress().count(static_cast<double>(now.stepping.steps - deck.first_step()));
         return !interrupted();

@@ -137,8 +137,8 @@ int finish(const TestOutcome& outcome, const std::string& wanted, Messages& mess
     if (!quiet) print_figures(outcome);
     if (outcome.unverified) {
         report_error(
-            fmt::format("the test is complete, but its companions were interrupted, so no errors are stated; run them "
-                        "again with `crackle test --resume {} --verify`",
+            fmt::format("the test is complete, but its companion tests were interrupted, so no errors are stated; run "
+                        "them again with `crackle test --resume {} --verify`",
                         outcome.folder.string()));
         return exit_interrupted;
     }
@@ -201,8 +201,8 @@ void print_check(const TestCheck& check) {
             spoken_stress(strength->stress, unit, 2), strength->strain, strength->factor, 100.0 * strength->share);
     } else {
         print_out("  strength       no estimate: {}\n",
-                  test.description.confined()      ? "the rule applies only without confining pressure"
-                  : !test.setup.apparatus.uniaxial ? "the rule applies only to specimens between platens"
+                  test.description.confined()      ? "the estimate applies only to tests without confining pressure"
+                  : !test.setup.apparatus.uniaxial ? "the estimate applies only to specimens between platens"
                                                    : "too few bonds break in the linear solution");
     }
     if (check.disc)
@@ -267,7 +267,7 @@ Progress shown_progress(const TestProgress& test) {
 
 void limit_threads(TestOptions& options, std::int64_t asked) {
     options.fewest_bodies_a_thread = bodies_worth_a_thread;
-    // Tries only the number of threads requested, since many tests may run at the same time.
+    // Tries to start no more threads than requested, since many tests may run at the same time.
     const ThreadRoom room =
         room_for_threads(static_cast<int>(std::clamp<std::int64_t>(asked, 1, options.most_threads)));
     options.most_threads = room.threads;
@@ -332,7 +332,7 @@ std::string check_as_json(const TestCheck& check, int indent) {
         {"time_step", "s"},
         {"axial_strain_rate", "1/s, at the start"},
         {"slowest_axial_strain_rate", "1/s, while many bonds break"},
-        {"steps_per_second", "1/s, measured on this machine now"},
+        {"steps_per_second", "1/s, measured on this machine during the check"},
         {"run_to_strength",
          "steps and seconds at the initial rate; null if the estimated strength is not reached below max_axial_strain"},
         {"run_to_max_axial_strain", "steps and seconds if the specimen does not fail before"},
@@ -354,16 +354,16 @@ CommandLine describe_test() {
          "resume the test in this folder from its last checkpoint")  //
         ("verify",
          "also run companion tests (half the time step, half the rate, half and double the damping) to state errors")  //
-        ("profile", "time the phases of a step; prints a table and adds `profile` to summary.json")  //
+        ("profile", "time the phases of a step, print a table of the times, and add `profile` to summary.json")  //
         ("threads", po::value<int>()->value_name("N"),
          "number of threads (default: as in the case); does not affect the results")  //
-        ("long", "run the test although it takes more than a day, or 1e10 steps")     //
+        ("long", "run the test even if it takes more than a day, or 1e10 steps")      //
         ("check",
          "make and bond the specimen, and print what to expect: moduli, first slip and break, a rough strength, steps, "
-         "seconds, memory, warnings. Nothing is loaded or written")                          //
-        ("json", "with --check: print one JSON object")                                      //
-        ("allow-unstable", "accept a time step above the stable bound, and runaway energy")  //
-        ("keys", "list all keys of a case")                                                  //
+         "seconds, memory, warnings. Nothing is loaded or written")                                         //
+        ("json", "with --check: print one JSON object")                                                     //
+        ("allow-unstable", "accept a time step above the stable bound, and an unbounded growth of energy")  //
+        ("keys", "list all keys of a case")                                                                 //
         ("files", "list the files of a test: every column, key and array, with its unit");
     return {.synopses = {"crackle test CASE.toml -o OUT [OPTIONS]", "crackle test --resume OUT [OPTIONS]",
                          "crackle test --check CASE.toml [--json]"},
@@ -387,7 +387,7 @@ CommandLine describe_test() {
 }
 
 int test(const Invocation& given) {
-    TestOptions options;  // created first, since it starts the clock
+    TestOptions options;  // created first, since it records the time at which the command began
     const po::variables_map& values = given.values;
     if (values.contains("keys")) {
         expect_alone("crackle test", given, "keys");
@@ -407,9 +407,9 @@ int test(const Invocation& given) {
     const bool resume = values.contains("resume");
     if (resume != given.operands.empty()) {
         throw InputError(
-            resume
-                ? "crackle test: found CASE.toml and --resume, expected one of them; a resumed test has its case in OUT"
-                : "crackle test: found no CASE.toml, expected one, or --resume OUT (see crackle test --help)");
+            resume ? "crackle test: found CASE.toml and --resume, expected only one of the two; a resumed test has its "
+                     "case in OUT"
+                   : "crackle test: found no CASE.toml, expected one, or --resume OUT (see crackle test --help)");
     }
     if (!resume && !values.contains("output"))
         throw InputError("crackle test: found no -o OUT, expected a folder for the results");

@@ -35,7 +35,7 @@ CommandLine describe_view() {
         ("title", po::value<std::string>()->value_name("TEXT")->default_value("", ""),
          "heading; default: the title of the test or the name of the input; for several inputs 'Virtual rock tests'")  //
         ("frames", po::value<std::size_t>()->value_name("N")->default_value(default_page_frames),
-         "largest number of frames per input, evenly spaced")  //
+         "maximum number of frames shown per input, spaced evenly from the first to the last")  //
         ("seed", po::value<std::uint64_t>()->value_name("N")->default_value(1),
          "seed of the circles that a particle file of mode 0 draws")  //
         ("units", po::value<std::string>()->value_name("UNITS"),
@@ -80,7 +80,7 @@ int view(const Invocation& given) {
         for (const std::string& notice : recordings.back().notices) messages.notice(notice);
     }
     if (!values["seed"].defaulted() && std::ranges::none_of(recordings, &Recording::drawn_by_seed))
-        throw without_effect("crackle view", "--seed", "particles that are all given");
+        throw without_effect("crackle view", "--seed", "inputs without random circles");
     const auto moves = [](const Recording& one) { return one.kind != Recording::Kind::particles; };
     if (!values["frames"].defaulted() && std::ranges::none_of(recordings, moves))
         throw without_effect("crackle view", "--frames", "particle files");

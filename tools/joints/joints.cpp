@@ -221,7 +221,7 @@ int joints_of(JointCase test, const std::string& name, const Invocation& given) 
         throw InputError(
             fmt::format("{}: found no [[joint_set]] and no [[trace]], expected one; see crackle test --keys", name));
     if (values.contains("seed")) {
-        if (joints.sets.empty()) throw without_effect("crackle joints", "--seed", "traces that are all given");
+        if (joints.sets.empty()) throw without_effect("crackle joints", "--seed", "a case without any [[joint_set]]");
         const auto seed = values["seed"].as<std::int64_t>();
         if (seed < 0) throw InputError(fmt::format("--seed: found {}, expected a whole number >= 0", seed));
         joints.seed = static_cast<std::uint64_t>(seed);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The two kinds of blocks in which a page stores its data: arrays as they are, and tables of coded integers. The format
-// is described in page_data.hpp.
+// The two kinds of blocks in which a page stores its data: plain arrays, and tables of coded integers. page_data.hpp
+// describes the format.
 // Tested by tests/tools/page/page_data_test.cpp.
 #pragma once
 
@@ -65,17 +65,17 @@ class PlainBlock {
     nlohmann::ordered_json places_ = nlohmann::ordered_json::object();
 };
 
-/// How a stored integer is converted to a value; see the header.
+/// How a stored integer is converted to a value; see page_data.hpp.
 struct Code {
     double quantum = 1.0;
-    double growth = 0.0;  ///< 0 if all steps are equal
+    double growth = 0.0;  ///< relative growth of the steps between values; 0 if all steps are equal
 
     double number(double value) const {
         return std::round(growth > 0.0 ? std::asinh(value * growth / quantum) / growth : value / quantum);
     }
 };
 
-/// Tables of integers, in the format described in the header.
+/// Tables of integers, in the format described in page_data.hpp.
 class CodedBlock {
   public:
     /// @param where source of the frames, for messages

@@ -28,14 +28,14 @@ constexpr std::size_t frames_in_block = 16;
 /// Member of a recorded frame that has one number per cell (or bond).
 using Field = std::vector<double> RecordedFrame::*;
 
-// Fine enough that errors remain invisible even if displacements are magnified a hundred times. Finer values would only
-// store more noise, and pages would be larger.
+// These quanta are so fine that errors remain invisible even if displacements are magnified a hundred times. Finer
+// quanta would only store more noise, and pages would be larger.
 constexpr double place_share = 0x1p-22;    // quantum, relative to the specimen's size
 constexpr double angle_quantum = 0x1p-18;  // rad
 // Quantum, relative to the block's largest value, for quantities of varying magnitude.
 constexpr double least_share = 0x1p-20;
-constexpr double growth = 0x1p-7;  // growth for velocities and stresses, with a relative resolution of 0.4 %
-// Growth for forces, which need much space, with a relative resolution of 0.8 %.
+constexpr double growth = 0x1p-7;  // growth (see Code) for velocities and stresses: a relative resolution of 0.4 %
+// Growth (see Code) for forces, which need much space: a relative resolution of 0.8 %.
 constexpr double force_growth = 0x1p-6;
 
 double largest_of(const std::vector<std::vector<double>>& rows) {
@@ -261,7 +261,7 @@ class ThinnedCurve {
     std::vector<const std::vector<double>*> columns_;
 };
 
-constexpr std::size_t most_bodies = 8;  // number of curves that can be distinguished
+constexpr std::size_t most_bodies = 8;  // largest number of curves that a reader can distinguish
 
 /// @return the curves' entry in the manifest
 Json add_curves(PlainBlock& block, const DeckCurves& curves) {

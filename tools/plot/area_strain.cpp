@@ -15,8 +15,8 @@
 namespace crackle::plot {
 namespace {
 
-/// By row: axial minus lateral strain (shortening and widening positive), and the same without its elastic part
-/// (1-ν)σ/E. The latter is empty if E and ν are not known.
+/// By row: the area strain, which is axial minus lateral strain (shortening and widening positive), and the area strain
+/// minus its elastic part (1-ν)σ/E. The latter is empty if E and ν are not known.
 struct AreaStrains {
     std::vector<double> all, cracks;
 };
@@ -52,8 +52,8 @@ std::vector<Point> within_frame(const Axes& axes, const std::vector<double>& axi
     return points;
 }
 
-// After the peak, pieces separate and the lateral strain only reflects their displacement. Axes therefore end at this
-// multiple of the strain up to the peak.
+// After the peak, pieces separate and the lateral strain only reflects their displacement. The axis of area strain
+// therefore extends down only to this multiple of the lowest area strain before the peak.
 constexpr double beyond_peak = 1.5;
 
 }  // namespace
@@ -64,7 +64,7 @@ bool pulled(const TestResults& results) {
 }
 
 bool has_area_strain(const TestResults& results) {
-    // In other kinds of test, the two strains do not refer to the same uniformly strained area.
+    // In tests that are not uniaxial, the axial and lateral strains do not refer to the same uniformly strained area.
     const Stated<LoadingKind>& kind = results.summary.about.kind;
     if (!kind || !test_kind(*kind).uniaxial) return false;
     const std::vector<double>& lateral = column(results, "lateral_strain");
@@ -114,8 +114,8 @@ Panel area_strain(const std::vector<PlottedTest>& tests) {
         const double damage = tests.front().results->summary.cracking.crack_damage_strain.or_nan();
         if (single && std::isfinite(damage)) {
             const std::vector<double>& axial = column(*tests.front().results, "axial_strain");
-            // The first row that reaches the stress is used, since a platen that moves back passes the same strain
-            // again.
+            // The first row that reaches the strain of crack damage is used, since a platen that moves back passes the
+            // same strain again.
             const auto row =
                 std::ranges::find_if(axial, [&](double strain) { return strain >= damage; }) - axial.begin();
             const auto at = std::min(static_cast<std::size_t>(row), axial.size() - 1);

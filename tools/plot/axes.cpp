@@ -24,7 +24,7 @@ double widest_label(const Canvas& canvas, const Scale& scale, double text) {
     return widest;
 }
 
-/// Text size at which a title is not longer than its axis.
+/// Text size, at most `text`, at which the title of an axis is not longer than the axis.
 double fitting(const Canvas& canvas, const std::string& title, double length, double text) {
     return title.empty() ? text : std::min(text, text * length / canvas.size_of(title, text).width);
 }
@@ -67,7 +67,7 @@ Scale scale_for(double smallest, double largest, int most_ticks) {
 }
 
 Scale scale_around(double smallest, double largest, int most_ticks) {
-    constexpr double far = 0.5;  // distance from 0 above which 0 is left out, relative to the largest absolute value
+    constexpr double far = 0.5;  // the axis omits 0 if all values exceed this fraction of the largest (by magnitude)
     if (largest > smallest && (smallest > far * largest || largest < far * smallest))
         return ticked(smallest, largest, most_ticks, true);
     return scale_for(smallest, std::max(0.0, largest), most_ticks);

@@ -34,7 +34,7 @@ struct Unit {
     std::string name;
 };
 Unit unit_for(double largest, const std::string& unit);
-/// A unit without SI prefix; if its numbers would be long, with a power of a thousand: {1e6, "10⁶ dyn"}.
+/// A unit without SI prefix; if the numbers would be long, with a power of a thousand: {1e6, "10⁶ dyn"}.
 Unit unit_with_power(double largest, const std::string& unit);
 
 struct Axes {

@@ -26,7 +26,7 @@ using Layout = std::unique_ptr<PangoLayout, Unref>;
 
 Layout layout_of(cairo_t* cairo, const SheetStyle& style, const std::string& markup, double scale) {
     Layout layout(pango_cairo_create_layout(cairo));
-    // No hinting and 72 dots per inch, so that text has the same size at any resolution.
+    // Hinting is off and the resolution is 72 dots per inch, so that text has the same size in all formats.
     cairo_font_options_t* options = cairo_font_options_create();
     cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
     cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
@@ -72,7 +72,7 @@ Canvas::Canvas(double width, double height, Format format, const SheetStyle& sty
             break;
         case Format::pdf:
             surface_ = cairo_pdf_surface_create_for_stream(append, &bytes_, width, height);
-            // No creation date, so that the same figure gives identical bytes.
+            // The creation date is left empty, so that the same figure gives identical bytes.
             cairo_pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_CREATE_DATE, "");
             break;
         case Format::png:
@@ -90,8 +90,8 @@ Canvas::Canvas(double width, double height, Format format, const SheetStyle& sty
             fmt::format("Cairo cannot make a sheet of {:.0f} x {:.0f} pt: {}", width, height, why));
     }
     if (format == Format::png) {
-        // Fill all whole pixels. A rectangle of the sheet's size would leave the last row and column partly
-        // transparent, visible as a grey line.
+        // cairo_paint() makes every pixel white. Filling a rectangle of the sheet's size would cover the last row and
+        // column of pixels only partly, which would be visible as a grey line.
         set(colour("#ffffff"));
         cairo_paint(cairo_);
         cairo_scale(cairo_, style.dpi / 72.0, style.dpi / 72.0);

@@ -102,7 +102,7 @@ AxisTitle time_axis(const std::vector<PlottedDeck>& decks) {
     return in_time ? AxisTitle{"time <i>t</i>", "s", true} : AxisTitle{"step", "", false};
 }
 
-/// Appearance of one part of the energy; losses and work are those of the energy account.
+/// Appearance of one part of the energy balance, which includes the losses and the work done on bodies.
 struct EnergyLook {
     DeckEnergy part;
     const char* label;
@@ -128,7 +128,7 @@ bool all_zero(const std::vector<double>& values) {
     return std::ranges::all_of(values, [](double value) { return value == 0.0; });
 }
 
-/// Parts of the energy that are always 0 are omitted, except the closing error.
+/// Parts of the energy balance that are always 0 are omitted, except its closing error.
 Panel energy_panel(const PlottedDeck& deck, const AxisTitle& energy) {
     const DeckEnergyCurve& curve = deck.recording->curves.energy;
     std::vector<DrawnCurve> curves;
@@ -271,8 +271,8 @@ std::vector<DeckWord> words_of_decks(const std::vector<std::string>& what, const
                                                             : "f-d_curve.dat";
             throw InputError(fmt::format("plot: {}: found no rows in {}, expected {}", deck.recording->name, file,
                                          word == DeckWord::energy || word == DeckWord::velocity
-                                             ? "those of a run of at least one step"
-                                             : "those of bodies that in_bc.dat lists (npfd)"));
+                                             ? "the rows of a run of at least one step"
+                                             : "rows of the bodies that in_bc.dat lists (npfd)"));
         }
     }
     if (words.empty())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Curves of deck runs: energies, watched bodies and velocities against time, forces against displacements.
+// Curves of deck runs: energies, and motions and forces of watched bodies, against time; forces against displacements.
 // Tested by tests/tools/commands/plot_decks_test.cpp.
 #pragma once
 

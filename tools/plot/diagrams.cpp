@@ -145,7 +145,7 @@ Rect label_place(const Rect& frame, Point mark, const TextSize& size, std::vecto
     return best;
 }
 
-/// Marks crack initiation and crack damage where the curve first reaches their stresses.
+/// Marks crack initiation and crack damage where the curve first reaches the corresponding stresses.
 void mark_cracks(Canvas& canvas, const Axes& axes, const PlottedTest& test, double unit) {
     const Colour white = colour("#ffffff");
     std::vector<Point> taken = places_along(axes, {test}, unit, 1.0);

@@ -96,11 +96,11 @@ struct DrawnBody {
     bool shown = true;
 };
 
-/// The point in the first frame whose mean position, when moved with either body, equals `mean`. Both motions are
-/// linear, and so is their mean.
-/// @return empty if the bodies have rotated so far relative to each other that this is ill-conditioned
+/// The point of the first frame for which `mean` is the mean of two positions: moved with body a, and moved with body
+/// b. Both motions are affine, and so is their mean.
+/// @return empty if the relative rotation of the bodies is so large that the solution is ill-conditioned
 std::optional<Vec2> held_place(const Motion& a, const Motion& b, Vec2 mean) {
-    // limit relative to the unrotated case, since points in frames have single precision
+    // smallest length of the mean of the two rotations, 1 if they are equal; points in frames have single precision
     constexpr double least = 0.05;
     const double cosine = 0.5 * (a.cosine + b.cosine), sine = 0.5 * (a.sine + b.sine);
     const double square = cosine * cosine + sine * sine;
@@ -171,7 +171,7 @@ constexpr double followed = 0.4, large_share = 0.2;
 
 struct Fragment {
     Extent extent;
-    Vec2 sum;  // sum of the positions of its cells
+    Vec2 sum;  // sum of the positions of the fragment's cells
     std::size_t cells = 0;
 };
 
@@ -261,7 +261,7 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
 }
 
 constexpr double between_drawings = 6.0;  // pt
-constexpr double key_height = 13.0;       // pt, height of the line of keys below the captions
+constexpr double key_height = 13.0;       // pt, height of the key, a line below the captions
 constexpr double key_text = 0.85;         // text size of the key, relative to the font size
 constexpr double caption_text = 0.9;      // text size of captions, relative to the font size
 
@@ -414,7 +414,7 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
     panel.height = [moments, height, scale_at](const Canvas& measure, double width) {
         return scale_at(width) * height + caption_height(measure, moments) + key_height;
     };
-    // Left edges of the drawings, relative to that of the panel.
+    // Left edges of the drawings, relative to the left edge of the panel.
     const auto lefts_at = [moments, widths, gaps, scale_at](double panel_width) {
         const double scale = scale_at(panel_width);
         std::vector<double> lefts;

@@ -106,7 +106,7 @@ double height_of(const Canvas& canvas, const std::vector<std::string>& lines) {
     return height;
 }
 
-/// Data for the diagram of all tests together.
+/// Data for the diagram that shows the magnitudes of all tests together.
 struct Magnitudes {
     std::vector<double> sorted;
     BValue value;

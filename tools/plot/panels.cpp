@@ -36,7 +36,7 @@ void end_by_glib(const char* domain, GLogLevelFlags level, const char* message, 
 
 /// Pango starts two threads to search for fonts, and ends the process if one cannot be created.
 void refuse_without_threads() {
-    // Includes this thread and a spare one, since a thread that has ended is still counted for a moment.
+    // This number includes this thread and a spare one, since a thread that has ended is still counted for a moment.
     constexpr int needed = 4;
     static const bool had = threads_to_be_had(needed) == needed;  // once started, these threads remain
     if (had) return;
@@ -48,8 +48,8 @@ void refuse_without_threads() {
 /// Refuses to draw if memory is short, since GLib and fontconfig end the process by a signal if they run out of it.
 /// @param sheet bytes of the image
 void refuse_without_memory(double sheet) {
-    // Bytes: two threads that search for fonts, each with an arena of 64 MiB from glibc and a stack, and the data they
-    // read. To align an arena, glibc maps twice its size for a moment.
+    // Bytes for two threads that search for fonts, each with an arena of 64 MiB from glibc and a stack, and for the
+    // data that they read. To align an arena, glibc maps twice its size for a moment.
     constexpr double of_fonts = (3.0 * 64.0 + 2.0 * 8.0 + 32.0) * (1 << 20);
     // Copies of the sheet in memory while it is drawn, its colours are converted, and it is compressed.
     constexpr double sheets = 3.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Panels that make up a figure: diagrams and drawings whose height follows from their width. They are placed below each
-// other or side by side.
+// Panels that make up a figure: diagrams and drawings whose height follows from their width. They are placed one
+// below the other or side by side.
 // Tested by tests/tools/commands/plot_test.cpp.
 #pragma once
 
@@ -39,8 +39,8 @@ Panel stress_strain(const std::vector<PlottedTest>& tests);
 Panel breaks(const std::vector<PlottedTest>& tests);
 
 /// Area strain against axial strain. Area strain is axial minus lateral strain, positive if the area shrinks. For a
-/// single test, also the part caused by cracks, and the point of crack damage. Values far below those at the peak are
-/// cut off.
+/// single test, also the part caused by cracks, and the point of crack damage. Values far below the lowest one
+/// before the peak are cut off.
 Panel area_strain(const std::vector<PlottedTest>& tests);
 /// Whether the specimen was pulled apart between platens.
 bool pulled(const TestResults& results);
@@ -61,7 +61,7 @@ struct DrawnMoment {
     bool cracks = true;
     std::vector<DrawnMark> marks = {};
     bool lettered =
-        false;  ///< whether it has its own letter within a row of drawings; the first one always has a letter
+        false;  ///< whether this drawing has its own letter within a row; the first drawing of a row always has one
 };
 struct DrawingStyle {
     double magnify = 1.0;  ///< magnification of displacements
@@ -73,17 +73,17 @@ struct DrawingStyle {
 Panel drawings(const std::vector<DrawnMoment>& moments, const std::vector<std::filesystem::path>& folders,
                const DrawingStyle& style);
 
-/// Number of events against magnitude, for all tests together. Shown are the number of events of at least each
-/// magnitude, the number in each interval of 0.1, and the line fitted above the magnitude of completeness. A text next
-/// to the line gives b, its error, the number of events used, damping and density.
+/// Number of events against magnitude, for all tests together. The diagram shows the number of events of at least
+/// each magnitude, the number in each interval of 0.1, and the line fitted above the magnitude of completeness. A text
+/// next to the line gives b, its error, the number of events used, damping and density.
 Panel magnitude_frequency(const std::vector<PlottedTest>& tests);
-/// Positions of acoustic events on the specimens at these moments, side by side. Colour shows the strain at which an
-/// event began, size its magnitude.
+/// Positions of acoustic events on the specimens at these moments, side by side. The colour of a mark shows the strain
+/// at which the event began, and its size the magnitude.
 Panel emission_map(std::vector<DrawnMoment> moments, const std::vector<std::filesystem::path>& folders);
 /// Whether the test wrote an ae.csv.
 bool has_emission(const TestResults& results);
 
-/// A figure with panels below each other. @param width pt @return bytes of the file
+/// A figure with panels one below the other. @param width pt @return bytes of the file
 std::string figure(const std::vector<Panel>& panels, const std::string& title, double width, Format format,
                    const SheetStyle& style);
 /// A figure with rows of panels. Panels in a row are side by side, equally wide and as high as the highest of them.

@@ -95,7 +95,7 @@ inline py::array view_of(const py::object& dtype, std::size_t count, std::size_t
 inline py::capsule keep(std::shared_ptr<void> shared) {
     auto held = std::make_unique<std::shared_ptr<void>>(std::move(shared));
     py::capsule capsule(held.get(), [](void* kept) { delete static_cast<std::shared_ptr<void>*>(kept); });
-    static_cast<void>(held.release());  // the capsule owns it now
+    static_cast<void>(held.release());  // the capsule now owns this object
     return capsule;
 }
 
@@ -153,7 +153,7 @@ class Loans {
             owner.reset();
         }
         Array* lent;
-        Array kept;  // the view's array, once the engine has continued
+        Array kept;  // holds the viewed values once settle() has given the engine a copy
         std::shared_ptr<void> owner;
     };
 

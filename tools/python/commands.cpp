@@ -96,7 +96,7 @@ class OneCommand {
     std::streambuf* before_ = nullptr;
 };
 
-/// Runs a command that prints nothing but its result. @return its exit code and output
+/// Runs a command whose only output is its result. @return its exit code and output
 template <class Run>
 py::tuple run_words(const std::string& name, const tools::Arguments& words, const py::object& report, const Run& run) {
     const tools::ParsedWords parsed = tools::parse_words("crackle " + name, command(name).describe(), words);

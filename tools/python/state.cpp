@@ -73,9 +73,11 @@ void refuse_threads_after_fork(int threads) {
 VirtualTest& State::test() const {
     if (test_ == nullptr)
         throw std::runtime_error(
-            "found a State used after its callback, expected it to be used only there; keep arrays or numbers from it "
-            "instead");
-    if (stepping_) throw std::runtime_error("found a world that another thread is stepping, expected a world at rest");
+            "found a State used after its callback, expected its use only inside the callback; keep arrays or numbers "
+            "from it instead");
+    if (stepping_)
+        throw std::runtime_error(
+            "found a world that another thread is stepping, expected one that no thread is stepping");
     return *test_;
 }
 
@@ -139,7 +141,7 @@ void bind_state(py::module_& module) {
         .def_property_readonly(
             "time", [](const State& s) { return s.world().stepping.time; }, "s")
         .def_property_readonly(
-            "time_step", [](const State& s) { return s.world().stepping.time_step; }, "Duration of the coming step, s.")
+            "time_step", [](const State& s) { return s.world().stepping.time_step; }, "Duration of the next step, s.")
         .def_property_readonly(
             "axial_strain", [](const State& s) { return s.driven().setup.apparatus.axial_strain(s.world()); },
             "Axial strain from the motion of the driving part, positive in the test's loading direction.")
@@ -150,11 +152,12 @@ void bind_state(py::module_& module) {
                 s.settle();
                 set_platen_speed(s.test(), speed);
             },
-            "Speed of the driving part in the test's loading direction, m/s; negative while it moves back. Setting it "
-            "ends the control of the loading rate by rate_tolerance, as a notice in the summary states.")
+            "Speed of the driving part in the test's loading direction, m/s; negative while it moves back. Once it is "
+            "set, rate_tolerance no longer controls the loading rate; a notice in the summary states the strain at "
+            "which it was set.")
         .def_property_readonly(
             "length", [](const State& s) { return s.driven().setup.apparatus.length; },
-            "Length to which strains refer, m; the speed divided by it is the strain rate.")
+            "Length to which strains refer, m; platen_speed divided by this length is the strain rate.")
         .def_property_readonly(
             "section", [](const State& s) { return s.driven().setup.apparatus.section; },
             "Width to which stresses refer, m.")
@@ -163,30 +166,32 @@ void bind_state(py::module_& module) {
              "lateral_strain, bonds_broken, energies in J, ... as crackle test --files lists them.")
         .def_property_readonly(
             "bodies", [](State& s) { return s.lend(s.world().bodies.state); },
-            "View, shape (bodies,): x, y (m), vx, vy (m/s, half a step before x, y), omega "
-            "(rad/s), shape (radius and 0 for a circle; else cosine and sine of its rotation), angle (rad).")
+            "View, one record per body: x, y (m), vx, vy (m/s, half a step before x, y), omega (rad/s), shape (radius "
+            "and 0 for a circle; otherwise cosine and sine of the body's rotation), angle (rad).")
         .def_property_readonly(
             "names", [](State& s) { return s.lend(s.world().bodies.names); },
-            "View, shape (bodies,): id, material (index), closed, shape.")
+            "View, one record per body: id, material (index), closed, and shape (index of the body's outline in the "
+            "engine; 2**32 - 1 for a single circle).")
         .def_property_readonly(
             "masses", [](State& s) { return s.lend(s.world().bodies.inertia); },
-            "View, shape (bodies,): mass (kg), and the inverse mass and inverse moment of inertia used in a time step; "
-            "these are 0 for driven motions.")
+            "View, one record per body: mass (kg), and the inverse mass and inverse moment of inertia used in a time "
+            "step; these are 0 for driven motions.")
         .def_property_readonly(
             "forces", [](State& s) { return s.lend(s.world_with_forces().bodies.force); },
-            "View, shape (bodies,): fx, fy (N), torque (N m) of the contacts.")
+            "View, one record per body: fx, fy (N) and torque (N m), the resultants of the body's contact forces.")
         .def_property_readonly(
             "bonds", [](State& s) { return s.lend(s.world().points.state); },
-            "View, shape (contact points,): law, flags (2: bonded, 4: sliding, 1: touching).")
+            "View, one record per contact point: law (index into `laws`), flags (bits 1: touching, 2: bonded, 4: "
+            "sliding; further bits are internal).")
         .def_property_readonly(
             "pairs", [](State& s) { return s.lend(s.world().points.contact.pairs); },
-            "View, shape (contact points,): body_i, body_j, indices into `bodies`.")
+            "View, one record per contact point: body_i and body_j, indices into `bodies`.")
         .def_property_readonly(
             "shear_forces", [](State& s) { return s.lend(s.world().points.shear_force); },
-            "View, shape (contact points,): elastic shear force, N.")
+            "View, one value per contact point: elastic shear force, N.")
         .def_property_readonly(
             "bond_overlaps", [](State& s) { return s.lend(s.world().points.bond_overlap); },
-            "View, shape (contact points,): overlap at bonding, m.")
+            "View, one value per contact point: overlap at bonding, m.")
         .def(
             "contacts", &contacts,
             "A copy of the contact points that touch or are bonded. Fields: id_i, id_j (-1 to -4 for a wall), body_i, "
@@ -195,17 +200,19 @@ void bind_state(py::module_& module) {
             "bond_overlap (m), bonded, touching, sliding, slid.")
         .def_property_readonly(
             "rows", [](State& s) { return s.lend(s.test().state.rows); },
-            "View, shape (rows,): the curve so far, with all rows by which peak and failure are judged; empty for a "
-            "World. A record keeps the whole view alive: to keep a single row use row(), or a record's copy().")
+            "View, one record per row: the curve so far, including all rows by which peak and failure are judged; "
+            "empty for a World. A record keeps the whole view alive: to keep a single row use row(), or a record's "
+            "copy().")
         .def_property_readonly(
             "events", [](State& s) { return s.lend(s.world().bonds.events); },
-            "View, shape (events,): bond breaks since the last call of the callback; for a World, all bond breaks so "
-            "far.")
+            "View, one record per event: bond breaks since the last call of the callback; for a World, all bond breaks "
+            "so far.")
         .def_property_readonly(
             "bonds_broken", [](const State& s) { return s.world().bonds.broken; },
             "Number of bonds that have broken so far.")
         .def_property_readonly(
-            "bonds_initial", [](const State& s) { return s.world().bonds.initial; }, "Number of bonds that were made.")
+            "bonds_initial", [](const State& s) { return s.world().bonds.initial; },
+            "Number of bonds that have been made.")
         .def_property_readonly(
             "laws", [](State& s) { return s.lend(s.world().settings.laws); },
             "View of the contact laws: for the material pairs (1,1), (1,2), (2,2), (1,3)..., then for these pairs with "
@@ -224,7 +231,7 @@ void bind_state(py::module_& module) {
             "Ids of the bodies that hold and drive the specimen; the driving body is last.")
         .def(
             "index", [](const State& s, int id) { return body_of_id(s.world(), id); }, py::arg("id"),
-            "Index into `bodies` of an id. Raises InputError if there is none.")
+            "Index into `bodies` of the body with this id. Raises InputError if no body has it.")
         .def(
             "state_hash", [](const State& s) { return fmt::format("{:016x}", hash_state(s.world())); },
             "Hash of the complete state; equal states have equal hashes.")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Access from Python to a test in memory: a test that is being loaded, or a world that Python itself steps.
+// Access from Python to a test in memory, which is being loaded or which Python code advances step by step.
 // Tested by tests/tools/python/world_test.py.
 #pragma once
 
@@ -20,7 +20,7 @@ void refuse_threads_after_fork(int threads);
 
 class State {
   public:
-    /// State of a test that is stepped by other code. over() must be called before the next step.
+    /// State of a test that other code advances. over() must be called before the next step.
     explicit State(VirtualTest& test) : test_(&test) {}
     /// State of a test that this object owns.
     explicit State(std::shared_ptr<VirtualTest> own) : test_(own.get()), own_(std::move(own)) {}
@@ -69,7 +69,7 @@ class State {
     bool stop_asked_ = false;
 };
 
-/// A world that Python itself steps.
+/// A world that Python code advances step by step.
 class OwnWorld : public State {
   public:
     using State::State;

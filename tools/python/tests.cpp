@@ -46,7 +46,7 @@ std::function<AfterLook(VirtualTest&)> caller_of(const py::object& call, std::in
 /// whether the test had been finished before
 template <class Work>
 py::tuple run(const py::object& report, const py::object& call, std::int64_t every, const Work& work) {
-    if (every < 0) throw InputError(fmt::format("every: found {}, expected a number of steps >= 1, or rows", every));
+    if (every < 0) throw InputError(fmt::format("every: found {}, expected \"row\" or a number of steps >= 1", every));
     Interrupts interrupts;
     TestHooks hooks = reporting_hooks(report, interrupts);
     if (!call.is_none()) {

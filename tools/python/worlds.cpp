@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Worlds that Python itself steps.
+// The Python class `World`: a test in memory that Python code advances step by step.
 // Tested by tests/tools/python/world_test.py.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -121,8 +121,8 @@ void bind_worlds(py::module_& module) {
                                     world.bonds.broken, world.bonds.initial, world.stepping.steps);
              })
         .def("step", &OwnWorld::step, py::arg("count") = 1,
-             "Takes this number of steps. Other Python threads run meanwhile, and Ctrl-C stops between two steps. "
-             "Raises UnstableRun if the energy grows without bound.")
+             "Takes this number of steps. Other Python threads run meanwhile, and Ctrl-C interrupts the run between "
+             "two steps. Raises UnstableRun if the energy grows without bound.")
         .def("add_bonds", &add_bonds, py::arg("pairs"), py::arg("gap") = 0.0,
              "Bonds unbonded contact points between pairs of ids if their overlap exceeds -gap (m), by the world's "
              "bond law. Returns the number of new bonds. A gap > 0 needs bond.law = \"coulomb\". The energy account "

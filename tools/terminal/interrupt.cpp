@@ -22,7 +22,7 @@ std::function<bool()>& host() {
 std::atomic<bool> stop_asked{false}, heard{false}, on_terminal{false};
 std::atomic<const char*> words_unheard{nullptr};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<const char*>::is_always_lock_free,
-              "used in a signal handler");
+              "variables used in a signal handler must be lock-free");
 
 constexpr unsigned patience = 2,
                    last_patience = 3;  // waiting times before the message and before the end, s

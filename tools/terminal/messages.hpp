@@ -14,7 +14,7 @@ namespace crackle::tools {
 
 enum class Loudness : std::uint8_t { quiet, usual, verbose };
 
-/// Receives messages for a host without a terminal, such as Python. Messages for empty members are discarded.
+/// Receives messages for a host without a terminal, such as Python. If a member is empty, its messages are discarded.
 struct Listener {
     std::function<void(const std::string&)> stage, detail, notice;
     std::function<void(const Progress&)> progress;
@@ -35,7 +35,7 @@ class Messages {
     /// Prints a line for a completed stage, except with -q. With -v the line begins with the seconds since the start of
     /// the command and since the previous line.
     void stage(const std::string& text);
-    /// Prints a line in the same form, only with -v.
+    /// Prints a detail, only with -v; the line has the same form as for stage().
     void detail(const std::string& text);
     /// Prints a one-sentence notice for the user; prints nothing with -q.
     void notice(const std::string& text);

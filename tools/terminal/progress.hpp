@@ -42,14 +42,14 @@ class ProgressLine {
     /// @param unit name of the unit in the rate, plural; empty if units differ too much for an estimate of rate and
     /// remaining time
     void begin(const std::string& what, double all, const char* unit);
-    /// Reports the number of completed units. Rate and remaining time are estimated from the time since begin(). Drawn
-    /// at most five times per second.
+    /// Reports the number of completed units. Rate and remaining time are estimated from the time since begin(). The
+    /// line is drawn at most five times per second.
     void count(double done, const std::string& detail = {});
-    /// Starts the next stage of work that has a few long stages; drawn at once.
+    /// Starts the next stage of work that has a few long stages; the line is drawn at once.
     void step(double done, const std::string& what);
     /// Draws progress whose rate and completed fraction the caller has determined.
     void draw(const Progress& progress);
-    /// Removes the line until it is next drawn.
+    /// Erases the line; the next drawing shows it again.
     void clear();
 
   private:

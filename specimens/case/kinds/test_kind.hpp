@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a kind of test is: its keys, what it cuts and holds, what its stress and strain are called, when it is valid.
-// Each kind is one object in a file of specimens/kinds, and one row here.
+// Definition of a kind of test: its keys, its specimen and apparatus, the names of stress and strain, and the failure
+// mode of a valid test. Each kind is one object in a file of specimens/kinds, and one row here.
 // Tested by tests/specimens/kinds/test_kind_test.cpp.
 #pragma once
 
@@ -28,7 +28,7 @@ namespace crackle {
 
 #define CRACKLE_NAME(name) name,
 #define CRACKLE_QUOTED(name) #name,
-/// Kind of test, as a case names it.
+/// Kind of test, as named in a case.
 enum class LoadingKind : std::uint8_t { CRACKLE_TEST_KINDS(CRACKLE_NAME) };
 constexpr auto list_names(LoadingKind) { return std::to_array<std::string_view>({CRACKLE_TEST_KINDS(CRACKLE_QUOTED)}); }
 #undef CRACKLE_NAME
@@ -41,10 +41,10 @@ struct Shape;
 /// A key of the case that only some kinds of test have.
 struct KindKey {
     const char* key;
-    const char* needed = nullptr;  ///< why the kind needs it; nullptr if it may be left out
+    const char* needed = nullptr;  ///< reason why the kind needs the key; nullptr if the key may be left out
 };
 
-/// What stress and strain are called on axes.
+/// Names of stress and strain on the axes of diagrams.
 struct CurveNames {
     const char *stress = "axial stress", *strain = "axial strain";
 };
@@ -64,7 +64,7 @@ struct TestKind {
     bool shear_box = false;
     bool notched = false;  ///< whether the specimen always has a notch
     std::span<const KindKey> keys = {};
-    const char* bonded_because = nullptr;  ///< why no part may be frictional; nullptr if parts may be
+    const char* bonded_because = nullptr;  ///< reason why parts must be bonded; nullptr if they may be frictional
     ValidFailure valid_failure = ValidFailure::between_platens;
     const char *driver = "platen", *support = "platen";  ///< names of the driving part and the supports in messages
     /// Returns the shape to be cut out of the packing. Called before the bodies are known.
@@ -76,13 +76,13 @@ struct TestKind {
     bool pulls() const { return uniaxial && !compression; }
     /// Whether the specimen is pressed between platens.
     bool presses() const { return uniaxial && compression; }
-    /// Whether a force other than that of the driving part does work.
+    /// Whether a pressure or normal force does work on the specimen, in addition to the driving part.
     bool pressed() const { return confined || shear_box; }
     /// Whether a case of this kind may have the key. @param key  "table.key"
     bool has(std::string_view key) const { return std::ranges::find(keys, key, &KindKey::key) != keys.end(); }
 };
 
-/// The kind of test that a case names.
+/// Returns the definition of a kind of test.
 const TestKind& test_kind(LoadingKind kind);
 /// Names of the kinds for which `is` is true, formatted for messages: "a", "b" or "c".
 std::string kinds_with(const std::function<bool(const TestKind&)>& is);

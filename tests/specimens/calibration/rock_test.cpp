@@ -73,7 +73,7 @@ TEST_F(RockFile, RefusesWithFileLineAndKey) {
     expect_refused(tests_ + "[[target]]\nfigure = \"peak_stress\"\nvalue = 1\n" + free,
                    "[[target]] test: found nothing");
     expect_refused(tests_ + target_ + "[[free]]\nkey = \"material.beauty\"\nfrom = 1\nto = 2\n", "a key of a case");
-    expect_refused(tests_ + target_ + "[[free]]\nkey = \"bond.law\"\nfrom = 1\nto = 2\n", "a key with a number");
+    expect_refused(tests_ + target_ + "[[free]]\nkey = \"bond.law\"\nfrom = 1\nto = 2\n", "a key with a numeric value");
     expect_refused(tests_ + target_ + "[[free]]\nkey = \"material.cohesion\"\nfrom = 2\nto = 1\n", "a number > from");
     expect_refused(tests_ + target_ + free + free, "one [[free]] per key");
     expect_refused(tests_ + target_ + free + "start = 1\n", "a number between");
@@ -159,7 +159,7 @@ TEST_F(RockFile, RefusesRatiosAndLawsThatAreNone) {
     expect_refused(pressed + testing::law_target_text("peak_stress", 1) + strengths_,
                    "of several tests, expected one of friction_angle, hoek_brown_m");
     expect_refused(pressed + target_text("pressed", "friction_angle", 40) + strengths_,
-                   "[[target]] tests: found nothing, expected the compressions to which friction_angle is fitted");
+                   "[[target]] tests: found nothing, expected the compression tests to which friction_angle is fitted");
     expect_refused(
         pressed + testing::law_target_text("friction_angle", 40, "[\"compression\", \"sheared\"]") + strengths_,
         "found \"sheared\", expected one of compression, tension, pressed, squeezed");
@@ -172,7 +172,7 @@ TEST_F(RockFile, RefusesRatiosAndLawsThatAreNone) {
     expect_refused(pressed +
                        testing::law_target_text("friction_angle", 40, "[\"tension\", \"pressed\", \"squeezed\"]") +
                        strengths_,
-                   "found tension, a tension, expected compressions");
+                   "found tension, a tension test, expected compression tests");
     expect_refused(pressed + testing::law_target_text("friction_angle", 40) + "over = \"peak_stress\"\n" + strengths_,
                    "found this key together with tests");
 }

@@ -122,7 +122,8 @@ TEST(Verdict, NamesWhatDominatesAndWhatWouldChangeIt) {
         << verdict_on(mean, by_rate);
     // Nine packings give an error of 2 %, so one gives 6 %, and 36 give 1 %.
     const MeanBias unseen{9, 0.1, 2.0, 0.1, 2.0, 0.2, 2.0};
-    EXPECT_NE(verdict_on(mean, unseen).find("not significant; 36 packings would reveal 1 %"), std::string::npos)
+    EXPECT_NE(verdict_on(mean, unseen).find("not significant; 36 packings would reveal a bias of 1 %"),
+              std::string::npos)
         << verdict_on(mean, unseen);
     // The bias is 0.5 and the scatter 2, so their effects are equal for 16 packings.
     const MeanBias small{4, 0.4, 0.01, 0.1, 0.01, 0.5, 0.01};

@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"StrengthBesideAFactor",
                 "[bond]\nlaw = \"coulomb\"\ntensile_factor = 1\ncohesion_factor = 1\n[[mineral]]\nname = \"a\"\n"
                 "cohesion = 20\n",
-                ":22: mineral[1].cohesion cannot be given here: bond.cohesion_factor gives it to all bonds"},
+                ":22: mineral[1].cohesion cannot be given here: bond.cohesion_factor determines it for all bonds"},
         Refusal{"ModulusOfAPoint", "[[mineral]]\nname = \"a\"\ncontact_modulus = 1e9\n",
                 ":18: mineral[1].contact_modulus needs units = \"area\"; add that, or remove the key"},
         Refusal{"PairOfOne", "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\"]\n",

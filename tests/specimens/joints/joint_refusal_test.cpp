@@ -79,7 +79,7 @@ TEST(JointRefusals, MechanicsOfAJointGoTogether) {
                        "joint_set[1].strength_factor cannot be given here: an open joint"},
              {"bonded = false\ncohesion = 1e6\n", "an open joint has no bonds"},
              {"bonded = false\nfriction_angle = 30.0\nresidual_friction_angle = 20.0\n",
-              "its faces have friction_angle"},
+              "friction_angle applies to its faces"},
              {"aperture = 1e-4\n", "joint_set[1].aperture: found 0.0001 m, expected no aperture for a bonded joint"},
              {"tensile_strength = 1e5\ncohesion = 1e6\nstrength_factor = 0.5\n", "already replace it"},
              {"friction_angle = 20.0\nresidual_friction_angle = 25.0\n", "at most friction_angle, 20 deg"},
@@ -123,7 +123,7 @@ kind = "voronoi"
 TEST(JointRefusals, MechanicsGoWithTheRocks) {
     for (const auto& [keys, says] : {
              std::pair{"residual_friction_angle = 41.0\n", "at most the rock's friction_angle, 40 deg"},
-             {"dilation_angle = 26.0\n", "at most the friction angle at which it slides, 25 deg"},
+             {"dilation_angle = 26.0\n", "at most the friction angle of the sliding joint, 25 deg"},
              {"dilation_angle = 26.0\nfriction_angle = 30.0\n", "accepted"},
              {"cohesion = 1e6\n", "trace[1].cohesion: found a tensile strength of 5e+06 Pa"},
              {"cohesion = 1e6\ntensile_strength = 0.0\n", "accepted"},

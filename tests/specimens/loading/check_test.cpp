@@ -83,7 +83,7 @@ std::string warnings_of(const std::string& material, double rate = 0.02) {
 TEST(TestCheck, SaysWhereANumberLooksLikeAnotherUnit) {
     const std::string area = "units = \"area\"\nstiffness_ratio = 2.5\n";
     const std::string sound = warnings_of(area + "contact_modulus = 1e7\ntensile_strength = 1.5e4\ncohesion = 5e4");
-    EXPECT_EQ(sound.find("Numbers are in Pa"), std::string::npos) << sound;
+    EXPECT_EQ(sound.find("Values must be in Pa"), std::string::npos) << sound;
     EXPECT_EQ(sound.find("far beyond the failure strain of any rock"), std::string::npos) << sound;
     const std::string mega = warnings_of(area + "contact_modulus = 76e9\ntensile_strength = 9\ncohesion = 66");
     EXPECT_NE(mega.find("material.tensile_strength = 9 Pa is 1e-10 of the contact modulus: is it meant in MPa?"),

@@ -47,13 +47,13 @@ TEST(UnlikelyNumbers, AreNamedWithWhatTheyAreLikelyToMean) {
         return notices_of(test);
     };
     EXPECT_EQ(with([](ResolvedCase& t) { t.material.density = 2.65; }),
-              "material.density = 2.65 kg/m2 is lighter than any rock: is it meant in g/cm3? That is 2650 kg/m2");
-    EXPECT_EQ(with([](ResolvedCase& t) { t.material.friction_angle = 0.6; }),
-              "material.friction_angle = 0.6 degrees is almost zero: is it meant in radians? That is 34.4 degrees");
+              "material.density = 2.65 kg/m2 is lighter than any rock: is it meant in g/cm3? That would be 2650 kg/m2");
     EXPECT_EQ(
-        with([](ResolvedCase& t) { t.material.friction_angle = 0.0; }),
-        "material.friction_angle = 0 degrees lets broken faces slide freely, and pressure does not strengthen bonds; "
-        "rocks have 20 to 45");
+        with([](ResolvedCase& t) { t.material.friction_angle = 0.6; }),
+        "material.friction_angle = 0.6 degrees is almost zero: is it meant in radians? That would be 34.4 degrees");
+    EXPECT_EQ(with([](ResolvedCase& t) { t.material.friction_angle = 0.0; }),
+              "material.friction_angle = 0 degrees lets broken faces slide freely, and pressure does not strengthen "
+              "bonds; rocks have 20 to 45 degrees");
     EXPECT_NE(
         with([](ResolvedCase& t) { t.material.residual_friction_angle = 0.5; }).find("residual_friction_angle = 0.5"),
         std::string::npos);
@@ -72,10 +72,9 @@ TEST(UnlikelyNumbers, MillimetresAreNoMetres) {
     large.width = 50.0;
     large.height = 100.0;
     large.area = 5000.0;
-    EXPECT_EQ(
-        notices_of(granite(), large),
-        "the specimen is 50 m by 100 m, with grains of 2 m that are as stiff as rock: are its lengths meant in mm? "
-        "Numbers are in m");
+    EXPECT_EQ(notices_of(granite(), large),
+              "the specimen is 50 m by 100 m, with grains of 2 m that are as stiff as rock: are its lengths meant in "
+              "mm? Values must be in m");
     ResolvedCase mass = granite();
     mass.joints.traces.emplace_back();
     EXPECT_EQ(notices_of(mass, large), "") << "blocks between joints may be large";

@@ -168,7 +168,7 @@ TEST(Verdicts, SpecimenBetweenPlatensIsWideEnoughAndPartsInTheMiddleOrNot) {
 TEST(Verdicts, EachClaimThatDoesNotHoldHasASentence) {
     EXPECT_EQ(broken_claim("the specimen is at least 20 particles wide", "12.3 particles"),
               "the specimen is 12.3 particles wide; at least 20 are needed");
-    EXPECT_EQ(broken_claim("the moon is round", "a cube"), "it does not hold that the moon is round: a cube")
+    EXPECT_EQ(broken_claim("the moon is round", "a cube"), "condition not met: the moon is round: a cube")
         << "summary of another version";
     std::size_t claims = 0;
     for (const LoadingKind kind : {LoadingKind::compression, LoadingKind::tension, LoadingKind::brazilian,

@@ -71,7 +71,7 @@ TEST(Summary, ListsUnitsOfWhatItStatesInTheSenseOfTheTest) {
     expected.emplace_back("largest_stress_pa", "Pa, the same value divided by out_of_plane_thickness");
     expected.emplace_back(
         "axial_strain_rate",
-        "1/s, axial strain rate given in the case; the mean rate if a callback took over the platen speed");
+        "1/s, axial strain rate given in the case; the mean rate if a callback took control of the platen speed");
     state_units(s);
     EXPECT_EQ(s.units, expected);
     EXPECT_EQ(s.strength.largest_stress.converted, 1.0);

@@ -124,8 +124,8 @@ TEST_F(CalibrateCommand, ATestThatCrashesTwiceIsNamedAndTheOthersAreKept) {
     EXPECT_TRUE(std::regex_search(
         read("err.txt"),
         std::regex(
-            R"(1 test failed by the system \((compression|tension), .*, seed \d+: crashed: its process was ended )"
-            R"(by signal 6 \(Aborted\) in each of 2 tries)")))
+            R"(1 test failed because of the system \((compression|tension), .*, seed \d+: crashed: its process was )"
+            R"(ended by signal 6 \(Aborted\) in each of 2 tries)")))
         << read("err.txt");
     EXPECT_NE(call("rock.toml -o out").code, 4) << read("err.txt");
 }
@@ -134,9 +134,9 @@ TEST_F(CalibrateCommand, ALinearSolveThatTheSystemEndedIsNoRefusal) {
     const pid_t process = testing::started_call(folder_, {"calibrate", "rock.toml", "-o", "out", "--workers", "1"});
     testing::kill_workers(process, 1);
     EXPECT_EQ(testing::ended_call(process), 4) << read("err.txt");
-    EXPECT_TRUE(
-        std::regex_search(read("err.txt"), std::regex(R"(a linear solve failed by the system: \w+, seed \d+: its )"
-                                                      R"(process was ended by signal 9 \(Killed\);)")))
+    EXPECT_TRUE(std::regex_search(read("err.txt"),
+                                  std::regex(R"(a linear solve failed because of the system: \w+, seed \d+: its )"
+                                             R"(process was ended by signal 9 \(Killed\);)")))
         << read("err.txt");
     const Answer again = call("rock.toml -o out");
     EXPECT_EQ(again.code, again.out.find("2 of 2 targets reached") != std::string::npos ? 0 : 1) << again.err;

@@ -197,7 +197,7 @@ TEST_F(EnvelopeCommand, LeavesOutWhatHasNoStrengthAndNamesIt) {
     EXPECT_EQ(json["packings"], 3);
     EXPECT_TRUE(mentions(json["notices"], "left out: " + split + ": is a test of another kind, brazilian"));
     EXPECT_TRUE(mentions(json["notices"], "left out: " + unfailed + ": did not fail before loading.max_axial_strain"));
-    EXPECT_TRUE(mentions(json["notices"], "left out: " + held + ": parted at the grip"));
+    EXPECT_TRUE(mentions(json["notices"], "left out: " + held + ": separated at the grip"));
     EXPECT_TRUE(json["tension"].is_null());
 }
 

@@ -80,14 +80,14 @@ TEST_F(UnusedOptions, OfFilesThatAreNotWritten) {
     write("joints.toml", "[packing]\nwidth = 2.0\nheight = 1.0\n[[trace]]\npoints = [0.0, 0.5, 1.0, 0.5]\n");
     expect_lonely("joints joints.toml --title Traces", "--title", "--output");
     expect_lonely("joints joints.toml --force", "--force", "--output or --traces");
-    expect_without_effect("joints joints.toml --seed 3", "--seed", "traces that are all given");
+    expect_without_effect("joints joints.toml --seed 3", "--seed", "a case without any [[joint_set]]");
     expect_lonely("envelope one two --columns 1", "--columns", "--output");
     EXPECT_EQ(call("joints joints.toml --traces traces.txt --force").code, 0);
 }
 
 TEST_F(UnusedOptions, OfParticlesThatNothingIsLeftOf) {
     write_small_rock(folder_ / "rock.dat");
-    expect_without_effect("view rock.dat -o page.html --seed 2", "--seed", "particles that are all given");
+    expect_without_effect("view rock.dat -o page.html --seed 2", "--seed", "inputs without random circles");
     expect_without_effect("view rock.dat -o page.html --frames 2", "--frames", "particle files");
     const std::string deck = "'" + shipped_deck("circle").string() + "'";
     expect_refused("run " + deck + " -o out --seed 2", "seed: found with");

@@ -175,7 +175,7 @@ class Callbacks(InScratch):
         self.assertEqual(result.summary["ended_by"], "caller")
         top = int(numpy.argmax(strain[:len(strain) // 2]))
         self.assertLess(strain[top:].min(), 0.000025)
-        self.assertTrue(any("has set the driving part's speed since strain" in text for text in result.summary["notices"]))
+        self.assertTrue(any("has set the speed of the driving part since a strain of" in text for text in result.summary["notices"]))
         modulus = result.summary["youngs_modulus"]
         # Loading at 0.02 1/s begins from rest: the jump of the platen's speed v sends a wave of stress sqrt(E ρ) v.
         wave = 2.0 * (modulus * CASE["material"]["density"]) ** 0.5 * 0.02 * result.summary["initial_height"]
@@ -313,7 +313,7 @@ crackle.test(small(packing={{"count": 300}}))
         self.assertIn(b"0 of 4 done, 0 without a result", shown)
         write_rock({"youngs_modulus": 1.4e10, "poissons_ratio": 0.25})
         shown = self.on_a_terminal("import crackle; crackle.calibrate('rock.toml', 'calibrated', workers=1)")
-        self.assertIn(b"round 1: measuring its centre on 4 packings", shown)
+        self.assertIn(b"round 1: measuring the centre point on 4 packings", shown)
         self.assertIn(b"tests/s", shown)
 
     def test_tables_of_tests_report_to_a_callable(self):

@@ -10,7 +10,7 @@
 
 namespace crackle::tools {
 
-/// The page as HTML; the same ledger gives identical bytes. @param from folder in which the page will be placed, for
+/// The page as HTML; identical results give identical bytes. @param from folder in which the page will be placed, for
 /// relative links
 std::string campaign_page(const CampaignRecord& record, const std::string& title, const std::filesystem::path& from);
 

@@ -45,7 +45,8 @@ CampaignRecord read_campaign(const std::filesystem::path& folder, const std::vec
 /// A sentence about tests that ended with a system error and are excluded from the means; empty if there are none.
 std::string notice_on_failures(const CampaignRecord& record);
 
-/// Adds a measured curve to draw over the curves of the record's only test. @throws InputError if it has several
+/// Adds a measured curve to draw over the curves of the record's only test. @throws InputError if the record has
+/// several tests
 void add_measured_curve(CampaignRecord& record, const std::filesystem::path& file);
 
 /// Name of a result in titles, for example "peak stress" for peak_stress.

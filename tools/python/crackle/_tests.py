@@ -204,7 +204,7 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
     case: a dict, a TOML text or the path of a file. output: folder for the results. If None, a temporary folder is
     removed together with the Result, but kept if the test does not run to its end; the exception then names it. force:
     replace existing results. verify: also run companion tests, to state errors of strength and strain. profile: time the
-    phases of a step. threads: number of threads; results do not depend on it. long: run the test although it takes more
+    phases of a step. threads: number of threads; results do not depend on it. long: run the test even if it takes more
     than a day. allow_unstable: accept a time step above the stable bound.
 
     call: a function called with the State of the test. every = "row": at each row by which peak and failure are judged, of
@@ -253,7 +253,7 @@ def campaign(plan: _Path, output: _Path, *, workers: int | None = None, verify: 
     plan: path of a TOML file (`crackle campaign --keys` lists its keys). workers: processes that run tests; by default
     one per available processor. verify: also run each test at half the time step and at half the rate. retry: repeat
     tests that ended without a result because of their case; tests that ended with a system error are always repeated.
-    shard: (I, N) runs share I of N. long: run tests although they take more than a day.
+    shard: (I, N) runs share I of N. long: run tests even if they take more than a day.
 
     Returns Campaign. Raises InputError, SystemFailure if tests ended with a system error (the same call repeats them),
     KeyboardInterrupt (finished tests are kept).
@@ -271,7 +271,7 @@ def calibrate(rock: _Path, output: _Path, *, workers: int | None = None, retry: 
 
     rock: path of a TOML file (`crackle calibrate --keys` lists its keys). workers: processes that run tests; by default
     one per available processor. retry: repeat tests that ended without a result because of their case. long: run
-    tests although they take more than a day.
+    tests even if they take more than a day.
 
     Returns Calibration, whether or not all targets were reached. Raises InputError, SystemFailure if tests ended with
     a system error (the same call repeats them), KeyboardInterrupt (finished tests are kept).
