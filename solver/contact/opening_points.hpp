@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Applies the consistent integrator (opening.hpp) to contact points: collects the values that it needs from the bodies
-// and from the last force pass, for one point or for a batch. Leapfrog uses none of this. Tested by
-// tests/solver/contact/opening_test.cpp and tests/solver/contact/batch_test.cpp.
+// and from the last force pass, for one point or for a batch. Leapfrog uses none of this.
+// Tested by tests/solver/contact/opening_test.cpp and tests/solver/contact/batch_test.cpp.
 #pragma once
 
 #include <cstdint>

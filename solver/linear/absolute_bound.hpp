@@ -4,8 +4,8 @@
 // With A(Δt) = 2Δt·C + Δt²·K in mass-scaled coordinates and any vector x > 0, no eigenvalue of A exceeds the largest
 // (|A|x)_i/x_i (Collatz and Wielandt). Each round finds the Δt at which this ratio is 4. The next round uses |A|x in
 // place of x; x thus approaches the vector that gives the best bound. In contrast to a bound from individual springs,
-// terms of opposite sign cancel when K is assembled, before absolute values are taken. Tested by
-// tests/solver/linear/face_rows_test.cpp.
+// terms of opposite sign cancel when K is assembled, before absolute values are taken.
+// Tested by tests/solver/linear/face_rows_test.cpp.
 #pragma once
 
 #include "solver/linear/springs.hpp"

@@ -115,9 +115,8 @@ TEST(TraceFiles, WhatIsWrongIsNamedWithItsLine) {
     EXPECT_NE(refused("a.txt", "0 0 1 1\n0 0 1\n").find("a.txt:2: found 3 numbers"), std::string::npos);
     EXPECT_NE(refused("a.txt", "0 0 1 x\n").find("a.txt:1: found 'x'"), std::string::npos);
     EXPECT_NE(refused("a.txt", "0 0 1 inf\n").find("a.txt:1: found 'inf'"), std::string::npos);
-    EXPECT_NE(
-        refused("a.txt", "0 0 1 1e200\n").find("found '1e200', expected a number for y, 0 or of magnitude 1e-30"),
-        std::string::npos);
+    EXPECT_NE(refused("a.txt", "0 0 1 1e200\n").find("found '1e200', expected a number for y, 0 or of magnitude 1e-30"),
+              std::string::npos);
     EXPECT_NE(refused("a.txt", "1 2 1 2\n").find("a.txt:1: found only traces whose points coincide"),
               std::string::npos);
     EXPECT_NE(refused("a.txt", "# nothing\n").find("found no trace"), std::string::npos);
