@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -227,17 +228,15 @@ CRACKLE_INLINE void outline_stage(const PassView& view, const BodyPair* points, 
         for (int l = 0; l < lane_count; ++l)
             if (view.bodies.edges[parts[l].feature_j].outline_of != points[l].body_j) settled[l] = 0;
     }
-    if (const unsigned search = mask_of(~settled); search != 0) {
-        for (int l = 0; l < lane_count; ++l) {
-            if ((search >> l & 1) == 0) continue;
-            const OutlineFacing facing =
-                face_outline(view.bodies, view.bodies.shape_of(points[l].body_j), parts[l].feature_j, px[l], py[l]);
-            parts[l].feature_j = facing.edge;
-            stage.across[l] = facing.distance;
-            stage.over[l] = 0.0;
-            stage.tx[l] = -facing.gy;
-            stage.ty[l] = facing.gx;
-        }
+    for (unsigned search = mask_of(~settled); search != 0; search &= search - 1) {
+        const int l = std::countr_zero(search);
+        const OutlineFacing facing =
+            face_outline(view.bodies, view.bodies.shape_of(points[l].body_j), parts[l].feature_j, px[l], py[l]);
+        parts[l].feature_j = facing.edge;
+        stage.across[l] = facing.distance;
+        stage.over[l] = 0.0;
+        stage.tx[l] = -facing.gy;
+        stage.ty[l] = facing.gx;
     }
 }
 

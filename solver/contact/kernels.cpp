@@ -176,9 +176,10 @@ constexpr ContactFeatures compiled_for(ContactFeatures f) {
     return f;
 }
 
-/// Computes the points of a block in batches that fill all lanes, and the remaining points one by one.
+/// Computes the points of a block in batches that fill all lanes, and the remaining points one by one. __restrict: the
+/// arrays that are written do not contain the view itself, so its pointers need not be read again after each store.
 template <PointKind K, class Features>
-void force_block(const PassView& view, const PointBlock& block) {
+void force_block(const PassView& __restrict view, const PointBlock& block) {
     const Features has(view.features);
     BlockLosses loss;
     PointIndex k = block.begin;
