@@ -297,6 +297,19 @@ std::array<int, 3> centres_about(const Triangles& triangles, std::size_t t) {
                      inscribed_radius(corners, scale), depth, destroyed.size(), std::move(named), std::move(traces));
 }
 
+/// Merges destroyed triangles with their neighbours. @throws DestroyedCells if one cannot be merged
+JoinedTriangles join_or_refuse(const Triangles& triangles, const std::vector<int>& destroyed, double depth,
+                               double scale) {
+    try {
+        return join_destroyed(triangles, destroyed, depth, scale);
+    } catch (const MeshError& error) {
+        double least = depth;
+        for (const int t : destroyed)
+            least = std::min(least, inscribed_radius(outline_of(triangles, static_cast<std::size_t>(t)), scale));
+        throw DestroyedCells{error.what(), least, error.centres, error.traces};
+    }
+}
+
 Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
                    double depth) {
     const double scale = coordinate_scale(domain);
@@ -319,45 +332,32 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
             centres.size(), centres.size() == 1 ? "" : "s"));
     }
     Inset inset(depth, scale);
-    const auto outline = [&](std::size_t t) { return outline_of(triangles, t); };
     // Outlines are inset twice: first to find the destroyed ones, then to add the others. This is faster than storing
     // them.
     std::vector<int> destroyed;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
         patience.piece();
-        if (inset.of(outline(t)).empty()) destroyed.push_back(static_cast<int>(t));
+        if (inset.of(outline_of(triangles, t)).empty()) destroyed.push_back(static_cast<int>(t));
     }
     if (!destroyed.empty() && !request.merge_destroyed)
         refuse_destroyed_triangles(triangles, destroyed, traced, depth, scale);
-    const auto join = [&] {
-        try {
-            return join_destroyed(triangles, destroyed, depth, scale);
-        } catch (const MeshError& error) {
-            double least = depth;
-            for (const int t : destroyed)
-                least = std::min(least, inscribed_radius(outline(static_cast<std::size_t>(t)), scale));
-            throw DestroyedCells{error.what(), least, error.centres, error.traces};
-        }
-    };
-    const JoinedTriangles joined = join();
+    const JoinedTriangles joined = join_or_refuse(triangles, destroyed, depth, scale);
     MeshBuilder builder(domain, triangles.corners.size(), 3 * triangles.corners.size());
     auto next = joined.outlines.begin();
+    const auto add = [&](std::size_t t, std::span<const Point> before, std::span<const int> traces) {
+        const auto after = inset.of(before);
+        Cell& cell = traced ? builder.add(before, after, traces, inset.edges_kept()) : builder.add(before, after);
+        cell.centres = centres_about(triangles, t);
+    };
     std::vector<Point> before;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
         patience.piece();
         if (!joined.joined[t]) {
-            const auto alone = outline(t);
-            const auto after = inset.of(alone);
-            Cell& cell = traced ? builder.add(alone, after, traces_along(triangles, t), inset.edges_kept())
-                                : builder.add(alone, after);
-            cell.centres = centres_about(triangles, t);
+            add(t, outline_of(triangles, t), traced ? traces_along(triangles, t) : std::array<int, 3>{});
         } else if (next != joined.outlines.end() && static_cast<std::size_t>(next->triangle) == t) {
             before.clear();
             for (const int corner : next->corners) before.push_back(triangles.points[static_cast<std::size_t>(corner)]);
-            const auto after = inset.of(before);
-            Cell& cell =
-                traced ? builder.add(before, after, next->traces, inset.edges_kept()) : builder.add(before, after);
-            cell.centres = centres_about(triangles, t);
+            add(t, before, next->traces);
             ++next;
         }
     }

@@ -87,6 +87,23 @@ inline BrokenContact late_contact(BrokenFace& face, const FaceSprings& s, const 
     return contact;
 }
 
+/// State of a broken face whose cells have the pressure at which `contact` was found, without that pressure and its
+/// forces. @param pressure Pa @param skewing τ, Pa
+inline BrokenState broken_state(const BrokenFace& face, const FaceSprings& s, const BondFaceMotion& m,
+                                const BrokenContact& contact, double pressure, double skewing) {
+    BrokenState state;
+    state.opening = m.opening, state.sliding = m.sliding, state.turn = m.turn;
+    state.half_lap = half_lap_of(s, m);
+    state.skewing = skewing;
+    state.stretch = contact.stretch;
+    state.end_closure = end_closure(s, m, pressure, face.held, face.taken);
+    state.taken = face.taken;
+    state.whole = contact.whole;
+    state.held = face.held;
+    state.pull = contact.pull;
+    return state;
+}
+
 /// Forces of a broken face after a step, and its energy losses in the step.
 struct BrokenStep {
     FaceForces forces;
@@ -102,20 +119,11 @@ inline BrokenStep step_broken(BrokenFace& face, const FaceSprings& s, const Face
                               double skewing) {
     const BrokenContact now = contact_of(s, m, pressure, face.held, face.taken);
     BrokenState& last = face.last;
-    BrokenState state;
-    state.opening = m.opening, state.sliding = m.sliding, state.turn = m.turn;
-    state.half_lap = half_lap_of(s, m);
+    BrokenState state = broken_state(face, s, m, late, last.pressure, skewing);
     state.pressure = last.pressure + lag.pressure * (pressure - last.pressure);
-    state.skewing = skewing;
-    state.stretch = late.stretch;
     state.late_pressure = pressure - last.pressure;
     state.late_force = now.lap.force - late.lap.force;
     state.late_moment = now.lap.moment - late.lap.moment;
-    state.end_closure = end_closure(s, m, last.pressure, face.held, face.taken);
-    state.taken = face.taken;
-    state.whole = late.whole;
-    state.held = face.held;
-    state.pull = late.pull;
     if (face.in_shear) face.glued = std::min(face.glued, now.lap.closed);
 
     const double trial = s.shear * (m.sliding - face.slip) + s.length * skewing;
@@ -156,6 +164,24 @@ struct BreakResult {
     double energy;                  // J, released; never negative
 };
 
+// Rounds of descent after a break, and the relative change after which it has settled.
+inline constexpr int most_rounds_of_break = 1000;
+inline constexpr double settled_break = 1e-15;
+
+/// Pressure p̄ at which p̄ = before + by_normal (q_n(p̄) - δ_n) - slipped. The difference of both sides is convex in p̄,
+/// so Newton's method converges from any start. @param pressure the start, Pa
+inline double balanced_pressure(const BrokenFace& face, const FaceSprings& s, const BondFaceMotion& m, double pressure,
+                                double before, double by_normal, double slipped) {
+    for (int round = 0; round < most_rounds_of_break; ++round) {
+        const BrokenContact contact = contact_of(s, m, pressure, face.held, face.taken);
+        const double rest = pressure - before - by_normal * (contact.stretch - m.opening) + slipped;
+        const double slope = 1.0 + by_normal * (s.length - contact.lap.closed) / s.normal;
+        pressure -= rest / slope;
+        if (std::abs(rest) <= settled_break * (std::abs(pressure) + std::abs(before))) break;
+    }
+    return pressure;
+}
+
 /// Breaks an intact face. Two solutions alternate, each of which reduces the energy: one for the contact and the cells'
 /// pressures, and one for the slip if the shear force exceeds its limit. @param cell_i, cell_j pressures of the cells
 /// while the face is intact @param taken 1 - q
@@ -178,20 +204,10 @@ inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceL
     const double before = s.share_i * cell_i.pressure + s.share_j * cell_j.pressure,
                  skewing_before = s.skew_i * cell_i.pressure - s.skew_j * cell_j.pressure;
     if (in_shear) face.held = held_after(s, law, share, m, before, 1.0);
-    // The equation is p̄ = before + by_normal (q_n(p̄) - δ_n) - by_shear u_p. The difference between its two sides is
-    // convex in p̄, so Newton's method converges from any start.
-    constexpr int most_rounds = 1000;
-    constexpr double settled = 1e-15;
     double pressure = before, skewing = skewing_before, slip = 0.0, shear = 0.0;
     BrokenContact contact{};
-    for (int turn = 0; turn < most_rounds; ++turn) {
-        for (int round = 0; round < most_rounds; ++round) {
-            contact = contact_of(s, m, pressure, face.held, taken);
-            const double rest = pressure - before - by_normal * (contact.stretch - m.opening) + by_shear * slip;
-            const double slope = 1.0 + by_normal * (s.length - contact.lap.closed) / s.normal;
-            pressure -= rest / slope;
-            if (std::abs(rest) <= settled * (std::abs(pressure) + std::abs(before))) break;
-        }
+    for (int turn = 0; turn < most_rounds_of_break; ++turn) {
+        pressure = balanced_pressure(face, s, m, pressure, before, by_normal, by_shear * slip);
         contact = contact_of(s, m, pressure, face.held, taken);
         skewing = skewing_before + by_shear * (contact.stretch - m.opening) - of_skews * slip;
         shear = s.shear * (m.sliding - slip) + s.length * skewing;
@@ -203,7 +219,7 @@ inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceL
                                                     face.glued, std::abs(slip), share)
                                            .slip
                                      : shear / stiffness;
-        if (std::abs(more) <= settled * (std::abs(m.sliding) + std::abs(slip))) break;
+        if (std::abs(more) <= settled_break * (std::abs(m.sliding) + std::abs(slip))) break;
         slip += more;
     }
     const double normal = s.length * (contact.stretch - m.opening), skewed = -s.length * slip;
@@ -214,18 +230,9 @@ inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceL
     face.slipped = std::abs(slip);
     const double bent = m.sliding - face.slip;
     face.energy = contact.energy + 0.5 * s.shear * bent * bent;
-    BrokenState& last = face.last;
-    last.opening = m.opening, last.sliding = m.sliding, last.turn = m.turn;
-    last.half_lap = half_lap_of(s, m);
-    last.pressure = pressure;
-    last.skewing = skewing;
-    last.stretch = contact.stretch;
-    last.shear = shear;
-    last.end_closure = end_closure(s, m, pressure, face.held, taken);
-    last.taken = taken;
-    last.whole = contact.whole;
-    last.held = face.held;
-    last.pull = contact.pull;
+    face.last = broken_state(face, s, m, contact, pressure, skewing);
+    face.last.pressure = pressure;
+    face.last.shear = shear;
     const auto in_cell = [](const CellPressure& cell, double p) {
         return cell.per_area > 0.0 ? 0.5 * p * p / cell.per_area : 0.0;
     };

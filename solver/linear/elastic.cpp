@@ -181,6 +181,56 @@ Refined solve(const Workers& workers, const ScaledSystem& system, const Vector& 
     return refine(workers, factor, stiffness, load);
 }
 
+/// Right-hand side of the free degrees of freedom: the loads, less the forces of the prescribed motions.
+Vector load_of(const ScaledSystem& system, const std::vector<Spring>& springs, const LinearRows& rows,
+               const std::vector<BodyMotion>& prescribed, const std::vector<BodyMotion>& loads) {
+    Vector load = Vector::Zero(system.stiffness().rows());
+    for (const Spring& s : springs) {
+        const double imposed = times(s, s.gradient, prescribed);
+        for (std::size_t a = 0; a < 6; ++a) {
+            const int row = system.number(s, a);
+            if (row >= 0) load[row] -= s.stiffness * imposed * s.push[a] * system.scale(row);
+        }
+    }
+    for (const LinearRow& own : rows.rows) {
+        const double imposed = rows.times(own, prescribed);
+        for (const RowEntry& entry : rows.of(own)) {
+            const int row = system.number(entry.body, entry.freedom);
+            if (row >= 0) load[row] -= own.stiffness * imposed * entry.value * system.scale(row);
+        }
+    }
+    for (std::size_t b = 0; b < loads.size(); ++b) {
+        const double force[3] = {loads[b].x, loads[b].y, loads[b].rotation};
+        for (int d = 0; d < 3; ++d) {
+            const int row = system.number(b, d);
+            if (row >= 0) load[row] += force[d] * system.scale(row);
+        }
+    }
+    return load;
+}
+
+/// Adds the energy of a solution, and returns the force on each body.
+std::vector<BodyMotion> forces_of(ElasticSolution& solution, const std::vector<Spring>& springs,
+                                  const LinearRows& rows) {
+    std::vector<BodyMotion> force(solution.displacement.size());
+    for (const Spring& s : springs) {
+        const double a = times(s, s.gradient, solution.displacement);
+        solution.energy += 0.5 * s.stiffness * a * times(s, s.push, solution.displacement);
+        for (int d = 0; d < 3; ++d) {
+            const auto k = static_cast<std::size_t>(d);
+            component(force[s.i], d) += s.stiffness * a * s.push[k];
+            component(force[s.j], d) += s.stiffness * a * s.push[k + 3];
+        }
+    }
+    for (const LinearRow& own : rows.rows) {
+        const double a = rows.times(own, solution.displacement);
+        solution.energy += 0.5 * own.stiffness * a * a;
+        for (const RowEntry& entry : rows.of(own))
+            component(force[entry.body], entry.freedom) += own.stiffness * a * entry.value;
+    }
+    return force;
+}
+
 }  // namespace
 
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
@@ -201,29 +251,8 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
     const ScaledSystem system(world, springs, rows, held);
     solution.unknowns = system.stiffness().rows();
     if (solution.unknowns > 0) {
-        Vector load = Vector::Zero(system.stiffness().rows());
-        for (const Spring& s : springs) {
-            const double imposed = times(s, s.gradient, solution.displacement);
-            for (std::size_t a = 0; a < 6; ++a) {
-                const int row = system.number(s, a);
-                if (row >= 0) load[row] -= s.stiffness * imposed * s.push[a] * system.scale(row);
-            }
-        }
-        for (const LinearRow& own : rows.rows) {
-            const double imposed = rows.times(own, solution.displacement);
-            for (const RowEntry& entry : rows.of(own)) {
-                const int row = system.number(entry.body, entry.freedom);
-                if (row >= 0) load[row] -= own.stiffness * imposed * entry.value * system.scale(row);
-            }
-        }
-        for (std::size_t b = 0; b < loads.size(); ++b) {
-            const double force[3] = {loads[b].x, loads[b].y, loads[b].rotation};
-            for (int d = 0; d < 3; ++d) {
-                const int row = system.number(b, d);
-                if (row >= 0) load[row] += force[d] * system.scale(row);
-            }
-        }
-        const Refined refined = solve(world.workers, system, load);
+        const Refined refined =
+            solve(world.workers, system, load_of(system, springs, rows, solution.displacement, loads));
         const Vector& u = refined.u;
         solution.residual = refined.residual;
         solution.error_energy = refined.error_energy;
@@ -234,22 +263,7 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
             }
         }
     }
-    std::vector<BodyMotion> force(world.bodies.size());
-    for (const Spring& s : springs) {
-        const double a = times(s, s.gradient, solution.displacement);
-        solution.energy += 0.5 * s.stiffness * a * times(s, s.push, solution.displacement);
-        for (int d = 0; d < 3; ++d) {
-            const auto k = static_cast<std::size_t>(d);
-            component(force[s.i], d) += s.stiffness * a * s.push[k];
-            component(force[s.j], d) += s.stiffness * a * s.push[k + 3];
-        }
-    }
-    for (const LinearRow& own : rows.rows) {
-        const double a = rows.times(own, solution.displacement);
-        solution.energy += 0.5 * own.stiffness * a * a;
-        for (const RowEntry& entry : rows.of(own))
-            component(force[entry.body], entry.freedom) += own.stiffness * a * entry.value;
-    }
+    const std::vector<BodyMotion> force = forces_of(solution, springs, rows);
     for (const Prescribed& p : prescribed) solution.reaction.push_back(force[p.body]);
     return solution;
 }

@@ -39,69 +39,21 @@
 #include "solver/geometry/geometry.hpp"
 #include "solver/laws/dashpot.hpp"
 #include "solver/linear/springs.hpp"
+#include "solver/linear/symmetric_block.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
 namespace {
 
-/// Symmetric 3 by 3 matrix of a body's scaled degrees of freedom (x, y, rotation).
-struct Block {
-    double xx = 0.0, yy = 0.0, rr = 0.0, xy = 0.0, xr = 0.0, yr = 0.0;
-
-    /// Adds s·vvᵀ with v = (x, y, r).
-    void add(double s, double x, double y, double r) {
-        if (s == 0.0) return;  // for example, if there is no damping
-        xx += s * x * x;
-        yy += s * y * y;
-        rr += s * r * r;
-        xy += s * x * y;
-        xr += s * x * r;
-        yr += s * y * r;
-    }
-};
-
-/// cos(arccos(c)/3), the largest root x of 4x³ - 3x = c. With x = ½ + e, Newton's method solves 6e² + 4e³ = 1 + c from
-/// above, starting from e = √((1 + c)/6). The first e is at most 16 % too large; after four iterations only round-off
-/// remains.
-double cosine_of_a_third(double c) {
-    const double rise = 1.0 + c;
-    double e = std::sqrt(rise / 6.0);
-    if (e == 0.0) return 0.5;
-    for (int k = 0; k < 4; ++k) e -= (e * e * (6.0 + 4.0 * e) - rise) / (12.0 * e * (1.0 + e));
-    return 0.5 + e;
-}
-
-/// Largest eigenvalue by Cardano's formula for symmetric matrices (Smith 1961), increased by the round-off of this
-/// computation.
-double largest_eigenvalue(const Block& m) {
-    const double off = m.xy * m.xy + m.xr * m.xr + m.yr * m.yr;
-    const double mean = (m.xx + m.yy + m.rr) / 3.0;
-    const double dx = m.xx - mean, dy = m.yy - mean, dr = m.rr - mean;
-    const double p = std::sqrt((dx * dx + dy * dy + dr * dr + 2.0 * off) / 6.0);
-    if (p == 0.0) return mean;
-    const double half_det =
-        (dx * (dy * dr - m.yr * m.yr) - m.xy * (m.xy * dr - m.yr * m.xr) + m.xr * (m.xy * m.yr - dy * m.xr)) /
-        (2.0 * p * p * p);
-    return (mean + 2.0 * p * cosine_of_a_third(std::clamp(half_det, -1.0, 1.0))) * (1.0 + 1e-12);
-}
-
-/// Upper bound on the largest eigenvalue, with only one square root: the cosine in Cardano's formula is at most 1.
-double eigenvalue_at_most(const Block& m) {
-    const double off = m.xy * m.xy + m.xr * m.xr + m.yr * m.yr;
-    const double mean = (m.xx + m.yy + m.rr) / 3.0;
-    const double dx = m.xx - mean, dy = m.yy - mean, dr = m.rr - mean;
-    return (mean + 2.0 * std::sqrt((dx * dx + dy * dy + dr * dr + 2.0 * off) / 6.0)) * (1.0 + 1e-11);
-}
-
 struct BodyBlocks {
-    Block stiffness, damping;
+    SymmetricBlock stiffness, damping;
 };
 
 /// Block that bounds the contribution of all faces of the world to any body: upper bounds on the eigenvalues of the
 /// faces' matrices, on the diagonal.
 BodyBlocks block_of_faces(const World& world) {
-    const auto diagonal = [](double value) { return Block{value, value, value}; };
+    const auto diagonal = [](double value) { return SymmetricBlock{value, value, value}; };
     return {diagonal(world.faces.stiffness_bound), diagonal(world.faces.damping_bound)};
 }
 
@@ -132,12 +84,12 @@ Side side_of(const Roots& roots, Vec2 n, Vec2 arm) {
 
 /// Adds one side of a contact point to a body's stiffness. @param normal false if the normal stiffness is added
 /// separately (guide_rows())
-void add_stiffness(Block& block, const Side& side, const ContactLaw& law, double share, bool normal) {
+void add_stiffness(SymmetricBlock& block, const Side& side, const ContactLaw& law, double share, bool normal) {
     if (normal) block.add(share * law.normal_stiffness, side.nx, side.ny, side.nr);
     if (law.friction > 0.0) block.add(share * law.shear_stiffness, side.tx, side.ty, side.tr);
 }
 
-void add_damping(Block& block, const Side& side, const ContactLaw& law, double root_mass, double share) {
+void add_damping(SymmetricBlock& block, const Side& side, const ContactLaw& law, double root_mass, double share) {
     block.add(share * normal_damping(law, root_mass), side.nx, side.ny, side.nr);
     if (law.friction > 0.0) block.add(share * shear_damping(law, root_mass), side.tx, side.ty, side.tr);
 }
@@ -198,7 +150,7 @@ std::vector<Spring> guide_rows(const World& world) {
     return rows;
 }
 
-void add_row(Block& block, const Roots& roots, const Spring& row, bool second, double share) {
+void add_row(SymmetricBlock& block, const Roots& roots, const Spring& row, bool second, double share) {
     const std::size_t d = second ? 3 : 0;
     block.add(share * row.stiffness, roots.x * row.push[d], roots.y * row.push[d + 1], roots.r * row.push[d + 2]);
 }

@@ -245,6 +245,44 @@ void open_point(World& world, PointIndex k, const Joint& joint, const PointView&
     world.points.state[k].flags = static_cast<std::uint16_t>(point_had_bond | (closed ? point_closed : 0));
 }
 
+using BodyIndices = std::pair<BodyIndex, BodyIndex>;
+
+BodyIndices ordered(const BodyPair& pair) {
+    return {std::min(pair.body_i, pair.body_j), std::max(pair.body_i, pair.body_j)};
+}
+
+/// A point to be bonded.
+struct FreshBond {
+    PointIndex point, begin, end;  // the point, and the range of points between its two bodies
+    bool alone;                    // whether no point of the pair is bonded yet
+    double overlap;
+};
+
+/// Unbonded points between bodies that `asked`, a sorted list, contains, if their gap is less than `gap`, m.
+std::vector<FreshBond> fresh_bonds(const World& world, const std::vector<BodyIndices>& asked, double gap) {
+    std::vector<FreshBond> fresh;
+    const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (PointIndex begin = 0, end = 0; begin < walls; begin = end) {
+        end = points_between(world, begin).second;
+        const BodyPair& pair = world.points.contact.pairs[begin];
+        if (!std::ranges::binary_search(asked, ordered(pair))) continue;
+        bool alone = true;
+        for (PointIndex k = begin; k < end; ++k) alone = alone && !bonded(world, k);
+        for (PointIndex k = begin; k < end; ++k) {
+            const double overlap = overlap_of(world, k);
+            if (bonded(world, k) || overlap + gap <= 0.0) continue;
+            if (!alone && world.settings.own_shares()) {
+                throw InputError(
+                    fmt::format("bond: found intact bonds on the face between bodies {} and {}, expected a pair "
+                                "that has no bonds, or whose bonds have all broken",
+                                world.bodies.info(pair.body_i).id, world.bodies.info(pair.body_j).id));
+            }
+            fresh.push_back({k, begin, end, alone, overlap});
+        }
+    }
+    return fresh;
+}
+
 }  // namespace
 
 void set_thickness(World& world, double thick) {
@@ -338,53 +376,28 @@ std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double ga
             fmt::format("gap: found {:g} m under {}, expected 0, since the strength of such a bond follows from its "
                         "overlap; bond across gaps with bond.law = {}",
                         gap, name_of(world.settings.bond_law), laws_with(&BondLawFacts::bonds_across_gaps)));
-    const auto ordered = [](BodyIndex i, BodyIndex j) { return std::pair(std::min(i, j), std::max(i, j)); };
-    std::vector<std::pair<BodyIndex, BodyIndex>> asked;
+    std::vector<BodyIndices> asked;
     for (const BodyPair& pair : pairs) {
         if (pair.body_i == pair.body_j)
             throw InputError(
                 fmt::format("bond: found body {} twice, expected two bodies", world.bodies.info(pair.body_i).id));
-        asked.push_back(ordered(pair.body_i, pair.body_j));
+        asked.push_back(ordered(pair));
     }
     std::ranges::sort(asked);
     refresh_neighbours(world);
-    struct Fresh {
-        PointIndex point, begin, end;  // point to be bonded, and the range of points between its two bodies
-        bool alone;                    // whether no point of the pair is bonded yet
-        double overlap;
-    };
-    std::vector<Fresh> fresh;
-    const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
-    for (PointIndex begin = 0, end = 0; begin < walls; begin = end) {
-        end = points_between(world, begin).second;
-        const ContactPoint pair = world.points.contact[begin];
-        if (!std::ranges::binary_search(asked, ordered(pair.body_i, pair.body_j))) continue;
-        bool alone = true;
-        for (PointIndex k = begin; k < end; ++k) alone = alone && !bonded(world, k);
-        for (PointIndex k = begin; k < end; ++k) {
-            const double overlap = overlap_of(world, k);
-            if (bonded(world, k) || overlap + gap <= 0.0) continue;
-            if (!alone && world.settings.own_shares()) {
-                throw InputError(
-                    fmt::format("bond: found intact bonds on the face between bodies {} and {}, expected a pair "
-                                "that has no bonds, or whose bonds have all broken",
-                                world.bodies.info(pair.body_i).id, world.bodies.info(pair.body_j).id));
-            }
-            fresh.push_back({k, begin, end, alone, overlap});
-        }
-    }
+    const std::vector<FreshBond> fresh = fresh_bonds(world, asked, gap);
     if (fresh.empty()) return 0;
     begin_shear_roots(world);
     std::int64_t interfaces = 0;
-    for (const Fresh& one : fresh) {
+    for (const FreshBond& one : fresh) {
         world.points.shear_force[one.point] = 0.0;
         world.points.bond_overlap[one.point] = one.overlap;
         world.points.state[one.point].flags = point_bonded | point_touching;
     }
-    PointIndex last = walls;  // last pair counted, identified by its first point
-    for (const Fresh& one : fresh) {
-        if (one.begin == last) continue;
-        last = one.begin;
+    const FreshBond* last = nullptr;
+    for (const FreshBond& one : fresh) {
+        if (last != nullptr && last->begin == one.begin) continue;  // the pair is counted
+        last = &one;
         interfaces += one.alone ? 1 : 0;
         if (world.settings.own_shares()) share_pair(world, {}, one.begin, one.end);
     }
@@ -395,7 +408,7 @@ std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double ga
     visit_remembered(world.points, [&]<class T>(Array<T>& values, Remembered remembered) {
         if (remembered == Remembered::always || of_shares(remembered) || !keeps(world, remembered)) return;
         values.resize(world.points.size());  // some arrays are empty until the first bonds are made
-        for (const Fresh& one : fresh) values[one.point] = T{};
+        for (const FreshBond& one : fresh) values[one.point] = T{};
     });
     restart_account(world);
     velocities_changed(world);
