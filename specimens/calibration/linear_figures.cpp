@@ -38,6 +38,38 @@ LinearFigures moduli_of_case(ResolvedCase test, PackingStore& packings) {
     return found;
 }
 
+/// A single plan for all tests, so that packings get the same seeds as in the campaign.
+Plan plan_of(const LinearRequest& request, std::span<const double> values) {
+    const Rock& rock = *request.rock;
+    Plan plan;
+    plan.file = rock.file;
+    plan.tests = rock.tests;
+    plan.own_seeds = false;
+    plan.packings = rock.fit;
+    for (const std::size_t test : request.tests) plan.points.push_back({test, rock.settings(values), {}, {}, 1});
+    judge_points(plan);
+    return plan;
+}
+
+/// A worker's answer. @param solve returns moduli @param said returns the text for the reason of a failure
+std::string answer_of(const auto& solve, const auto& said) {
+    const auto answer = [&](char kind, const char* why) { return kind + said(why); };
+    try {
+        const LinearFigures moduli = solve();
+        return solved + std::string(reinterpret_cast<const char*>(moduli.data()), sizeof moduli);
+    } catch (const OutputError& error) {
+        return answer(unwritten_file, error.what());
+    } catch (const UnreadableFile& error) {
+        return answer(failed_system, error.what());
+    } catch (const InputError& error) {
+        return answer(refused_case, error.what());
+    } catch (const std::bad_alloc&) {
+        return answer(failed_system, no_memory);
+    } catch (const std::exception& error) {
+        return answer(failed_system, error.what());
+    }
+}
+
 /// Means for each test over the packings that have the result. A mean is NaN if fewer than half of the packings have
 /// it, as for the results of loaded tests. @param found  moduli by packing, then by test @param fit  number of packings
 std::vector<std::vector<double>> means_of(const std::vector<LinearFigures>& found, std::size_t tests,
@@ -79,14 +111,7 @@ bool is_elastic_key(std::string_view key) {
 
 std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& request, std::span<const double> values) {
     const Rock& rock = *request.rock;
-    // A single plan for all tests, so that packings get the same seeds as in the campaign.
-    Plan plan;
-    plan.file = rock.file;
-    plan.tests = rock.tests;
-    plan.own_seeds = false;
-    plan.packings = rock.fit;
-    for (const std::size_t test : request.tests) plan.points.push_back({test, rock.settings(values), {}, {}, 1});
-    judge_points(plan);
+    const Plan plan = plan_of(request, values);
     const std::size_t count = static_cast<std::size_t>(rock.fit) * request.tests.size();
     LinearFigures none{};
     none.fill(std::nan(""));
@@ -105,21 +130,8 @@ std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& reques
     CrewWork crew;
     crew.work = [&](std::size_t piece) {
         const PlanRow row = row_of(piece);
-        const auto answer = [&](char kind, const char* why) { return kind + told(row, why); };
-        try {
-            const LinearFigures moduli = moduli_of_case(plan.test_of(row), packings);
-            return solved + std::string(reinterpret_cast<const char*>(moduli.data()), sizeof moduli);
-        } catch (const OutputError& error) {
-            return answer(unwritten_file, error.what());
-        } catch (const UnreadableFile& error) {
-            return answer(failed_system, error.what());
-        } catch (const InputError& error) {
-            return answer(refused_case, error.what());
-        } catch (const std::bad_alloc&) {
-            return answer(failed_system, no_memory);
-        } catch (const std::exception& error) {
-            return answer(failed_system, error.what());
-        }
+        return answer_of([&] { return moduli_of_case(plan.test_of(row), packings); },
+                         [&](const char* why) { return told(row, why); });
     };
     crew.next = [&](std::optional<std::size_t>) { return next < count ? std::optional(next++) : std::nullopt; };
     crew.ended = [&](std::size_t piece, const PieceEnd& end) {

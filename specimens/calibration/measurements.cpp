@@ -24,6 +24,40 @@ double number_in(const std::vector<LedgerCell>& row, std::size_t column) {
     return number != nullptr ? *number : std::nan("");
 }
 
+/// Columns of a table of results that targets need.
+struct TargetColumns {
+    std::size_t failed, state, pressure;
+    std::vector<std::size_t> figures, divisors;  // by target; a divisor is the denominator of a ratio
+};
+
+TargetColumns columns_of(const LedgerTable& results, const std::vector<Target>& targets) {
+    const auto column = [&](const std::string& name) {
+        return static_cast<std::size_t>(std::ranges::find(results.columns, name) - results.columns.begin());
+    };
+    TargetColumns all{column("failed"), column("state"), column("confining_pressure"), {}, {}};
+    for (const Target& target : targets) {
+        all.figures.push_back(column(target.of_law() ? "peak_stress" : target.figure));
+        all.divisors.push_back(target.over.empty() ? no_column : column(target.over));
+    }
+    return all;
+}
+
+/// Whether a target has no figure in a test without a peak. @param value what the test states
+bool needs_peak(const Target& target, double value) {
+    if (refers_to_peak(target.figure) || refers_to_peak(target.over)) return true;
+    return !std::isfinite(value) && (target.figure.starts_with("peak_") || target.over.starts_with("peak_"));
+}
+
+/// Error for a target without a figure in any test. @param done whether its test was done
+InputError no_figure(const Target& target, const std::vector<PlannedTest>& tests, bool done,
+                     const std::filesystem::path& folder) {
+    return InputError(
+        fmt::format("{}: found no {} in any test of {}{}, expected a number; see `crackle campaign show {} --wrong`",
+                    target.where, target.quantity(), target.source(tests),
+                    done ? " (did any specimen fail before loading.max_axial_strain?)" : ", none of which finished",
+                    folder.string()));
+}
+
 }  // namespace
 
 Measurements::Measurements(const Rock& rock, Keep keep, CampaignOptions options, CampaignHooks hooks)
@@ -82,17 +116,7 @@ void Measurements::measure(const std::vector<std::vector<double>>& points, Packi
 void Measurements::read(const Plan& plan) {
     const CampaignLedger ledger = CampaignLedger::read(ledger_file(options_.folder));
     const LedgerTable results = ledger.results();
-    const auto column = [&](const std::string& name) {
-        return static_cast<std::size_t>(std::find(results.columns.begin(), results.columns.end(), name) -
-                                        results.columns.begin());
-    };
-    const std::size_t failed = column("failed"), state = column("state");
-    std::vector<std::size_t> columns, divisors;  // columns of the targets' results, and of the denominators of ratios
-    for (const Target& target : rock_.targets) {
-        columns.push_back(target.of_law() ? column("peak_stress") : column(target.figure));
-        divisors.push_back(target.over.empty() ? no_column : column(target.over));
-    }
-    const std::size_t pressure = column("confining_pressure");
+    const auto [failed, state, pressure, columns, divisors] = columns_of(results, rock_.targets);
     // Strengths to which the law of a target is fitted: by point and packing, then by target.
     std::map<std::pair<std::size_t, std::int64_t>, std::map<std::size_t, std::vector<StrengthPoint>>> strengths;
     for (auto& [place, figures] : known_) figures.assign(rock_.targets.size(), std::nan(""));
@@ -124,9 +148,7 @@ void Measurements::read(const Plan& plan) {
             if (target.test != test) continue;
             if (divisors[t] != no_column) value /= number_in(row, divisors[t]);
             any[t] = any[t] || std::isfinite(value);
-            const bool at_peak = refers_to_peak(target.figure) || refers_to_peak(target.over);
-            const bool of_peak = target.figure.starts_with("peak_") || target.over.starts_with("peak_");
-            if (peakless && (at_peak || (of_peak && !std::isfinite(value))))
+            if (peakless && needs_peak(target, value))
                 peakless_[place].insert(t);
             else
                 figures[t] = value;
@@ -142,16 +164,8 @@ void Measurements::read(const Plan& plan) {
             any[t] = true;
         }
     }
-    for (std::size_t t = 0; t < rock_.targets.size(); ++t) {
-        const Target& target = rock_.targets[t];
-        if (any[t]) continue;
-        throw InputError(fmt::format(
-            "{}: found no {} in any test of {}{}, expected a number; see `crackle campaign show {} --wrong`",
-            target.where, target.quantity(), target.source(rock_.tests),
-            done[target.test] ? " (did any specimen fail before loading.max_axial_strain?)"
-                              : ", none of which finished",
-            options_.folder.string()));
-    }
+    for (std::size_t t = 0; t < rock_.targets.size(); ++t)
+        if (!any[t]) throw no_figure(rock_.targets[t], rock_.tests, done[rock_.targets[t].test], options_.folder);
     const LedgerCounts counts = ledger.counts();
     tests_ = counts.tests;
     processor_seconds_ = counts.processor_seconds;

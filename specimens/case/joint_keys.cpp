@@ -12,7 +12,7 @@ namespace {
 
 /// @param list  a function that returns the list of tables in a case whose entries contain JointKeys
 template <class List>
-void add_mechanics(std::vector<Parameter>& all, const char* table, List list) {
+std::vector<Parameter> mechanics_in(const char* table, List list) {
     using Keys = TestCase::JointKeys;
     using namespace declaring;
     const auto key = [&](auto member, const char* name, const char* unit, const char* sentence) {
@@ -21,69 +21,64 @@ void add_mechanics(std::vector<Parameter>& all, const char* table, List list) {
         };
         return With{declare(table, name, unit, reach_in, sentence)};
     };
-    all.push_back(key(&Keys::bonded, "bonded", "",
-                      "Whether bonds hold the joint's faces together. false: the joint is open, so its faces press and "
-                      "slide from the start. true if not given."));
-    all.push_back(
+    const auto angle = [&](auto member, const char* name, const char* sentence) {
+        return key(member, name, "deg", sentence).at_least(0).below(90);
+    };
+    return {
+        key(&Keys::bonded, "bonded", "",
+            "Whether bonds hold the joint's faces together. false: the joint is open, so its faces press and "
+            "slide from the start. true if not given."),
         key(&Keys::strength_factor, "strength_factor", "",
             "Factor on the rock's tensile strength and cohesion; 1 if not given. Mechanics of joints need bond.law = "
             "\"coulomb\" and material.units = \"area\"; keys that are not given have the rock's values.")
             .at_least(0)
-            .at_most(1e6));
-    all.push_back(key(&Keys::tensile_strength, "tensile_strength", "Pa",
-                      "Tensile strength of the joint's bonds, in place of strength_factor times the rock's; with 0 a "
-                      "bond breaks as soon as it is pulled.")
-                      .at_least(0));
-    all.push_back(key(&Keys::cohesion, "cohesion", "Pa",
-                      "Cohesion of the joint's bonds, in place of strength_factor times the rock's; at least "
-                      "tan(friction_angle) times the tensile strength.")
-                      .at_least(0));
-    all.push_back(key(&Keys::friction_angle, "friction_angle", "deg",
-                      "Friction angle of the joint's bonds, and of its faces without bonds if residual_friction_angle "
-                      "is not given.")
-                      .at_least(0)
-                      .below(90));
-    all.push_back(key(&Keys::residual_friction_angle, "residual_friction_angle", "deg",
-                      "Friction angle of the joint's faces after its bonds have broken; at most friction_angle.")
-                      .at_least(0)
-                      .below(90));
-    all.push_back(key(&Keys::normal_stiffness, "normal_stiffness", "Pa/m",
-                      "K_n, stress per closure, in series with the stiffness of the faces: 1/k = 1/k_face + 1/(K_n L). "
-                      "Infinite if not given.")
-                      .above(0));
-    all.push_back(key(&Keys::shear_stiffness, "shear_stiffness", "Pa/m",
-                      "K_s, shear stress per slip before sliding, in series with the shear stiffness of the faces. "
-                      "Infinite if not given.")
-                      .above(0));
-    all.push_back(key(&Keys::dilation_angle, "dilation_angle", "deg",
-                      "Sliding faces open by tan(dilation_angle) times their slip, whatever its sign; at most the "
-                      "friction angle at which they slide.")
-                      .at_least(0)
-                      .below(90));
-    all.push_back(key(&Keys::dilation_slip, "dilation_slip", "m",
-                      "Slip after which sliding faces open no farther; no limit if not given.")
-                      .above(0));
-    all.push_back(key(&Keys::aperture, "aperture", "m",
-                      "Closure at which the faces of an open joint begin to carry force; at most the gap of the mesh, "
-                      "or the radius of the smallest circle.")
-                      .above(0));
-    all.push_back(
+            .at_most(1e6),
+        key(&Keys::tensile_strength, "tensile_strength", "Pa",
+            "Tensile strength of the joint's bonds, in place of strength_factor times the rock's; with 0 a "
+            "bond breaks as soon as it is pulled.")
+            .at_least(0),
+        key(&Keys::cohesion, "cohesion", "Pa",
+            "Cohesion of the joint's bonds, in place of strength_factor times the rock's; at least "
+            "tan(friction_angle) times the tensile strength.")
+            .at_least(0),
+        angle(&Keys::friction_angle, "friction_angle",
+              "Friction angle of the joint's bonds, and of its faces without bonds if residual_friction_angle "
+              "is not given."),
+        angle(&Keys::residual_friction_angle, "residual_friction_angle",
+              "Friction angle of the joint's faces after its bonds have broken; at most friction_angle."),
+        key(&Keys::normal_stiffness, "normal_stiffness", "Pa/m",
+            "K_n, stress per closure, in series with the stiffness of the faces: 1/k = 1/k_face + 1/(K_n L). "
+            "Infinite if not given.")
+            .above(0),
+        key(&Keys::shear_stiffness, "shear_stiffness", "Pa/m",
+            "K_s, shear stress per slip before sliding, in series with the shear stiffness of the faces. "
+            "Infinite if not given.")
+            .above(0),
+        angle(&Keys::dilation_angle, "dilation_angle",
+              "Sliding faces open by tan(dilation_angle) times their slip, whatever its sign; at most the "
+              "friction angle at which they slide."),
+        key(&Keys::dilation_slip, "dilation_slip", "m",
+            "Slip after which sliding faces open no farther; no limit if not given.")
+            .above(0),
+        key(&Keys::aperture, "aperture", "m",
+            "Closure at which the faces of an open joint begin to carry force; at most the gap of the mesh, or "
+            "the radius of the smallest circle.")
+            .above(0),
         key(&Keys::residual_cohesion, "residual_cohesion", "Pa",
             "Cohesion of the joint's faces after their failure in shear, with bond.law = \"face\"; the rock's "
             "if not given, but at most the joint's cohesion.")
-            .at_least(0));
-    all.push_back(key(&Keys::softening_slip, "softening_slip", "m",
-                      "Slip over which the cohesion of the joint's faces falls to residual_cohesion; the rock's if not "
-                      "given.")
-                      .at_least(0));
+            .at_least(0),
+        key(&Keys::softening_slip, "softening_slip", "m",
+            "Slip over which the cohesion of the joint's faces falls to residual_cohesion; the rock's if not given.")
+            .at_least(0)};
 }
 
 }  // namespace
 
 std::vector<Parameter> joint_mechanics_keys() {
-    std::vector<Parameter> all;
-    add_mechanics(all, "joint_set", [](TestCase& c) -> decltype(auto) { return (c.joint_set); });
-    add_mechanics(all, "trace", [](TestCase& c) -> decltype(auto) { return (c.trace); });
+    std::vector<Parameter> all = mechanics_in("joint_set", [](TestCase& c) -> decltype(auto) { return (c.joint_set); });
+    const std::vector<Parameter> own = mechanics_in("trace", [](TestCase& c) -> decltype(auto) { return (c.trace); });
+    all.insert(all.end(), own.begin(), own.end());
     return all;
 }
 

@@ -21,6 +21,18 @@ void add_contact(std::vector<ParticleStress>& sums, const ContactPoint& point, c
     add(sums[point.body_j], -on_i, {g.ajx, g.ajy});
 }
 
+/// Divides the sums of contributions by the areas of the bodies. Platens have no stress.
+void divide_by_areas(std::vector<ParticleStress>& sums, const World& world, const PlacedApparatus& apparatus) {
+    for (BodyIndex b = 0; b < sums.size(); ++b) {
+        if (apparatus.is_platen(b)) {
+            sums[b] = {};
+            continue;
+        }
+        const double share = 1.0 / area_of(world, b);
+        sums[b] = {share * sums[b].xx, share * sums[b].yy, share * sums[b].xy};
+    }
+}
+
 }  // namespace
 
 double area_of(const World& world, BodyIndex b) {
@@ -80,15 +92,7 @@ FrameForces find_forces(const PlacedFrame& placed) {
             add.template operator()<K>(contact.point, 0.0, share, contact.shear_force);
         }
     });
-    for (BodyIndex b = 0; b < forces.stress.size(); ++b) {
-        ParticleStress& stress = forces.stress[b];
-        if (setup.apparatus.is_platen(b)) {
-            stress = {};
-            continue;
-        }
-        const double share = 1.0 / area_of(world, b);
-        stress = {share * stress.xx, share * stress.yy, share * stress.xy};
-    }
+    divide_by_areas(forces.stress, world, setup.apparatus);
     return forces;
 }
 

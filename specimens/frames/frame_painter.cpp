@@ -267,16 +267,11 @@ void FramePainter::write_contact_cells(std::ostream& out, const LooseContacts& l
     });
 }
 
-void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, const FrameForces& forces,
-                                  std::span<const Crack> cracks) const {
+/// Writes the points of contacts. With circles, they are all centres, followed by one point per contact. With polygons,
+/// they are two points per contact.
+void FramePainter::write_contact_points(std::ostream& out, const PlacedFrame& placed, std::size_t count) const {
     const Frame& frame = placed.frame();
-    const auto& loose = frame.loose.contacts;
-    const std::size_t contacts = setup_.bonds.points.size() + loose.size();
-    // With circles, the points are all centres, followed by one point per contact. With polygons, they are two points
-    // per contact.
-    const VtpCounts counts{setup_.specimen.polygons ? 2 * contacts : centres_ + contacts, contacts, 0};
-    write_head(out, frame, counts);
-    write_points(out, precision_, counts.points, [&](const auto& add) {
+    write_points(out, precision_, count, [&](const auto& add) {
         for (BodyIndex b = 0; b < frame.bodies.size() && !setup_.specimen.polygons; ++b) {
             if (is_circles(world_, b)) add({frame.bodies[b].x, frame.bodies[b].y});
         }
@@ -298,7 +293,7 @@ void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, 
         const BodyView bodies(world_);
         visit_kinds(frame.loose.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
             for (PointIndex k = begin; k < end; ++k) {
-                const ContactPoint& point = loose[k].point;
+                const ContactPoint& point = frame.loose.contacts[k].point;
                 std::uint32_t feature = point.feature_j;
                 const BodyState i = placed.body(point.body_i), j = placed.body(point.body_j);
                 const Facing now = facing_at(setup_, K, i, contact_geometry<K>(bodies, point, i, j, feature));
@@ -306,6 +301,16 @@ void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, 
             }
         });
     });
+}
+
+void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, const FrameForces& forces,
+                                  std::span<const Crack> cracks) const {
+    const Frame& frame = placed.frame();
+    const auto& loose = frame.loose.contacts;
+    const std::size_t contacts = setup_.bonds.points.size() + loose.size();
+    const VtpCounts counts{setup_.specimen.polygons ? 2 * contacts : centres_ + contacts, contacts, 0};
+    write_head(out, frame, counts);
+    write_contact_points(out, placed, counts.points);
     loose.empty() && !bond_cells_.empty() ? void(out << bond_cells_) : write_contact_cells(out, frame.loose);
 
     write_array<double>(out, of_contacts("normal_force"), contacts, [&](const auto& add) {

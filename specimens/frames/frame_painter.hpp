@@ -66,6 +66,7 @@ class FramePainter {
     template <class Visit>
     void visit_contacts(const LooseContacts& loose, const Visit& visit) const;
     void write_particle_cells(std::ostream& out) const;
+    void write_contact_points(std::ostream& out, const PlacedFrame& placed, std::size_t count) const;
     void write_contact_cells(std::ostream& out, const LooseContacts& loose) const;
 
     const World& world_;

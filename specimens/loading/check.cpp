@@ -170,6 +170,31 @@ void warn_of_disc(TestCheck& check) {
                                         : "check `validity` in the summary after the test"));
 }
 
+/// Whether strengths are out of proportion to the stiffness. Other excessive values are then consequences, and are not
+/// reported.
+bool out_of_proportion(const TestCheck& check) {
+    return check.strength && check.test.setup.bonds.facts().strengths_are_given &&
+           check.strength->strain > largest_strain_of_a_rock;
+}
+
+void warn_of_strength(TestCheck& check) {
+    const ResolvedCase& test = check.test.description;
+    if (out_of_proportion(check)) {
+        check.warnings.push_back(fmt::format(
+            "the estimated strength would be reached at a strain of {:.2g}, far beyond the failure strain of any rock: "
+            "strengths are {}",
+            check.strength->strain,
+            test.area_units() ? "in Pa, and so is contact_modulus; check their orders of magnitude"
+                              : "in N per point here; in Pa they need units = \"area\" with contact_modulus and "
+                                "stiffness_ratio"));
+    } else if (check.strength && check.strength->strain > test.loading.max_axial_strain) {
+        check.warnings.push_back(fmt::format(
+            "{} = {:.3g} is less than the strain of the estimated strength, {:.3g}: the test may end before "
+            "the specimen fails",
+            test.at(CaseKey::loading_max_axial_strain), test.loading.max_axial_strain, check.strength->strain));
+    }
+}
+
 void warn(TestCheck& check) {
     const TestSetup& setup = check.test.setup;
     const ResolvedCase& test = check.test.description;
@@ -187,11 +212,7 @@ void warn(TestCheck& check) {
                         "reduce the excess of bond.thick over it",
                         setup.bonds.mean_overlap, setup.bonds.mean_overlap / setup.bonds.thick, setup.bonds.thick));
     }
-    // If strengths are out of proportion to the stiffness, other excessive values are consequences, so only the
-    // disproportion is reported.
-    const bool out_of_proportion =
-        check.strength && setup.bonds.facts().strengths_are_given && check.strength->strain > largest_strain_of_a_rock;
-    if (!out_of_proportion && check.corner_distance > 0.0 &&
+    if (!out_of_proportion(check) && check.corner_distance > 0.0 &&
         check.corner_closing > noticed_closing_share * check.corner_distance) {
         check.warnings.push_back(fmt::format(
             "at the estimated strength a platen presses a corner in by {:.3g} m, {:.2g} of its distance from the "
@@ -217,20 +238,7 @@ void warn(TestCheck& check) {
                         "strain or a lower rate",
                         test.at(CaseKey::loading_max_axial_strain), test.loading.max_axial_strain, check.to_end.steps));
     }
-    if (out_of_proportion) {
-        check.warnings.push_back(fmt::format(
-            "the estimated strength would be reached at a strain of {:.2g}, far beyond the failure strain of any rock: "
-            "strengths are {}",
-            check.strength->strain,
-            test.area_units() ? "in Pa, and so is contact_modulus; check their orders of magnitude"
-                              : "in N per point here; in Pa they need units = \"area\" with contact_modulus and "
-                                "stiffness_ratio"));
-    } else if (check.strength && check.strength->strain > test.loading.max_axial_strain) {
-        check.warnings.push_back(fmt::format(
-            "{} = {:.3g} is less than the strain of the estimated strength, {:.3g}: the test may end before "
-            "the specimen fails",
-            test.at(CaseKey::loading_max_axial_strain), test.loading.max_axial_strain, check.strength->strain));
-    }
+    warn_of_strength(check);
 }
 
 }  // namespace

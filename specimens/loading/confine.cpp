@@ -78,28 +78,7 @@ class Confinement {
             add_membrane(world_, pressure_, 0.5 * particle_, test_.setup.apparatus.bottom, test_.setup.apparatus.top);
             compute_forces(world_);
         }
-        Imbalance left = imbalance();
-        double least = missing(left);
-        const auto or_refuse = [&](const auto& move) {
-            try {
-                move();
-            } catch (const UnstableRun& error) {
-                refuse(left, fmt::format(" ({})", error.what()));
-            }
-        };
-        for (int round = 0, in_vain = 0; !settled(left); ++round, ++in_vain) {
-            if (missing(left) <= most_left_by_rounds * least) {
-                least = missing(left);
-                in_vain = 0;
-            }
-            if (round == most_rounds || in_vain == most_rounds_in_vain) refuse(left, "");
-            or_refuse([&] { approach(left); });
-            const double before = left.force;
-            left = imbalance();
-            if (settled(left) || left.force < most_left_by_a_solution * before) continue;
-            or_refuse([&] { relax(); });
-            left = imbalance();
-        }
+        settle();
         world_.stepping.steps = step;
         world_.stepping.time = time;
         world_.stepping.kick_share = kick_share;
@@ -142,6 +121,32 @@ class Confinement {
         for (const BodyIndex b :
              find_free_motions(bonded_, bodies_of_parts(own_.apparatus), closed_points(own_.apparatus)).bodies)
             held_[b] = false;
+    }
+
+    /// Moves the bodies until all forces are in equilibrium.
+    void settle() {
+        Imbalance left = imbalance();
+        double least = missing(left);
+        const auto or_refuse = [&](const auto& move) {
+            try {
+                move();
+            } catch (const UnstableRun& error) {
+                refuse(left, fmt::format(" ({})", error.what()));
+            }
+        };
+        for (int round = 0, in_vain = 0; !settled(left); ++round, ++in_vain) {
+            if (missing(left) <= most_left_by_rounds * least) {
+                least = missing(left);
+                in_vain = 0;
+            }
+            if (round == most_rounds || in_vain == most_rounds_in_vain) refuse(left, "");
+            or_refuse([&] { approach(left); });
+            const double before = left.force;
+            left = imbalance();
+            if (settled(left) || left.force < most_left_by_a_solution * before) continue;
+            or_refuse([&] { relax(); });
+            left = imbalance();
+        }
     }
 
     /// Force along x with which a wall is driven, N.
