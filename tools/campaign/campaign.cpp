@@ -69,6 +69,39 @@ void print_outcome(const CampaignOutcome& outcome, const std::string& folder) {
     print_out("  results in {}: crackle campaign show {}\n", outcome.ledger.string(), folder);
 }
 
+/// Estimates the cost of a plan, and runs nothing. @param folder the campaign's folder, or empty @return exit code
+int estimate(const Plan& plan, const std::filesystem::path& folder, int workers, Messages& messages) {
+    TestHooks checking;
+    checking.interrupted = interrupted;
+    if (messages.progress().shown())
+        checking.working = [&](const std::string& what) {
+            messages.progress().draw({.detail = "estimating: " + what});
+        };
+    const std::filesystem::path file = ledger_file(folder);
+    const bool known = !folder.empty() && is_file(file);
+    const std::optional<CampaignLedger> ledger = known ? std::optional(CampaignLedger::read(file)) : std::nullopt;
+    const PlanEstimate found = estimate_plan(plan, ledger ? &*ledger : nullptr, checking);
+    messages.make_room();
+    print_estimate(plan, found, workers);
+    return exit_done;
+}
+
+CampaignHooks hooks_for(Messages& messages) {
+    CampaignHooks hooks;
+    hooks.interrupted = interrupted;
+    hooks.told = [&messages](const std::string& text) { messages.notice(text); };
+    if (!messages.progress().shown()) return hooks;
+    hooks.progress = [&messages](const CampaignProgress& p) {
+        messages.progress().draw(
+            {.share = static_cast<double>(p.tests - p.left) / static_cast<double>(std::max<std::int64_t>(1, p.tests)),
+             .rate = p.tests_per_second,
+             .unit = "tests",
+             .seconds_left = p.seconds_left,
+             .detail = fmt::format("{} of {} done, {} without a result", p.done, p.tests, p.gone_wrong)});
+    };
+    return hooks;
+}
+
 }  // namespace
 
 int exit_code_of(std::int64_t gone_wrong, std::int64_t failures) {
@@ -128,45 +161,16 @@ int campaign(const Invocation& given) {
     const Plan plan = read_plan(given_or_shipped(given.operands.front()), values.contains("verify"));
     const std::filesystem::path folder =
         values.contains("output") ? output_folder(values["output"].as<std::string>()) : std::filesystem::path();
-    TestHooks checking;
-    checking.interrupted = interrupted;
-    if (messages.progress().shown())
-        checking.working = [&](const std::string& what) {
-            messages.progress().draw({.detail = "estimating: " + what});
-        };
     try {
-        if (dry) {
-            const std::filesystem::path file = ledger_file(folder);
-            const bool known = !folder.empty() && is_file(file);
-            const std::optional<CampaignLedger> ledger =
-                known ? std::optional(CampaignLedger::read(file)) : std::nullopt;
-            const PlanEstimate estimate = estimate_plan(plan, ledger ? &*ledger : nullptr, checking);
-            messages.make_room();
-            print_estimate(plan, estimate, workers);
-            return exit_done;
-        }
+        if (dry) return estimate(plan, folder, workers, messages);
         CampaignOptions options;
         options.folder = folder;
         options.workers = workers;
         if (values.contains("shard")) options.shard = shard_of(values["shard"].as<std::string>());
         options.retry = values.contains("retry");
         options.endless = values.contains("long");
-        CampaignHooks hooks;
-        hooks.interrupted = interrupted;
-        hooks.told = [&](const std::string& text) { messages.notice(text); };
-        if (messages.progress().shown()) {
-            hooks.progress = [&](const CampaignProgress& p) {
-                messages.progress().draw(
-                    {.share = static_cast<double>(p.tests - p.left) /
-                              static_cast<double>(std::max<std::int64_t>(1, p.tests)),
-                     .rate = p.tests_per_second,
-                     .unit = "tests",
-                     .seconds_left = p.seconds_left,
-                     .detail = fmt::format("{} of {} done, {} without a result", p.done, p.tests, p.gone_wrong)});
-            };
-        }
         messages.stage(fmt::format("{}, {}", size_of(plan), counted(std::int64_t{workers}, "worker")));
-        const CampaignOutcome outcome = run_campaign(plan, options, hooks);
+        const CampaignOutcome outcome = run_campaign(plan, options, hooks_for(messages));
         messages.make_room();
         if (!messages.quiet()) print_outcome(outcome, folder);
         if (outcome.progress.failures > 0) {

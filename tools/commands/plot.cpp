@@ -80,6 +80,24 @@ Recording read_whole(const fs::path& folder) {
     return read_test_recording(folder, std::numeric_limits<std::size_t>::max());
 }
 
+Words words_of(const po::variables_map& given, const char* option, const Words& otherwise = {}) {
+    return given.contains(option) ? given[option].as<Words>() : otherwise;
+}
+
+bool has_word(const Words& words, const std::string& word) { return std::ranges::find(words, word) != words.end(); }
+
+/// Checks that there is one label per result. @param one "test" or "run"
+void expect_labels(const Words& labels, std::size_t results, const char* one) {
+    if (labels.size() != results)
+        throw InputError(fmt::format("plot: --labels: found {}, expected {}, one per {}",
+                                     counted(labels.size(), "name"), results, one));
+}
+
+void write_figure(const fs::path& file, const std::vector<Panel>& panels, const Look& look, const Messages& messages) {
+    replace_file(file, figure(panels, look.title, look.width, look.format, look.sheet));
+    if (!messages.quiet()) print_text(file.string() + '\n');
+}
+
 std::string strain_text(double strain) {
     return strain == 0.0 ? "ε = 0" : fmt::format("ε = {:.3g}·10⁻³", 1e3 * strain);
 }
@@ -89,9 +107,7 @@ std::size_t frame_at(const Recording& test, const std::string& at) {
     if (test.frames.empty())
         throw InputError(fmt::format(
             "plot: {}: found no frames, expected a test with frames (output.frames in its case)", test.name));
-    const auto has_role = [&](const FrameHead& head) {
-        return std::find(head.roles.begin(), head.roles.end(), at) != head.roles.end();
-    };
+    const auto has_role = [&](const FrameHead& head) { return has_word(head.roles, at); };
     if (const auto found = std::find_if(test.frames.begin(), test.frames.end(), has_role); found != test.frames.end())
         return static_cast<std::size_t>(found - test.frames.begin());
     double strain = 0.0;
@@ -168,7 +184,7 @@ void add_emission_panels(std::vector<Panel>& panels, const std::vector<Recording
 /// Checks the values of --what. @param of end of the message, which names the kind of input; may be empty
 void expect_words(const Words& what, const Words& known, const char* of) {
     for (const std::string& word : what) {
-        if (std::ranges::find(known, word) != known.end()) continue;
+        if (has_word(known, word)) continue;
         throw InputError(fmt::format("plot: --what: found '{}', expected {} or {}{}", word,
                                      fmt::join(std::span(known).first(known.size() - 1), ", "), known.back(), of));
     }
@@ -176,49 +192,38 @@ void expect_words(const Words& what, const Words& known, const char* of) {
 
 /// Refuses options that refer to parts that are not drawn.
 void expect_parts_of(const po::variables_map& given, const Words& what) {
-    const auto drawn = [&](const char* part) { return std::ranges::find(what, part) != what.end(); };
     const auto expect = [&](const char* option, bool used, const char* input) {
         if (!used && given.contains(option) && !given[option].defaulted())
             throw without_effect("crackle plot", fmt::format("--{}", option), input);
     };
-    expect("at", drawn("specimen"), "a figure without specimens");
-    expect("magnify", drawn("specimen"), "a figure without specimens");
+    expect("at", has_word(what, "specimen"), "a figure without specimens");
+    expect("magnify", has_word(what, "specimen"), "a figure without specimens");
 }
 
 void plot_tests(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
     expect_options(given, "folders of tests", {"what", "at", "magnify", "labels"});
     const fs::path output = output_file(given["output"].as<std::string>(), given.contains("force"));
-    Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
+    Words what = words_of(given, "what", {"all"});
     expect_words(what, {"curve", "ae", "emission", "strain", "specimen", "all"}, "");
     std::vector<Recording> tests;
     for (const std::string& folder : folders) {
         tests.push_back(read_whole(folder));
         report_recording(messages, tests.back());
     }
-    if (std::find(what.begin(), what.end(), "all") != what.end()) what = everything_of(tests);
-    if (std::ranges::find(what, "strain") != what.end()) {
-        for (const Recording& test : tests) {
-            if (has_area_strain(test.results)) continue;
-            throw InputError(
-                fmt::format("plot: {}: found no lateral strain, expected a specimen with particles along its sides; "
-                            "leave strain out of --what",
-                            test.name));
-        }
-    }
-    if (std::ranges::find(what, "emission") != what.end()) {
-        for (const Recording& test : tests) {
-            if (has_emission(test.results)) continue;
-            throw InputError(
-                fmt::format("plot: {}: found no ae.csv, expected one; it requires output.emission in the case, and a "
-                            "linear solution (see notices of summary.json); leave emission out of --what",
-                            test.name));
-        }
-    }
+    if (has_word(what, "all")) what = everything_of(tests);
+    const auto expect_results = [&](const char* part, const auto& has, const char* found) {
+        if (!has_word(what, part)) return;
+        for (const Recording& test : tests)
+            if (!has(test.results))
+                throw InputError(fmt::format("plot: {}: found no {}; leave {} out of --what", test.name, found, part));
+    };
+    expect_results("strain", has_area_strain, "lateral strain, expected a specimen with particles along its sides");
+    expect_results("emission", has_emission,
+                   "ae.csv, expected one; it requires output.emission in the case, and a linear solution (see notices "
+                   "of summary.json)");
     expect_parts_of(given, what);
     Words labels = given.contains("labels") ? given["labels"].as<Words>() : default_labels(tests);
-    if (labels.size() != tests.size())
-        throw InputError(fmt::format("plot: --labels: found {}, expected {}, one per test",
-                                     counted(labels.size(), "name"), tests.size()));
+    expect_labels(labels, tests.size(), "test");
     std::vector<PlottedTest> plotted;
     for (std::size_t k = 0; k < tests.size(); ++k) plotted.push_back({&tests[k].results, labels[k], k, false});
 
@@ -239,8 +244,7 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
     if (tests.size() == 1)
         panels.front().title =
             given.contains("labels") ? labels.front() : tests.front().results.summary.about.title.value_or("");
-    replace_file(output, figure(panels, look.title, look.width, look.format, look.sheet));
-    if (!messages.quiet()) print_text(output.string() + '\n');
+    write_figure(output, panels, look, messages);
 }
 
 bool is_run_of_deck(const fs::path& path) {
@@ -294,48 +298,41 @@ void plot_decks(const po::variables_map& given, const Words& folders, const Look
     Words labels = given.contains("labels") ? given["labels"].as<Words>()
                    : runs.size() > 1        ? distinct_names(runs)
                                             : Words{""};
-    if (labels.size() != runs.size())
-        throw InputError(fmt::format("plot: --labels: found {}, expected {}, one per run",
-                                     counted(labels.size(), "name"), runs.size()));
+    expect_labels(labels, runs.size(), "run");
     std::vector<PlottedDeck> decks;
     for (std::size_t k = 0; k < runs.size(); ++k)
         decks.push_back({&runs[k], labels[k], drawn_bodies(given, runs[k], messages)});
-    const Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
+    const Words what = words_of(given, "what", {"all"});
     const std::vector<DeckWord> words = words_of_decks(what, decks);
     if (given.contains("bodies") && std::ranges::all_of(words, [](DeckWord word) { return word == DeckWord::energy; }))
         throw without_effect("plot", "--bodies", "--what energy");
     std::vector<Panel> panels;
     for (const DeckWord word : words) {
-        const std::vector<Panel> added = deck_panels(word, decks, units, std::ranges::find(what, "all") == what.end());
+        const std::vector<Panel> added = deck_panels(word, decks, units, !has_word(what, "all"));
         panels.insert(panels.end(), added.begin(), added.end());
     }
-    replace_file(output, figure(panels, look.title, look.width, look.format, look.sheet));
-    if (!messages.quiet()) print_text(output.string() + '\n');
+    write_figure(output, panels, look, messages);
 }
 
 /// Draws all diagrams of a campaign, one below the other. @return exit code
 int plot_campaign(const po::variables_map& given, const fs::path& folder, const Look& look, Messages& messages) {
     expect_options(given, "a campaign's folder", {"what", "figure", "test", "measured"});
-    const Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
+    const Words what = words_of(given, "what", {"all"});
     expect_words(what, {"curve", "axes", "scatter", "all"}, " of a campaign");
-    const auto is_drawn = [&](const std::string& part) {
-        return std::ranges::find(what, part) != what.end() || std::ranges::find(what, "all") != what.end();
-    };
+    const auto is_drawn = [&](const std::string& part) { return has_word(what, part) || has_word(what, "all"); };
     if (given.contains("measured") && !is_drawn("curve"))
         throw without_effect("crackle plot", "--measured", "a figure without curves");
     if (given.contains("figure") && !is_drawn("axes") && !is_drawn("scatter"))
         throw without_effect("crackle plot", "--figure", "curves alone");
     const fs::path output = output_file(given["output"].as<std::string>(), given.contains("force"));
-    CampaignRecord record = read_campaign(folder, given.contains("figure") ? given["figure"].as<Words>() : Words{},
-                                          given.contains("test") ? given["test"].as<Words>() : Words{});
+    CampaignRecord record = read_campaign(folder, words_of(given, "figure"), words_of(given, "test"));
     if (given.contains("measured")) add_measured_curve(record, given["measured"].as<std::string>());
     std::vector<Panel> panels;
     for (CampaignFigure& figure : campaign_figures(record))
         if (is_drawn(figure.part)) panels.insert(panels.end(), figure.panels.begin(), figure.panels.end());
     if (panels.empty())
         throw InputError(fmt::format("plot: {}: found nothing to draw, expected figures or curves", folder.string()));
-    replace_file(output, figure(panels, look.title, look.width, look.format, look.sheet));
-    if (!messages.quiet()) print_text(output.string() + '\n');
+    write_figure(output, panels, look, messages);
     const std::string failures = notice_on_failures(record);
     if (failures.empty()) return exit_done;
     messages.notice(failures);
@@ -397,16 +394,10 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
         {28, {loaded("delaunay"), both_curves("delaunay")}},
         {29, {loaded("voronoi"), both_curves("voronoi")}}};
     make_folder(output);
-    for (const auto& [number, panels] : figures) {
-        const fs::path file = file_of(number);
-        replace_file(file, figure(panels, look.title, look.width, look.format, look.sheet));
-        if (!messages.quiet()) print_text(file.string() + '\n');
-    }
+    for (const auto& [number, panels] : figures) write_figure(file_of(number), panels, look, messages);
 }
 
-}  // namespace
-
-CommandLine describe_plot() {
+po::options_description plot_options() {
     po::options_description options;
     options.add_options()("output,o", po::value<std::string>()->value_name("FIGURE"),
                           "figure to write: .svg, .pdf or .png; with --guide a folder")  //
@@ -441,6 +432,12 @@ CommandLine describe_plot() {
         ("measured", po::value<std::string>()->value_name("FILE"),
          "CSV with axial_strain and axial_stress, drawn over the curves of a campaign's test")  //
         ("force", "replace existing figures");
+    return options;
+}
+
+}  // namespace
+
+CommandLine describe_plot() {
     return {
         .synopses = {"crackle plot OUT... -o FIGURE [OPTIONS]", "crackle plot --guide FOLDER -o FOLDER [OPTIONS]"},
         .description =
@@ -450,7 +447,7 @@ CommandLine describe_plot() {
             "figures show bands of curves, distributions, and results against the axes of the plan. For the run of a "
             "deck, they show energies, and displacements, heights, velocities and forces of the bodies listed in "
             "in_bc.dat, as in figures 6, 10, 12 and 14 of DEMseg's guide.",
-        .options = {{"options", options}},
+        .options = {{"options", plot_options()}},
         .operand = "OUT",
         .several_operands = true,
         .choices = {{"what",

@@ -161,6 +161,51 @@ Json run_as_json(const RunEstimate& run) {
     return {{"strain", run.strain}, {"steps", run.steps}, {"seconds", run.seconds}};
 }
 
+Json strength_as_json(const StrengthEstimate& strength) {
+    return {{"stress", strength.stress},
+            {"strain", strength.strain},
+            {"share_broken", strength.share},
+            {"within_factor", strength.factor}};
+}
+
+Json disc_as_json(const DiscOutlook& disc) {
+    const std::optional<bool> valid = disc.can_be_valid();
+    return {{"strength_ratio", disc.strength_ratio},
+            {"within_factor", disc.factor},
+            {"friction_angle", disc.friction_angle},
+            {"needed", disc.needed},
+            {"can_be_valid", valid ? Json(*valid) : Json(nullptr)}};
+}
+
+/// Units and meanings of the keys of a check. @param stress unit of stress
+Json units_of_check(const std::string& stress, bool of_disc) {
+    Json units{
+        {"grains_across", "width over sqrt(width height / particles)"},
+        {"youngs_modulus", stress + ", small strain, all bonds intact and sticking; replaced by nominal_modulus if the "
+                                    "test is not between platens"},
+        {"gauge_modulus", stress + ", with the strain over the axial gauge length"},
+        {"first_slip", "strain; stress in " + stress + "; null if none in the linear solution"},
+        {"first_break", "as first_slip"},
+        {"strength_estimate",
+         "rough estimate: modulus times the strain at which a fraction share_broken of the breakable points has broken "
+         "in the linear solution. within_factor: its largest error, as a factor, in the cases used to calibrate it"},
+        {"time_step", "s"},
+        {"axial_strain_rate", "1/s, at the start"},
+        {"slowest_axial_strain_rate", "1/s, while many bonds break"},
+        {"steps_per_second", "1/s, measured on this machine during the check"},
+        {"run_to_strength",
+         "steps and seconds at the initial rate; null if the estimated strength is not reached below max_axial_strain"},
+        {"run_to_max_axial_strain", "steps and seconds if the specimen does not fail before"},
+        {"specimen_seconds", "s, time to make the specimen"},
+        {"memory", "bytes, peak memory of this check"}};
+    if (of_disc)
+        units["valid_disc"] =
+            "strength_ratio: ratio of the rock's strength to its tensile strength, both estimated by the linear "
+            "solution of the whole packing. needed: 3 + (1 + sin φ)/(1 - sin φ) with φ = friction_angle in degrees, "
+            "the mean over the bonds. can_be_valid: null if the estimate is too rough to decide";
+    return units;
+}
+
 std::string loss_text(const std::optional<FirstLoss>& loss, const char* unit) {
     if (!loss) return "none in the linear solution";
     return fmt::format("{} at strain {:.3e}, bodies {} and {}", spoken_stress(loss->stress, unit), loss->strain,
@@ -296,7 +341,7 @@ std::string check_as_json(const TestCheck& check, int indent) {
               {"gauge_modulus", check.gauge_modulus},
               {"first_slip", loss_as_json(check.first_slip)},
               {"first_break", loss_as_json(check.first_break)},
-              {"strength_estimate", nullptr},
+              {"strength_estimate", check.strength ? strength_as_json(*check.strength) : Json(nullptr)},
               {"time_step", test.world.stepping.time_step},
               {"axial_strain_rate", check.rate},
               {"slowest_axial_strain_rate", check.slowest_rate},
@@ -306,43 +351,8 @@ std::string check_as_json(const TestCheck& check, int indent) {
               {"specimen_seconds", test.specimen_seconds},
               {"memory", check.memory},
               {"warnings", check.warnings}};
-    if (const auto& strength = check.strength)
-        json["strength_estimate"] = {{"stress", strength->stress},
-                                     {"strain", strength->strain},
-                                     {"share_broken", strength->share},
-                                     {"within_factor", strength->factor}};
-    if (const auto& disc = check.disc) {
-        const std::optional<bool> valid = disc->can_be_valid();
-        json["valid_disc"] = {{"strength_ratio", disc->strength_ratio},
-                              {"within_factor", disc->factor},
-                              {"friction_angle", disc->friction_angle},
-                              {"needed", disc->needed},
-                              {"can_be_valid", valid ? Json(*valid) : Json(nullptr)}};
-    }
-    json["units"] = {
-        {"grains_across", "width over sqrt(width height / particles)"},
-        {"youngs_modulus", stress + ", small strain, all bonds intact and sticking; replaced by nominal_modulus if the "
-                                    "test is not between platens"},
-        {"gauge_modulus", stress + ", with the strain over the axial gauge length"},
-        {"first_slip", "strain; stress in " + stress + "; null if none in the linear solution"},
-        {"first_break", "as first_slip"},
-        {"strength_estimate",
-         "rough estimate: modulus times the strain at which a fraction share_broken of the breakable points has broken "
-         "in the linear solution. within_factor: its largest error, as a factor, in the cases used to calibrate it"},
-        {"time_step", "s"},
-        {"axial_strain_rate", "1/s, at the start"},
-        {"slowest_axial_strain_rate", "1/s, while many bonds break"},
-        {"steps_per_second", "1/s, measured on this machine during the check"},
-        {"run_to_strength",
-         "steps and seconds at the initial rate; null if the estimated strength is not reached below max_axial_strain"},
-        {"run_to_max_axial_strain", "steps and seconds if the specimen does not fail before"},
-        {"specimen_seconds", "s, time to make the specimen"},
-        {"memory", "bytes, peak memory of this check"}};
-    if (check.disc)
-        json["units"]["valid_disc"] =
-            "strength_ratio: ratio of the rock's strength to its tensile strength, both estimated by the linear "
-            "solution of the whole packing. needed: 3 + (1 + sin φ)/(1 - sin φ) with φ = friction_angle in degrees, "
-            "the mean over the bonds. can_be_valid: null if the estimate is too rough to decide";
+    if (check.disc) json["valid_disc"] = disc_as_json(*check.disc);
+    json["units"] = units_of_check(stress, check.disc.has_value());
     return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 

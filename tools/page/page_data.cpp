@@ -291,6 +291,37 @@ Json add_curves(PlainBlock& block, const DeckCurves& curves) {
             {"velocities", listed_ids(curves.velocities)}};
 }
 
+/// Summary of a recording, with the sentence of each claim that does not hold.
+Json listed_summary(const Summary& summary) {
+    Json all = json_of(summary);
+    const std::vector<JudgedClaim> claims = summary.validity.validity.value_or(std::vector<JudgedClaim>());
+    for (std::size_t k = 0; k < claims.size(); ++k)
+        if (!claims[k].holds.value_or(true))
+            all["validity"][k]["sentence"] = broken_claim(claims[k].claim.value_or(""), claims[k].found.value_or(""));
+    return all;
+}
+
+/// Adds the quantities of all cells and bonds in some frames.
+void add_fields(CodedBlock& block, const std::vector<RecordedFrame>& frames, double place_quantum) {
+    const auto evenly = [](double quantum) { return [=](const auto&) { return Code{quantum}; }; };
+    const auto by_size = [](double with_growth) {
+        return [=](const auto& rows) { return code_of(rows, with_growth); };
+    };
+    add_field(block, "ux", frames, &RecordedFrame::ux, evenly(place_quantum));
+    add_field(block, "uy", frames, &RecordedFrame::uy, evenly(place_quantum));
+    add_field(block, "angle", frames, &RecordedFrame::angle, evenly(angle_quantum));
+    add_field(block, "vx", frames, &RecordedFrame::vx, by_size(growth));
+    add_field(block, "vy", frames, &RecordedFrame::vy, by_size(growth));
+    add_field(block, "rate", frames, &RecordedFrame::rotation_rate, by_size(growth));
+    add_field(block, "sxx", frames, &RecordedFrame::stress_xx, by_size(growth));
+    add_field(block, "syy", frames, &RecordedFrame::stress_yy, by_size(growth));
+    add_field(block, "sxy", frames, &RecordedFrame::stress_xy, by_size(growth));
+    add_field(block, "fragment", frames, &RecordedFrame::fragment, evenly(1.0));
+    add_field(block, "fn", frames, &RecordedFrame::normal_force, by_size(force_growth));
+    add_field(block, "fs", frames, &RecordedFrame::shear_force, by_size(force_growth));
+    add_field(block, "state", frames, &RecordedFrame::state, evenly(1.0));
+}
+
 Json listed_frame(const FrameHead& head) {
     Json entry{{"time", head.time}};
     if (head.axial_strain) entry["axial_strain"] = *head.axial_strain;
@@ -314,13 +345,7 @@ PageData pack_recording(const Recording& recording, const std::function<void(std
     Json& manifest = data.manifest;
     manifest["name"] = recording.name;
     manifest["kind"] = name_of(recording.kind);
-    const Summary& summary = recording.results.summary;
-    manifest["summary"] = json_of(summary);
-    const std::vector<JudgedClaim> claims = summary.validity.validity.value_or(std::vector<JudgedClaim>());
-    for (std::size_t k = 0; k < claims.size(); ++k)
-        if (!claims[k].holds.value_or(true))
-            manifest["summary"]["validity"][k]["sentence"] =
-                broken_claim(claims[k].claim.value_or(""), claims[k].found.value_or(""));
+    manifest["summary"] = listed_summary(recording.results.summary);
     if (recording.walls) manifest["walls"] = *recording.walls;
     if (recording.mean_velocities) manifest["velocities"] = "mean";
     if (recording.kind == Recording::Kind::deck) manifest["curves"] = add_curves(first, recording.curves);
@@ -342,23 +367,7 @@ PageData pack_recording(const Recording& recording, const std::function<void(std
         }
         const FrameHead &from = recording.frames[begin], &to = recording.frames[end - 1];
         CodedBlock block(fmt::format("{}: {} to {}", recording.name, from.file, to.file));
-        const auto evenly = [](double quantum) { return [=](const auto&) { return Code{quantum}; }; };
-        const auto by_size = [](double with_growth) {
-            return [=](const auto& rows) { return code_of(rows, with_growth); };
-        };
-        add_field(block, "ux", frames, &RecordedFrame::ux, evenly(place_quantum));
-        add_field(block, "uy", frames, &RecordedFrame::uy, evenly(place_quantum));
-        add_field(block, "angle", frames, &RecordedFrame::angle, evenly(angle_quantum));
-        add_field(block, "vx", frames, &RecordedFrame::vx, by_size(growth));
-        add_field(block, "vy", frames, &RecordedFrame::vy, by_size(growth));
-        add_field(block, "rate", frames, &RecordedFrame::rotation_rate, by_size(growth));
-        add_field(block, "sxx", frames, &RecordedFrame::stress_xx, by_size(growth));
-        add_field(block, "syy", frames, &RecordedFrame::stress_yy, by_size(growth));
-        add_field(block, "sxy", frames, &RecordedFrame::stress_xy, by_size(growth));
-        add_field(block, "fragment", frames, &RecordedFrame::fragment, evenly(1.0));
-        add_field(block, "fn", frames, &RecordedFrame::normal_force, by_size(force_growth));
-        add_field(block, "fs", frames, &RecordedFrame::shear_force, by_size(force_growth));
-        add_field(block, "state", frames, &RecordedFrame::state, evenly(1.0));
+        add_fields(block, frames, place_quantum);
         add_contacts(block, frames, place_quantum);
         manifest["groups"].push_back(
             {{"block", data.blocks.size()}, {"first", begin}, {"count", frames.size()}, {"arrays", block.places()}});

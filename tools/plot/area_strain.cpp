@@ -100,9 +100,7 @@ Panel area_strain(const std::vector<PlottedTest>& tests) {
         if (single)
             entries = {{"area strain", colour_of(tests.front()), false, false},
                        {"due to cracks: minus (1 − ν)σ/E", shear_colour, true, false}};
-        const Legend legend = legend_of(canvas, std::move(entries), place.width);
-        axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
-        legend.draw(canvas, {place.x + beside_letter, place.y});
+        draw_legend_above(canvas, place, legend_of(canvas, std::move(entries), place.width), axes);
         if (axes.y.low < 0.0)
             canvas.line({axes.at(axes.x.low, 0.0), axes.at(axes.x.high, 0.0)}, colour("#c8ccd0"), 0.4);
         for (std::size_t k = 0; k < tests.size(); ++k) {

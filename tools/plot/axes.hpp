@@ -3,6 +3,9 @@
 // Tested by tests/tools/plot/axes_test.cpp.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +21,20 @@ struct Scale {
     std::vector<double> ticks() const;
     /// Label of a tick, with as many decimals as the step needs.
     std::string label(double tick) const;
+};
+
+/// Smallest and largest of some values.
+struct Range {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+
+    void include(const std::vector<double>& values) {
+        for (const double value : values) {
+            low = std::min(low, value);
+            high = std::max(high, value);
+        }
+    }
+    /// Largest magnitude.
+    double size() const { return std::max(std::abs(low), std::abs(high)); }
 };
 
 /// A scale from 0 (or below) to slightly above the largest value, with at least one tick in addition to the one at 0.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "specimens/recordings/curve_points.hpp"
 #include "specimens/recordings/measured_curve.hpp"
@@ -16,8 +15,6 @@
 
 namespace crackle::plot {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Unit of a result: small dimensionless values, such as strains, are shown in thousandths.
 Unit figure_unit(double largest, const std::string& name) {
@@ -74,6 +71,35 @@ Scale figure_scale(double smallest, double largest, int ticks) {
     return scale;
 }
 
+/// Legend entries of bundles or series.
+template <class Labelled>
+std::vector<Legend::Entry> entries_of_labels(const std::vector<Labelled>& all) {
+    std::vector<Legend::Entry> entries;
+    for (std::size_t k = 0; k < all.size(); ++k) entries.push_back({all[k].label, series_colour(k), false, false});
+    return entries;
+}
+
+/// Draws values as dots, and over them the means with their line. @param x_unit, y_unit values by which x and y are
+/// divided
+void draw_series(Canvas& canvas, const Axes& axes, const Series& series, const Colour& colour, double x_unit,
+                 double y_unit) {
+    const Colour faint = tinted(colour, 0.45);
+    const auto at = [&](std::size_t k, double value) { return axes.at(series.x[k] / x_unit, value / y_unit); };
+    std::vector<Point> means;
+    for (std::size_t k = 0; k < series.x.size(); ++k) {
+        const Sample& sample = series.samples[k];
+        for (const double value : sample.values) canvas.circle(at(k, value), 1.0, &faint, nullptr, 0.0);
+        if (std::isfinite(sample.mean)) means.push_back(at(k, sample.mean));
+    }
+    std::sort(means.begin(), means.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
+    if (series.joined) canvas.line(means, colour, curve_width);
+    for (std::size_t k = 0; k < series.x.size(); ++k) {
+        const Sample& sample = series.samples[k];
+        if (std::isfinite(sample.mean))
+            draw_mean(canvas, at(k, sample.mean), at(k, sample.low), at(k, sample.high), colour, false);
+    }
+}
+
 }  // namespace
 
 Band band_of(const CurveBundle& bundle, double share, std::size_t strains) {
@@ -106,9 +132,7 @@ LabelledCurve labelled_curve(const std::filesystem::path& file) {
 
 Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<LabelledCurve>& measured) {
     const auto entries = [bundles, measured] {
-        std::vector<Legend::Entry> all;
-        for (std::size_t k = 0; k < bundles.size(); ++k)
-            all.push_back({bundles[k].label, series_colour(k), false, false});
+        std::vector<Legend::Entry> all = entries_of_labels(bundles);
         for (const LabelledCurve& curve : measured) all.push_back({curve.label, ink, true, false});
         return all;
     };
@@ -118,26 +142,24 @@ Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<Lab
     };
     panel.draw = [bundles, measured, entries](Canvas& canvas, const Rect& place) {
         std::vector<Band> bands;
-        double strain = 0.0, smallest = 0.0, largest = 0.0;
+        Range strains{0.0, 0.0}, lows{0.0, 0.0}, highs{0.0, 0.0};
         for (const LabelledCurve& curve : measured) {
-            for (const auto& [at, stress] : curve.points) {
-                strain = std::max(strain, at);
-                largest = std::max(largest, stress);
+            for (const auto& [strain, stress] : curve.points) {
+                strains.high = std::max(strains.high, strain);
+                highs.high = std::max(highs.high, stress);
             }
         }
         for (const CurveBundle& bundle : bundles) {
             bands.push_back(band_of(bundle));
-            for (const double value : bands.back().strain) strain = std::max(strain, value);
-            for (const double value : bands.back().low) smallest = std::min(smallest, value);
-            for (const double value : bands.back().high) largest = std::max(largest, value);
+            strains.include(bands.back().strain);
+            lows.include(bands.back().low);
+            highs.include(bands.back().high);
         }
-        const Unit unit = unit_for(largest, bundles.empty() ? "N/m" : bundles.front().stress_unit);
+        const Unit unit = unit_for(highs.high, bundles.empty() ? "N/m" : bundles.front().stress_unit);
         Axes axes;
-        axes.x = scale_for(0.0, strain / strain_unit, place.width < 300.0 ? 6 : 10);
-        axes.y = scale_for(smallest / unit.factor, largest / unit.factor, 6);
-        const Legend legend = legend_of(canvas, entries(), place.width);
-        axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
-        legend.draw(canvas, {place.x + beside_letter, place.y});
+        axes.x = scale_for(0.0, strains.high / strain_unit, place.width < 300.0 ? 6 : 10);
+        axes.y = scale_for(lows.low / unit.factor, highs.high / unit.factor, 6);
+        draw_legend_above(canvas, place, legend_of(canvas, entries(), place.width), axes);
         const auto line = [&](const Band& band, const std::vector<double>& values) {
             std::vector<Point> points;
             for (std::size_t k = 0; k < values.size(); ++k)
@@ -176,18 +198,13 @@ Panel distributions(const std::string& title, const std::string& unit_name, cons
         return rows * static_cast<double>(samples.size()) + Axes::room_below(measure) + 1.6 * size;
     };
     panel.draw = [title, unit_name, samples](Canvas& canvas, const Rect& place) {
-        double smallest = infinity, largest = -infinity;
-        for (const Sample& sample : samples) {
-            for (const double value : sample.values) {
-                smallest = std::min(smallest, value);
-                largest = std::max(largest, value);
-            }
-        }
-        if (!std::isfinite(smallest)) smallest = largest = 0.0;
-        const Unit unit = figure_unit(largest, unit_name);
+        Range range;
+        for (const Sample& sample : samples) range.include(sample.values);
+        if (!std::isfinite(range.low)) range = {0.0, 0.0};
+        const Unit unit = figure_unit(range.high, unit_name);
         const RowLabels labels = labels_of(canvas, samples, place.width);
         Axes axes;
-        axes.x = figure_scale(smallest / unit.factor, largest / unit.factor, place.width < 300.0 ? 5 : 8);
+        axes.x = figure_scale(range.low / unit.factor, range.high / unit.factor, place.width < 300.0 ? 5 : 8);
         // Rows have names instead of ticks.
         axes.y = {1e-3, static_cast<double>(std::max<std::size_t>(1, samples.size())), 1e4};
         const double top = place.y + 1.6 * canvas.style().font_size;
@@ -219,64 +236,33 @@ Panel distributions(const std::string& title, const std::string& unit_name, cons
 
 Panel over_axis(const std::string& x_title, const std::string& x_unit, const std::string& y_title,
                 const std::string& y_unit, const std::vector<Series>& all) {
-    const auto entries = [all] {
-        std::vector<Legend::Entry> list;
-        for (std::size_t k = 0; k < all.size(); ++k) list.push_back({all[k].label, series_colour(k), false, false});
-        return list;
-    };
     Panel panel;
-    panel.height = [entries](const Canvas& measure, double width) {
-        return 0.55 * proportional(width) + legend_of(measure, entries(), width).more_rows();
+    panel.height = [all](const Canvas& measure, double width) {
+        return 0.55 * proportional(width) + legend_of(measure, entries_of_labels(all), width).more_rows();
     };
     panel.draw = [=](Canvas& canvas, const Rect& place) {
-        double left_x = infinity, right_x = -infinity, smallest = infinity, largest = -infinity;
+        Range x, y;
         for (const Series& series : all) {
-            for (const double x : series.x) {
-                left_x = std::min(left_x, x);
-                right_x = std::max(right_x, x);
-            }
-            for (const Sample& sample : series.samples) {
-                for (const double value : sample.values) {
-                    smallest = std::min(smallest, value);
-                    largest = std::max(largest, value);
-                }
-            }
+            x.include(series.x);
+            for (const Sample& sample : series.samples) y.include(sample.values);
         }
-        if (!std::isfinite(smallest)) smallest = largest = left_x = right_x = 0.0;
-        const Unit unit = figure_unit(largest, y_unit);
+        if (!std::isfinite(y.low)) x = y = {0.0, 0.0};
+        const Unit unit = figure_unit(y.high, y_unit);
         // Stresses and lengths get SI prefixes; other units get a power of ten.
         const bool has_prefix = x_unit == "Pa" || x_unit == "N/m" || x_unit == "m";
-        const Unit unit_x = has_prefix ? unit_for(right_x, x_unit) : Unit{1.0, x_unit};
+        const Unit unit_x = has_prefix ? unit_for(x.high, x_unit) : Unit{1.0, x_unit};
         const double power = has_prefix ? unit_x.factor
-                             : right_x > 0.0 && (right_x >= 1e4 || right_x < 1e-2)
-                                 ? std::pow(10.0, std::floor(std::log10(right_x)))
+                             : x.high > 0.0 && (x.high >= 1e4 || x.high < 1e-2)
+                                 ? std::pow(10.0, std::floor(std::log10(x.high)))
                                  : 1.0;
         Axes axes;
-        axes.x = figure_scale(left_x / power, right_x / power, place.width < 300.0 ? 5 : 8);
-        axes.y = figure_scale(smallest / unit.factor, largest / unit.factor, 5);
-        const Legend legend = legend_of(canvas, entries(), place.width);
-        axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
-        legend.draw(canvas, {place.x + beside_letter, place.y});
+        axes.x = figure_scale(x.low / power, x.high / power, place.width < 300.0 ? 5 : 8);
+        axes.y = figure_scale(y.low / unit.factor, y.high / unit.factor, 5);
+        draw_legend_above(canvas, place, legend_of(canvas, entries_of_labels(all), place.width), axes);
         // The interval from only two packings may be many times larger than the rest of the diagram.
         canvas.clip(axes.frame);
-        for (std::size_t s = 0; s < all.size(); ++s) {
-            const Colour &colour = series_colour(s), faint = tinted(colour, 0.45);
-            std::vector<Point> means;
-            for (std::size_t k = 0; k < all[s].x.size(); ++k) {
-                const Sample& sample = all[s].samples[k];
-                const auto at = [&](double value) { return axes.at(all[s].x[k] / power, value / unit.factor); };
-                for (const double value : sample.values) canvas.circle(at(value), 1.0, &faint, nullptr, 0.0);
-                if (std::isfinite(sample.mean)) means.push_back(at(sample.mean));
-            }
-            std::sort(means.begin(), means.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
-            if (all[s].joined) canvas.line(means, colour, curve_width);
-            for (std::size_t k = 0; k < all[s].x.size(); ++k) {
-                const Sample& sample = all[s].samples[k];
-                const auto at = [&](double value) { return axes.at(all[s].x[k] / power, value / unit.factor); };
-                if (std::isfinite(sample.mean))
-                    draw_mean(canvas, at(sample.mean), at(sample.low), at(sample.high), colour, false);
-            }
-        }
+        for (std::size_t s = 0; s < all.size(); ++s)
+            draw_series(canvas, axes, all[s], series_colour(s), power, unit.factor);
         canvas.unclip();
         std::string title_x = titled(x_title, unit_x.name);
         if (!has_prefix && power != 1.0)

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <ranges>
 #include <utility>
 
@@ -34,18 +33,6 @@ struct AxisTitle {
 Unit unit_of(const AxisTitle& axis, double largest) {
     return axis.prefixes ? unit_for(largest, axis.unit) : unit_with_power(largest, axis.unit);
 }
-
-struct Range {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-
-    void include(const std::vector<double>& values) {
-        for (const double value : values) {
-            low = std::min(low, value);
-            high = std::max(high, value);
-        }
-    }
-    double size() const { return std::max(std::abs(low), std::abs(high)); }
-};
 
 std::vector<Legend::Entry> entries_of_curves(const std::vector<DrawnCurve>& curves) {
     std::vector<Legend::Entry> entries;
@@ -81,8 +68,7 @@ Panel curves_panel(const AxisTitle& x_title, const AxisTitle& y_title, const std
         Axes axes;
         axes.x = scale_around(x.low / x_unit.factor, x.high / x_unit.factor, whole.width < 300.0 ? 6 : 10);
         axes.y = scale_around(y.low / y_unit.factor, y.high / y_unit.factor, 5);
-        axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
-        legend.draw(canvas, {place.x + beside_letter, place.y});
+        draw_legend_above(canvas, place, legend, axes);
         const Colour zero = colour("#c8ccd0");
         if (axes.y.low < 0.0 && axes.y.high > 0.0)
             canvas.line({axes.at(axes.x.low, 0.0), axes.at(axes.x.high, 0.0)}, zero, 0.4);

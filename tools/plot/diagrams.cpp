@@ -208,6 +208,23 @@ std::optional<Rect> free_place(const Axes& axes, const std::vector<PlottedTest>&
     return std::nullopt;
 }
 
+/// The largest free place for an inset of a readable size, if any.
+std::optional<Rect> place_of_inset(const Axes& axes, const std::vector<PlottedTest>& tests, double unit) {
+    std::optional<Rect> best;
+    double largest = 0.0;
+    for (const double across : {0.6, 0.52, 0.45, 0.38}) {
+        for (const double up : {0.75, 0.65, 0.55, 0.45}) {
+            const double width = std::min(across * axes.frame.width, 170.0), height = up * axes.frame.height;
+            if (width * height <= largest) continue;
+            if (const auto found = free_place(axes, tests, unit, width, height)) {
+                best = found;
+                largest = width * height;
+            }
+        }
+    }
+    return best;
+}
+
 /// Unit of stress: Pa in tests with material_units = "area", otherwise N/m.
 std::string stress_unit(const std::vector<PlottedTest>& tests) {
     const auto in_area = [](const PlottedTest& test) {
@@ -264,17 +281,7 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
         const std::vector<PlottedTest> slivers = slivers_of(tests);
         std::optional<Rect> inset;
         if (!slivers.empty()) {
-            double largest = 0.0;
-            for (const double across : {0.6, 0.52, 0.45, 0.38}) {
-                for (const double up : {0.75, 0.65, 0.55, 0.45}) {
-                    const double width = std::min(across * upper.frame.width, 170.0), height = up * upper.frame.height;
-                    if (width * height <= largest) continue;
-                    if (const auto found = free_place(upper, tests, unit.factor, width, height)) {
-                        inset = found;
-                        largest = width * height;
-                    }
-                }
-            }
+            inset = place_of_inset(upper, tests, unit.factor);
             if (!inset) {  // there is no free area, so the inset is placed beside the curves
                 const double whole = upper.frame.width;
                 lower.frame.width = upper.frame.width = 0.56 * whole;

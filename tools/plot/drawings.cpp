@@ -316,6 +316,21 @@ struct Key {
     std::vector<std::string> minerals = {};
 };
 
+Key key_of(const std::vector<Moment>& moments, double magnify) {
+    Key key;
+    key.magnify = magnify;
+    for (const Moment& moment : moments) {
+        for (const FaceLine& line : moment.faces) {
+            key.tension = key.tension || line.kind == FaceLine::Kind::tension;
+            key.shear = key.shear || line.kind == FaceLine::Kind::shear;
+            key.joint = key.joint || line.kind == FaceLine::Kind::joint;
+            key.open_joint = key.open_joint || line.kind == FaceLine::Kind::open_joint;
+        }
+        if (key.minerals.empty()) key.minerals = moment.minerals;
+    }
+    return key;
+}
+
 /// Draws scale bar, colours of minerals and cracks, and the magnification of displacements in one line.
 void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a_metre) {
     const double middle = place.y + 0.5 * place.height;
@@ -373,49 +388,35 @@ void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a
     }
 }
 
-}  // namespace
-
-Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path>& folders, const DrawingStyle& style) {
+/// Drawings beside each other. All have the same scale and height; each has the width that it needs.
+struct Row {
     std::vector<Moment> moments;
-    for (std::size_t k = 0; k < drawn.size(); ++k) moments.push_back(prepared(drawn[k], folders[k], style));
-    // All drawings have the same scale and height; each has the width that it needs.
-    double y1 = std::numeric_limits<double>::infinity(), y2 = -y1, widths = 0.0, widest = 0.0;
-    for (const Moment& moment : moments) {
-        y1 = std::min(y1, moment.extent.y1);
-        y2 = std::max(y2, moment.extent.y2);
-        widths += moment.extent.width();
-        widest = std::max(widest, moment.extent.width());
-    }
-    const double beyond = 0.02 * (y2 - y1);  // space for the outlines of the platens
-    for (Moment& moment : moments) {
-        moment.extent.y1 = y1 - beyond;
-        moment.extent.y2 = y2 + beyond;
-    }
-    const double gaps = between_drawings * (static_cast<double>(moments.size()) - 1.0);
-    Key key;
-    key.magnify = style.magnify;
-    for (const Moment& moment : moments) {
-        for (const FaceLine& line : moment.faces) {
-            key.tension = key.tension || line.kind == FaceLine::Kind::tension;
-            key.shear = key.shear || line.kind == FaceLine::Kind::shear;
-            key.joint = key.joint || line.kind == FaceLine::Kind::joint;
-            key.open_joint = key.open_joint || line.kind == FaceLine::Kind::open_joint;
+    double height = 0.0, widths = 0.0, widest = 0.0;  // m
+    double gaps = 0.0;                                // pt
+
+    explicit Row(std::vector<Moment> all) : moments(std::move(all)) {
+        double y1 = std::numeric_limits<double>::infinity(), y2 = -y1;
+        for (const Moment& moment : moments) {
+            y1 = std::min(y1, moment.extent.y1);
+            y2 = std::max(y2, moment.extent.y2);
+            widths += moment.extent.width();
+            widest = std::max(widest, moment.extent.width());
         }
-        if (key.minerals.empty()) key.minerals = moment.minerals;
+        const double beyond = 0.02 * (y2 - y1);  // space for the outlines of the platens
+        for (Moment& moment : moments) {
+            moment.extent.y1 = y1 - beyond;
+            moment.extent.y2 = y2 + beyond;
+        }
+        gaps = between_drawings * (static_cast<double>(moments.size()) - 1.0);
+        height = y2 - y1 + 2.0 * beyond;
     }
-    const double height = y2 - y1 + 2.0 * beyond;
-    const auto scale_at = [widths, widest, gaps, height](double width) {
+    double scale_at(double panel_width) const {
         constexpr double highest = 300.0;  // pt; limited since a page-wide sheet may have further panels below
         // A single specimen need not fill the sheet.
-        return std::min({(width - gaps) / widths, 0.45 * width / widest, highest / height});
-    };
-    Panel panel;
-    panel.letter_above = true;
-    panel.height = [moments, height, scale_at](const Canvas& measure, double width) {
-        return scale_at(width) * height + caption_height(measure, moments) + key_height;
-    };
-    // Left edges of the drawings, relative to the left edge of the panel.
-    const auto lefts_at = [moments, widths, gaps, scale_at](double panel_width) {
+        return std::min({(panel_width - gaps) / widths, 0.45 * panel_width / widest, highest / height});
+    }
+    /// Left edges of the drawings, relative to the left edge of the panel.
+    std::vector<double> lefts_at(double panel_width) const {
         const double scale = scale_at(panel_width);
         std::vector<double> lefts;
         double x = 0.5 * (panel_width - scale * widths - gaps);
@@ -424,10 +425,23 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
             x += scale * moment.extent.width() + between_drawings;
         }
         return lefts;
+    }
+};
+
+}  // namespace
+
+Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path>& folders, const DrawingStyle& style) {
+    std::vector<Moment> moments;
+    for (std::size_t k = 0; k < drawn.size(); ++k) moments.push_back(prepared(drawn[k], folders[k], style));
+    const Row row(std::move(moments));
+    Panel panel;
+    panel.letter_above = true;
+    panel.height = [row](const Canvas& measure, double width) {
+        return row.scale_at(width) * row.height + caption_height(measure, row.moments) + key_height;
     };
     if (std::ranges::any_of(drawn, &DrawnMoment::lettered)) {
-        panel.more_letters = [drawn, lefts_at](double width) {
-            const std::vector<double> lefts = lefts_at(width);
+        panel.more_letters = [drawn, row](double width) {
+            const std::vector<double> lefts = row.lefts_at(width);
             std::vector<double> letters;
             for (std::size_t k = 1; k < drawn.size(); ++k) {
                 if (drawn[k].lettered) letters.push_back(lefts[k]);
@@ -435,11 +449,11 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
             return letters;
         };
     }
-    panel.draw = [moments, height, scale_at, lefts_at, key](Canvas& canvas, const Rect& place) {
-        const double scale = scale_at(place.width), drawn_height = scale * height;
-        const std::vector<double> lefts = lefts_at(place.width);
-        for (std::size_t k = 0; k < moments.size(); ++k) {
-            const Moment& moment = moments[k];
+    panel.draw = [row, key = key_of(row.moments, style.magnify)](Canvas& canvas, const Rect& place) {
+        const double scale = row.scale_at(place.width), drawn_height = scale * row.height;
+        const std::vector<double> lefts = row.lefts_at(place.width);
+        for (std::size_t k = 0; k < row.moments.size(); ++k) {
+            const Moment& moment = row.moments[k];
             const double width = scale * moment.extent.width(), x = place.x + lefts[k];
             draw_moment(canvas, {x, place.y, width, drawn_height}, moment, moment.extent);
             canvas.text({x + 0.5 * width, place.y + drawn_height + 3.0},

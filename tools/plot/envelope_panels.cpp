@@ -120,20 +120,14 @@ Panel strengths_over_confinement(const EnvelopeFigure& figure) {
         axes.x = scale_for(figure.tension.count > 0 ? -figure.tension.mean / unit.factor : 0.0, last / unit.factor,
                            place.width < 300.0 ? 5 : 8);
         axes.y = scale_for(0.0, highest / unit.factor, 5);
-        const Legend legend = legend_of(canvas, fitted_entries(figure), place.width);
-        axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
-        legend.draw(canvas, {place.x + beside_letter, place.y});
+        draw_legend_above(canvas, place, legend_of(canvas, fitted_entries(figure), place.width), axes);
+        const auto curve = [&](double from, auto strength) {
+            return curve_of(axes, unit.factor, from, last, [&](double s3) { return Point{s3, (laws.*strength)(s3)}; });
+        };
         canvas.clip(axes.frame);
-        canvas.line(curve_of(axes, unit.factor, laws.mohr_coulomb_tension(), last,
-                             [&](double s3) {
-                                 return Point{s3, laws.mohr_coulomb(s3)};
-                             }),
-                    line_colour(), curve_width, true);
-        canvas.line(curve_of(axes, unit.factor, laws.hoek_brown_tension(), last,
-                             [&](double s3) {
-                                 return Point{s3, laws.hoek_brown(s3)};
-                             }),
-                    hoek_brown_colour(), curve_width);
+        canvas.line(curve(laws.mohr_coulomb_tension(), &StrengthEnvelope::mohr_coulomb), line_colour(), curve_width,
+                    true);
+        canvas.line(curve(laws.hoek_brown_tension(), &StrengthEnvelope::hoek_brown), hoek_brown_colour(), curve_width);
         canvas.unclip();
         const auto at = [&](double s3, double s1) { return axes.at(s3 / unit.factor, s1 / unit.factor); };
         const Colour pale = tinted(ink, 0.45);
@@ -171,15 +165,13 @@ Panel mohr_circles(const EnvelopeFigure& figure) {
     };
     panel.draw = [figure](Canvas& canvas, const Rect& place) {
         const StrengthEnvelope& laws = figure.laws;
-        const Legend legend = legend_of(canvas, circle_entries(figure), place.width);
         const MohrAxes scales(figure, canvas, place.width);
         Axes axes;
         axes.x = scales.x;
         axes.y = scales.y;
-        axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
+        draw_legend_above(canvas, place, legend_of(canvas, circle_entries(figure), place.width), axes);
         // A row may be higher than this panel needs; more of the τ axis is then shown at the same scale.
         axes.y.high = axes.frame.height / (axes.frame.width / (axes.x.high - axes.x.low));
-        legend.draw(canvas, {place.x + beside_letter, place.y});
         const double factor = scales.unit.factor, last = beyond_last * largest_confinement(figure);
         const double last_deviator = laws.hoek_brown(last) - last;
         const double last_normal = laws.hoek_brown_on_plane(last_deviator).normal;

@@ -97,4 +97,9 @@ Rect frame_below(const Canvas& canvas, const Rect& place, const Legend& legend, 
     return {place.x + left, top, place.width - left - right, place.bottom() - Axes::room_below(canvas) - top};
 }
 
+void draw_legend_above(Canvas& canvas, const Rect& place, const Legend& legend, Axes& axes) {
+    axes.frame = frame_below(canvas, place, legend, axes.x, axes.y);
+    legend.draw(canvas, {place.x + beside_letter, place.y});
+}
+
 }  // namespace crackle::plot

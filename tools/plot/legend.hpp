@@ -77,4 +77,7 @@ inline double room_above(const Canvas& canvas, const Legend& legend) {
 /// Frame of the axes: the part of a panel that remains below the legend and beside the numbers of the axes.
 Rect frame_below(const Canvas& canvas, const Rect& place, const Legend& legend, const Scale& x, const Scale& y);
 
+/// Draws a legend at the top of a panel, and sets the frame of the axes below it. The scales of the axes must be known.
+void draw_legend_above(Canvas& canvas, const Rect& place, const Legend& legend, Axes& axes);
+
 }  // namespace crackle::plot

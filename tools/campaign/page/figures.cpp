@@ -94,6 +94,59 @@ std::optional<Panel> panel_over(const std::vector<const PointSummary*>& points, 
     return over_axis(label.name, label.unit, spoken_figure(figure), unit_of_figure(figure, area), listed);
 }
 
+using Points = std::vector<const PointSummary*>;
+
+/// Stress-strain curves of the points of one test; without panels if no curves are kept.
+CampaignFigure curve_figure(const CampaignRecord& record, const std::string& test, const Points& points) {
+    CampaignFigure figure{"curve", test, "", {}};
+    if (!is_folder(record.folder / "curves") && !is_folder(record.folder / "tests")) return figure;
+    std::vector<CurveBundle> bundles;
+    for (std::size_t k = 0; k < points.size() && bundles.size() < most_bundles; ++k)
+        if (std::optional<CurveBundle> bundle = bundle_of(record, *points[k])) bundles.push_back(*std::move(bundle));
+    if (bundles.empty()) return figure;
+    const auto counts = std::minmax_element(
+        bundles.begin(), bundles.end(), [](const auto& a, const auto& b) { return a.curves.size() < b.curves.size(); });
+    const std::size_t fewest = counts.first->curves.size(), most = counts.second->curves.size();
+    const std::string some =
+        points.size() > bundles.size() ? fmt::format("; the first {} of {} points", bundles.size(), points.size()) : "";
+    figure.caption =
+        fmt::format("{}: the median of {}, and the range of the middle 80 %{}", test,
+                    fewest == most ? counted(most, "packing") : fmt::format("{} to {} packings", fewest, most), some);
+    const auto measured = record.measured.find(test);
+    figure.panels.push_back(
+        curve_bands(bundles, measured == record.measured.end() ? std::vector<LabelledCurve>() : measured->second));
+    return figure;
+}
+
+/// All results of one test against an axis of the plan.
+CampaignFigure axis_figure(const CampaignRecord& record, const std::string& test, const Points& points,
+                           const std::string& axis) {
+    CampaignFigure figure{"axes",
+                          test,
+                          fmt::format("{} against {}: means with 95 % intervals, and every packing", test,
+                                      axis_label(axis, points.front()->area_units).name),
+                          {}};
+    for (const std::string& name : record.figures)
+        if (std::optional<Panel> panel = panel_over(points, axis, name)) figure.panels.push_back(*std::move(panel));
+    return figure;
+}
+
+/// Scatter of all results of one test.
+CampaignFigure scatter_figure(const CampaignRecord& record, const std::string& test, const Points& points) {
+    constexpr std::size_t most_samples = 12;
+    CampaignFigure figure{
+        "scatter", test, fmt::format("{}: every packing, and the mean with its 95 % interval", test), {}};
+    for (const std::string& name : record.figures) {
+        std::vector<Sample> samples;
+        for (std::size_t k = 0; k < points.size() && k < most_samples; ++k)
+            samples.push_back(sample_of(*points[k], name, points[k]->axes.empty() ? test : spoken_point(*points[k])));
+        if (std::any_of(samples.begin(), samples.end(), [](const Sample& s) { return !s.values.empty(); }))
+            figure.panels.push_back(
+                distributions(spoken_figure(name), unit_of_figure(name, points.front()->area_units), samples));
+    }
+    return figure;
+}
+
 }  // namespace
 
 std::string spoken_figure(const std::string& figure) {
@@ -156,62 +209,17 @@ std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
     for (const PointSummary& point : record.points)
         if (std::find(kinds.begin(), kinds.end(), point.test) == kinds.end()) kinds.push_back(point.test);
     std::vector<CampaignFigure> all;
-    const bool curves_kept = is_folder(record.folder / "curves") || is_folder(record.folder / "tests");
+    const auto add = [&](CampaignFigure figure) {
+        if (!figure.panels.empty()) all.push_back(std::move(figure));
+    };
     for (const std::string& kind : kinds) {
-        std::vector<const PointSummary*> points;
+        Points points;
         for (const PointSummary& point : record.points)
             if (point.test == kind) points.push_back(&point);
-        std::vector<CurveBundle> bundles;
-        for (std::size_t k = 0; curves_kept && k < points.size() && bundles.size() < most_bundles; ++k)
-            if (std::optional<CurveBundle> bundle = bundle_of(record, *points[k]))
-                bundles.push_back(*std::move(bundle));
-        const auto measured = record.measured.find(kind);
-        if (!bundles.empty()) {
-            const auto counts = std::minmax_element(bundles.begin(), bundles.end(), [](const auto& a, const auto& b) {
-                return a.curves.size() < b.curves.size();
-            });
-            const std::size_t fewest = counts.first->curves.size(), most = counts.second->curves.size();
-            const std::string some = points.size() > bundles.size()
-                                         ? fmt::format("; the first {} of {} points", bundles.size(), points.size())
-                                         : "";
-            all.push_back(
-                {"curve",
-                 kind,
-                 fmt::format("{}: the median of {}, and the range of the middle 80 %{}", kind,
-                             fewest == most ? counted(most, "packing") : fmt::format("{} to {} packings", fewest, most),
-                             some),
-                 {curve_bands(bundles,
-                              measured == record.measured.end() ? std::vector<LabelledCurve>() : measured->second)}});
-        }
-        std::vector<std::string> axes;
+        add(curve_figure(record, kind, points));
         for (const auto& [key, value] : points.front()->axes)
-            if (std::holds_alternative<double>(value)) axes.push_back(key);
-        for (const std::string& axis : axes) {
-            CampaignFigure figure;
-            figure.part = "axes";
-            figure.test = kind;
-            figure.caption = fmt::format("{} against {}: means with 95 % intervals, and every packing", kind,
-                                         axis_label(axis, points.front()->area_units).name);
-            for (const std::string& name : record.figures)
-                if (std::optional<Panel> panel = panel_over(points, axis, name))
-                    figure.panels.push_back(*std::move(panel));
-            if (!figure.panels.empty()) all.push_back(std::move(figure));
-        }
-        CampaignFigure spread;
-        spread.part = "scatter";
-        spread.test = kind;
-        spread.caption = fmt::format("{}: every packing, and the mean with its 95 % interval", kind);
-        constexpr std::size_t most_samples = 12;
-        for (const std::string& name : record.figures) {
-            std::vector<Sample> samples;
-            for (std::size_t k = 0; k < points.size() && k < most_samples; ++k)
-                samples.push_back(
-                    sample_of(*points[k], name, points[k]->axes.empty() ? kind : spoken_point(*points[k])));
-            if (std::any_of(samples.begin(), samples.end(), [](const Sample& s) { return !s.values.empty(); }))
-                spread.panels.push_back(
-                    distributions(spoken_figure(name), unit_of_figure(name, points.front()->area_units), samples));
-        }
-        if (!spread.panels.empty()) all.push_back(std::move(spread));
+            if (std::holds_alternative<double>(value)) add(axis_figure(record, kind, points, key));
+        add(scatter_figure(record, kind, points));
     }
     if (kinds.size() == 1) return all;
     for (CampaignFigure& figure : all)
