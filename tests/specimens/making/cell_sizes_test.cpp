@@ -26,7 +26,7 @@ ResolvedCase cells_case(MeshKind kind, double diameter, double spread, RadiusLaw
     ResolvedCase test;
     test.source = parts::Packing{parts::CircleCount{300, 2.0}, parts::MeanOverlap{0.002 * diameter},
                                  parts::CellDiameters{sizes, diameter, spread}, 1};
-    test.mesh = {kind, parts::DerivedGap{}};
+    test.mesh = parts::Mesh{{}, kind, parts::DerivedGap{}};
     test.material.density = 2500.0;
     test.material.normal_stiffness = 1e7;
     test.material.shear_stiffness = 2.5e6;

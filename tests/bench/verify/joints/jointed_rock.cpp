@@ -23,7 +23,7 @@ ResolvedCase jointed_rock(SpecimenKind kind, std::int64_t seed) {
         test.bond.range = bonded_range;
         return test;
     }
-    test.mesh = {from_name<MeshKind>(name_of(kind)).value(), parts::MeshGap{8e-4, {}}};
+    test.mesh = parts::Mesh{{}, from_name<MeshKind>(name_of(kind)).value(), parts::MeshGap{8e-4, {}}};
     return test;
 }
 
