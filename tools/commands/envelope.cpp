@@ -137,6 +137,15 @@ Json as_json(const EnvelopeFigure& e, const std::vector<std::string>& notices) {
                            {"strength_ratio", laws.hoek_brown_strength.value / e.tension.mean},
                            {"strength_ratio_by_m", hoek_martin(laws.hoek_brown_m.value)}};
     }
+    if (!e.measured.empty()) {
+        json["measured"] = Json::array();
+        for (const StrengthOfCores& cores : e.measured)
+            json["measured"].push_back({{"confining_pressure", cores.confinement},
+                                        {"strength", cores.strength},
+                                        {"error", cores.error},
+                                        {"mohr_coulomb", laws.mohr_coulomb(cores.confinement)},
+                                        {"hoek_brown", laws.hoek_brown(cores.confinement)}});
+    }
     json["notices"] = notices;
     const std::string stress = e.tests.unit;
     json["units"] = {
@@ -184,6 +193,11 @@ void print(const EnvelopeFigure& e) {
                   stress(e.tension.deviation), range(e.tension.low, e.tension.high), "",
                   stress(-laws.hoek_brown_tension()));
     }
+    for (const StrengthOfCores& cores : e.measured) {
+        print_out("  {:>10}{:>7}{:>10}{:>11}{:>20}{:>14}{:>12}\n", stress(cores.confinement), "meas.",
+                  stress(cores.strength), cores.error > 0.0 ? stress(cores.error) : "-", "",
+                  stress(laws.mohr_coulomb(cores.confinement)), stress(laws.hoek_brown(cores.confinement)));
+    }
     print_out("\nMohr-Coulomb, misfit {:.2g}\n", laws.misfit);
     print_out("  friction angle       {} degrees\n", number(laws.friction_angle, 1.0));
     print_out("  cohesion             {} {}\n", number(laws.cohesion, factor), unit);
@@ -224,6 +238,16 @@ EnvelopeFigure fitted_to(const MeasuredStrengths& tests) {
     }
 }
 
+/// Adds strengths that a laboratory measured. @throws InputError also if their scale is not that of the tests
+void add_measured(EnvelopeFigure& e, const fs::path& file) {
+    e.measured = read_measured_strengths(file);
+    e.measured_label = fmt::format("measured ({})", file.filename().string());
+    double largest = 0.0, measured = 0.0;
+    for (const StrengthPoint& test : e.tests.compressions) largest = std::max(largest, test.strength);
+    for (const StrengthOfCores& cores : e.measured) measured = std::max(measured, cores.strength);
+    require_like_scale(file.string(), "strength", measured, largest, " " + e.tests.unit, "strength (MPa)");
+}
+
 void draw(const EnvelopeFigure& e, const fs::path& output, const plot::FigureLook& look, plot::Format format) {
     using Rows = std::vector<std::vector<plot::Panel>>;
     constexpr double widest_stacked = 120.0 * plot::points_of_mm;
@@ -242,6 +266,9 @@ CommandLine describe_envelope() {
          "harden")  //
         ("strain", po::value<double>()->value_name("X"),
          "use the stress at this axial strain as the strength instead, for tests that reach it")  //
+        ("measured", po::value<std::string>()->value_name("FILE"),
+         "table with the columns confining_pressure and strength, and error if there is one, with their units as in "
+         "\"strength (MPa)\"; printed and drawn beside the computed strengths")  //
         ("output,o", po::value<std::string>()->value_name("FIGURE"),
          "figure to write: .svg, .pdf or .png; it shows strengths and both laws against confinement, and Mohr circles "
          "with both envelopes");
@@ -264,6 +291,7 @@ CommandLine describe_envelope() {
         .companions = companions,
         .examples = {{"crackle envelope out/granite-envelope", "a campaign: specimens/plans/granite_envelope.toml"},
                      {"crackle envelope out/granite-envelope -o envelope.pdf"},
+                     {"crackle envelope out/granite-envelope -o envelope.pdf --measured laboratory.csv"},
                      {"crackle envelope out/soil --strain 0.02", "the strength is the stress at a strain of 0.02"},
                      {"crackle envelope out/unconfined-1 out/unconfined-2 out/confined-1 out/confined-2 --json"}}};
 }
@@ -283,7 +311,8 @@ int envelope(const Invocation& given) {
     const plot::FigureLook look = plot::figure_look("envelope", values, format);
     const MeasuredStrengths tests =
         read_strengths(std::vector<fs::path>(given.operands.begin(), given.operands.end()), measure_of(values));
-    const EnvelopeFigure fitted = fitted_to(tests);
+    EnvelopeFigure fitted = fitted_to(tests);
+    if (values.contains("measured")) add_measured(fitted, values["measured"].as<std::string>());
     const std::vector<std::string> notices = notices_on(fitted);
     if (!output.empty()) draw(fitted, output, look, format);
     if (values.contains("json")) {

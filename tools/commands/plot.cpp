@@ -196,12 +196,13 @@ void expect_parts_of(const po::variables_map& given, const Words& what) {
         if (!used && given.contains(option) && !given[option].defaulted())
             throw without_effect("crackle plot", fmt::format("--{}", option), input);
     };
+    expect("measured", has_word(what, "curve"), "a figure without curves");
     expect("at", has_word(what, "specimen"), "a figure without specimens");
     expect("magnify", has_word(what, "specimen"), "a figure without specimens");
 }
 
 void plot_tests(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
-    expect_options(given, "folders of tests", {"what", "at", "magnify", "labels"});
+    expect_options(given, "folders of tests", {"what", "at", "magnify", "labels", "measured"});
     const fs::path output = output_file(given["output"].as<std::string>(), given.contains("force"));
     Words what = words_of(given, "what", {"all"});
     expect_words(what, {"curve", "ae", "emission", "strain", "specimen", "all"}, "");
@@ -227,10 +228,12 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
     std::vector<PlottedTest> plotted;
     for (std::size_t k = 0; k < tests.size(); ++k) plotted.push_back({&tests[k].results, labels[k], k, false});
 
+    std::vector<LabelledCurve> measured;
+    if (given.contains("measured")) measured.push_back(measured_beside(tests, given["measured"].as<std::string>()));
     const std::optional<Words> moments = given.contains("at") ? std::optional(given["at"].as<Words>()) : std::nullopt;
     std::vector<Panel> panels;
     for (const std::string& word : what) {
-        if (word == "curve") panels.push_back(stress_strain(plotted));
+        if (word == "curve") panels.push_back(stress_strain(plotted, measured));
         if (word == "ae") panels.push_back(breaks(plotted));
         if (word == "strain") panels.push_back(area_strain(plotted));
         if (word == "emission") add_emission_panels(panels, tests, folders, plotted);
@@ -430,7 +433,9 @@ po::options_description plot_options() {
         ("test", po::value<Words>()->multitoken()->value_name("NAME"),
          "tests of a campaign to draw (default: all)")  //
         ("measured", po::value<std::string>()->value_name("FILE"),
-         "CSV with axial_strain and axial_stress, drawn over the curves of a campaign's test")  //
+         "table with the columns axial_strain and axial_stress, with their units as in \"axial_stress (MPa)\", drawn "
+         "over "
+         "the curves")  //
         ("force", "replace existing figures");
     return options;
 }

@@ -57,7 +57,9 @@ CommandLine describe_report() {
         ("test", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME"),
          "tests of a campaign to show (default: all)")  //
         ("measured", po::value<std::string>()->value_name("FILE"),
-         "CSV with axial_strain and axial_stress, drawn over the curves of a campaign's test");
+         "table with the columns axial_strain and axial_stress, with their units as in \"axial_stress (MPa)\", drawn "
+         "over "
+         "the curves");
     return {.synopses = {"crackle report OUT... [-o report.html]"},
             .description =
                 "Writes one self-contained page from the folders that `crackle test` wrote. It shows stress-strain "
@@ -70,7 +72,8 @@ CommandLine describe_report() {
             .several_operands = true,
             .verbose = "cells, bonds and frames read, bytes written",
             .examples = {{"crackle report out/voronoi-compression"},
-                         {"crackle report out/*-tension out/*-compression -o report.html --title \"Six tests\""}}};
+                         {"crackle report out/*-tension out/*-compression -o report.html --title \"Six tests\""},
+                         {"crackle report out/granite --measured laboratory.csv"}}};
 }
 
 int report(const Invocation& given) {
@@ -81,7 +84,7 @@ int report(const Invocation& given) {
     }
     Messages& messages = given.messages;
     if (is_campaign(folders.front())) return report_campaign(given);
-    refuse_unused("crackle report", given.values, "folders of tests", {"output", "title", "frames"});
+    refuse_unused("crackle report", given.values, "folders of tests", {"output", "title", "frames", "measured"});
     std::vector<Recording> tests;
     for (const std::string& folder : folders) {
         tests.push_back(read_test_recording(folder, given.values["frames"].as<std::size_t>()));
@@ -91,7 +94,10 @@ int report(const Invocation& given) {
                                              ? std::filesystem::path(given.values["output"].as<std::string>())
                                          : folders.size() == 1 ? std::filesystem::path(folders.front()) / "report.html"
                                                                : std::filesystem::path("report.html");
-    write_page(output, {given.values["title"].as<std::string>(), PageView::report}, tests, messages);
+    PageHead head{given.values["title"].as<std::string>(), PageView::report};
+    if (given.values.contains("measured"))
+        head.measured = measured_beside(tests, given.values["measured"].as<std::string>());
+    write_page(output, head, tests, messages);
     if (!messages.quiet()) print_text(output.string() + '\n');
     return exit_done;
 }

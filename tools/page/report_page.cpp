@@ -79,6 +79,11 @@ std::string filled_page(std::string_view page, const PageHead& head, const std::
         manifest["units"] = {{"length", head.units->length}, {"velocity", head.units->velocity},
                              {"force", head.units->force},   {"energy", head.units->energy},
                              {"stress", head.units->stress}, {"prefixes", head.units->prefixes}};
+    if (head.measured) {
+        Json strain = Json::array(), stress = Json::array();
+        for (const auto& [x, y] : head.measured->points) strain.push_back(x), stress.push_back(y);
+        manifest["measured"] = {{"label", head.measured->label}, {"strain", strain}, {"stress", stress}};
+    }
     std::array<std::string, 3> texts;
     std::size_t all_frames = 0, frames_before = 0;
     for (const Recording& recording : recordings) all_frames += recording.frames.size();

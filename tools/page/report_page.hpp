@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "specimens/recordings/measured_curve.hpp"
 #include "specimens/recordings/recording.hpp"
 #include "specimens/recordings/unit_names.hpp"
 #include "tools/terminal/messages.hpp"
@@ -24,7 +25,8 @@ enum class PageView { report, view };  ///< what is shown first: tables and curv
 struct PageHead {
     std::string title;  ///< if empty, the title is derived from the recordings
     PageView view = PageView::report;
-    std::optional<UnitNames> units = {};  ///< units of particle files and decks; empty if unknown
+    std::optional<UnitNames> units = {};         ///< units of particle files and decks; empty if unknown
+    std::optional<LabelledCurve> measured = {};  ///< drawn over the curves of the tests
 };
 
 /// @param page the template, which contains each marker once

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "specimens/recordings/curve_points.hpp"
-#include "specimens/recordings/measured_curve.hpp"
 #include "specimens/statistics/mean.hpp"
 #include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
@@ -124,10 +123,6 @@ Band band_of(const CurveBundle& bundle, double share, std::size_t strains) {
         band.high.push_back(percentile(values, 1.0 - share));
     }
     return band;
-}
-
-LabelledCurve labelled_curve(const std::filesystem::path& file) {
-    return {"measured (" + file.filename().string() + ")", read_measured_curve(file)};
 }
 
 Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<LabelledCurve>& measured) {

@@ -30,15 +30,6 @@ struct Band {
 };
 Band band_of(const CurveBundle& bundle, double share = 0.1, std::size_t strains = 200);
 
-/// A curve from another source, for example measured in a laboratory.
-struct LabelledCurve {
-    std::string label;
-    std::vector<std::pair<double, double>> points;  ///< pairs of strain and stress, in the units of the bundles
-};
-
-/// Reads a curve from a file; its label is the file's name. @throws as read_measured_curve()
-LabelledCurve labelled_curve(const std::filesystem::path& file);
-
 /// Bands with medians; measured curves are drawn as dashed lines.
 Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<LabelledCurve>& measured = {});
 

@@ -175,6 +175,34 @@ void draw_curves(Canvas& canvas, const Axes& axes, const std::vector<PlottedTest
     if (tests.size() == 1) mark_cracks(canvas, axes, tests.front(), unit);
 }
 
+/// Largest strain and stress of measured curves, at least 0.
+std::pair<double, double> largest_measured(const std::vector<LabelledCurve>& measured) {
+    std::pair<double, double> largest;
+    for (const LabelledCurve& curve : measured) {
+        for (const auto& [strain, stress] : curve.points) {
+            largest.first = std::max(largest.first, strain);
+            largest.second = std::max(largest.second, stress);
+        }
+    }
+    return largest;
+}
+
+void draw_measured(Canvas& canvas, const Axes& axes, const std::vector<LabelledCurve>& measured, double unit) {
+    for (const LabelledCurve& curve : measured) {
+        std::vector<Point> points;
+        for (const auto& [strain, stress] : curve.points)
+            points.push_back(axes.at(strain / strain_unit, stress / unit));
+        canvas.line(points, ink, curve_width, true);
+    }
+}
+
+std::vector<Legend::Entry> entries_with(const std::vector<PlottedTest>& tests,
+                                        const std::vector<LabelledCurve>& measured) {
+    std::vector<Legend::Entry> entries = entries_of(tests);
+    for (const LabelledCurve& curve : measured) entries.push_back({curve.label, ink, true});
+    return entries;
+}
+
 Scale stress_scale(const std::vector<PlottedTest>& tests, double unit, int ticks) {
     return scale_for(smallest_of(tests, "axial_stress") / unit, largest_of(tests, "axial_stress") / unit, ticks);
 }
@@ -253,22 +281,25 @@ void draw_inset(Canvas& canvas, const Rect& place, const std::vector<PlottedTest
 
 }  // namespace
 
-Panel stress_strain(const std::vector<PlottedTest>& tests) {
+Panel stress_strain(const std::vector<PlottedTest>& tests, const std::vector<LabelledCurve>& measured) {
     const bool single = tests.size() == 1;
     const auto strip = [single](double width) { return (single ? 0.23 : 0.2) * proportional(width); };
     Panel panel;
-    panel.height = [strip, tests](const Canvas& measure, double width) {
-        return 0.62 * proportional(width) + strip(width) + legend_of(measure, entries_of(tests), width).more_rows();
+    panel.height = [strip, tests, measured](const Canvas& measure, double width) {
+        return 0.62 * proportional(width) + strip(width) +
+               legend_of(measure, entries_with(tests, measured), width).more_rows();
     };
-    panel.draw = [tests, strip, single](Canvas& canvas, const Rect& place) {
-        const Unit unit = unit_for(largest_of(tests, "axial_stress"), stress_unit(tests));
+    panel.draw = [tests, measured, strip, single](Canvas& canvas, const Rect& place) {
+        const auto [measured_strain, measured_stress] = largest_measured(measured);
+        const double most_stress = std::max(largest_of(tests, "axial_stress"), measured_stress);
+        const Unit unit = unit_for(most_stress, stress_unit(tests));
         Axes upper, lower;
-        upper.x = lower.x = strain_scale(tests, place.width);
-        upper.y = stress_scale(tests, unit.factor, 6);
+        upper.x = lower.x = strain_scale(tests, place.width, measured_strain);
+        upper.y = scale_for(smallest_of(tests, "axial_stress") / unit.factor, most_stress / unit.factor, 6);
         const Histogram histogram = single ? count_breaks(*tests.front().results, total_strain(tests)) : Histogram{};
         lower.y = count_scale(single ? histogram.most : largest_of(tests, "bonds_broken"), 2);
         const double left = std::max(Axes::room_left(canvas, upper.y), Axes::room_left(canvas, lower.y));
-        const Legend legend = legend_of(canvas, entries_of(tests), place.width);
+        const Legend legend = legend_of(canvas, entries_with(tests, measured), place.width);
         // With a single test, space is needed to state the interval.
         const double gap = (single ? 1.7 : 0.8) * canvas.style().font_size;
         // The panel's letter is beside the frame, where it could overlap the uppermost number.
@@ -278,7 +309,7 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
         lower.frame = {place.x + left, bottom - strip(place.width) + gap, place.width - left - right,
                        strip(place.width) - gap};
         upper.frame = {lower.frame.x, top, lower.frame.width, lower.frame.y - gap - top};
-        const std::vector<PlottedTest> slivers = slivers_of(tests);
+        const std::vector<PlottedTest> slivers = measured.empty() ? slivers_of(tests) : std::vector<PlottedTest>();
         std::optional<Rect> inset;
         if (!slivers.empty()) {
             inset = place_of_inset(upper, tests, unit.factor);
@@ -291,6 +322,7 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
 
         legend.draw(canvas, {place.x + beside_letter, place.y});
         draw_curves(canvas, upper, tests, unit.factor);
+        draw_measured(canvas, upper, measured, unit.factor);
         if (inset) draw_inset(canvas, *inset, slivers);
         upper.draw(canvas, "", fmt::format("{}, {}", names_of(tests).stress, unit.name));
         if (single) {

@@ -18,12 +18,18 @@ constexpr double beyond_last = 1.08;  // laws are drawn up to this multiple of t
 
 const Colour& line_colour() { return series_colour(1); }
 const Colour& hoek_brown_colour() { return series_colour(2); }
+const Colour& measured_colour() { return series_colour(3); }
 
-double largest_confinement(const EnvelopeFigure& figure) { return figure.laws.strengths.back().confinement; }
+double largest_confinement(const EnvelopeFigure& figure) {
+    double largest = figure.laws.strengths.back().confinement;
+    for (const StrengthOfCores& cores : figure.measured) largest = std::max(largest, cores.confinement);
+    return largest;
+}
 
 double largest_strength(const EnvelopeFigure& figure) {
     double largest = 0.0;
     for (const StrengthPoint& test : figure.tests.compressions) largest = std::max(largest, test.strength);
+    for (const StrengthOfCores& cores : figure.measured) largest = std::max(largest, cores.strength + cores.error);
     return largest;
 }
 
@@ -40,10 +46,13 @@ std::vector<Legend::Entry> fitted_entries(const EnvelopeFigure& figure) {
     const auto stress = [&](const FittedNumber& number) {
         return fmt::format("{:.3g} {}", number.value / unit.factor, unit.name);
     };
-    return {{fmt::format("Mohr-Coulomb: φ = {:.1f}°, c = {}", laws.friction_angle.value, stress(laws.cohesion)),
-             line_colour(), true, false},
-            {fmt::format("Hoek-Brown: m = {:.3g}, C = {}", laws.hoek_brown_m.value, stress(laws.hoek_brown_strength)),
-             hoek_brown_colour(), false, false}};
+    std::vector<Legend::Entry> entries{
+        {fmt::format("Mohr-Coulomb: φ = {:.1f}°, c = {}", laws.friction_angle.value, stress(laws.cohesion)),
+         line_colour(), true, false},
+        {fmt::format("Hoek-Brown: m = {:.3g}, C = {}", laws.hoek_brown_m.value, stress(laws.hoek_brown_strength)),
+         hoek_brown_colour(), false, false}};
+    if (!figure.measured.empty()) entries.push_back({figure.measured_label, measured_colour(), false, true});
+    return entries;
 }
 
 std::vector<Legend::Entry> circle_entries(const EnvelopeFigure& figure) {
@@ -99,6 +108,19 @@ void draw_circle(Canvas& canvas, const Axes& axes, double factor, double smalles
                 colour, 0.7 * curve_width);
 }
 
+/// Measured strengths as open circles with their errors. @param at  the point of a pressure and a strength
+void draw_measured(Canvas& canvas, const std::vector<StrengthOfCores>& measured, const auto& at) {
+    const Colour white = colour("#ffffff");
+    constexpr double radius = 2.2;  // pt
+    for (const StrengthOfCores& cores : measured) {
+        if (cores.error > 0.0)
+            canvas.line({at(cores.confinement, cores.strength - cores.error),
+                         at(cores.confinement, cores.strength + cores.error)},
+                        measured_colour(), curve_width);
+        canvas.circle(at(cores.confinement, cores.strength), radius, &white, &measured_colour(), curve_width);
+    }
+}
+
 }  // namespace
 
 Panel strengths_over_confinement(const EnvelopeFigure& figure) {
@@ -148,6 +170,7 @@ Panel strengths_over_confinement(const EnvelopeFigure& figure) {
             draw_mean(canvas, at(one.confinement, one.mean), at(one.confinement, one.low),
                       at(one.confinement, one.high), ink, false);
         }
+        draw_measured(canvas, figure.measured, at);
         canvas.unclip();
         if (figure.tension.count > 0) {
             draw_mean(canvas, at(-figure.tension.mean, 0.0), at(-figure.tension.high, 0.0),

@@ -6,6 +6,7 @@
 
 #include "specimens/envelope/measured_strengths.hpp"
 #include "specimens/envelope/strength_envelope.hpp"
+#include "specimens/recordings/measured_curve.hpp"
 #include "specimens/statistics/mean.hpp"
 #include "tools/plot/panels.hpp"
 
@@ -16,6 +17,8 @@ struct EnvelopeFigure {
     StrengthEnvelope laws;
     MeasuredStrengths tests;
     MeanFigure tension;  ///< mean of tests.tensions; if its count is 0, tension is not drawn
+    std::string measured_label = {};
+    std::vector<StrengthOfCores> measured = {};  ///< drawn with their errors; usually empty
 };
 
 /// Diagram of σ1 against σ3 with every test, means with 95 % intervals, and both laws. The laws start at the value of

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "specimens/recordings/measured_curve.hpp"
 #include "specimens/recordings/recording.hpp"
 #include "tools/plot/canvas.hpp"
 
@@ -32,8 +33,9 @@ struct PlottedTest {
 
 /// Axial stress against axial strain, and below it the number of broken bonds. For one test, breaks are shown per
 /// strain interval and by mode; for several tests, as running totals. If curves of one kind of test are too small on
-/// the common scale, an inset shows them enlarged.
-Panel stress_strain(const std::vector<PlottedTest>& tests);
+/// the common scale, an inset shows them enlarged. Measured curves are drawn as dashed lines, and then there is no
+/// inset.
+Panel stress_strain(const std::vector<PlottedTest>& tests, const std::vector<LabelledCurve>& measured = {});
 /// Number of bonds broken, per strain interval and by mode, and the running total (right axis). For several tests only
 /// the running totals.
 Panel breaks(const std::vector<PlottedTest>& tests);

@@ -63,8 +63,8 @@ std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests) {
     return entries;
 }
 
-Scale strain_scale(const std::vector<PlottedTest>& tests, double width) {
-    return scale_for(0.0, largest_of(tests, "axial_strain") / strain_unit, width < 300.0 ? 6 : 10);
+Scale strain_scale(const std::vector<PlottedTest>& tests, double width, double other) {
+    return scale_for(0.0, std::max(largest_of(tests, "axial_strain"), other) / strain_unit, width < 300.0 ? 6 : 10);
 }
 
 }  // namespace crackle::plot

@@ -28,6 +28,7 @@ CurveNames names_of(const std::vector<PlottedTest>& tests);
 CurveNames names_of_kind(const std::optional<LoadingKind>& kind);
 
 std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests);
-Scale strain_scale(const std::vector<PlottedTest>& tests, double width);
+/// Scale of the strains of all tests, and up to `other` if that is larger. @param width of the panel, pt
+Scale strain_scale(const std::vector<PlottedTest>& tests, double width, double other = 0.0);
 
 }  // namespace crackle::plot

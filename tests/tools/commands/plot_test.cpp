@@ -489,6 +489,25 @@ TEST_F(PlotCommand, ACurveThatWouldBeASliverHasAnInset) {
     }
 }
 
+TEST_F(PlotCommand, AMeasuredCurveIsDrawnOverTheTestsOnTheirScale) {
+    const std::string alone = drawn("squeezed --what curve", "figure.svg");
+    write_text(folder_ / "lab.csv", "axial_strain (%),axial_stress (kPa)\n0,0\n0.05,2.5\n0.1,5\n0.4,4\n");
+    const std::string both = drawn("squeezed --what curve --measured lab.csv", "figure.svg");
+    const auto dashed = [](const std::string& svg) { return svg.find("stroke-dasharray") != std::string::npos; };
+    EXPECT_FALSE(dashed(alone));
+    EXPECT_TRUE(dashed(both));
+    const auto width = [](const std::string& svg) {
+        const std::vector<Vec2> curve = curve_in(svg);
+        return curve.back().x - curve.front().x;
+    };
+    EXPECT_LT(width(both), 0.8 * width(alone)) << "the axis should reach the measured strain of 0.004";
+    write_text(folder_ / "lab.csv", "axial_strain,axial_stress\n0,0\n0.001,5e9\n");
+    expect_refused("squeezed -o figure.svg --force --what curve --measured lab.csv", "state the unit in the heading");
+    write_text(folder_ / "lab.csv", "axial_strain,axial_stress\n0,0\n0.001,5e3\n");
+    expect_refused("squeezed pulled -o figure.svg --force --what curve --measured lab.csv",
+                   "kinds compression and tension");
+}
+
 TEST_F(PlotCommand, FragmentsAreDrawnWholeOrLeftOut) {
     ASSERT_EQ(
         std::system(fmt::format("cd '{}' && '{}' test '{}/specimens/guide_rock/voronoi_compression.toml' -o burst -q",

@@ -127,6 +127,20 @@ TEST_F(Report, OfATestWithoutFramesStillShowsItsCurve) {
     EXPECT_TRUE(data_of(root / "page.html")["tests"][0]["frames"].empty());
 }
 
+TEST_F(Report, CarriesAMeasuredCurveInTheUnitsOfItsTests) {
+    std::ofstream(root / "lab.csv") << "axial_strain (%),axial_stress (kPa)\n0,0\n0.1,4.5\n";
+    ASSERT_EQ(run("test -o page.html --measured lab.csv").code, 0);
+    const nlohmann::json measured = data_of(root / "page.html")["measured"];
+    EXPECT_EQ(measured["label"], "measured (lab.csv)");
+    EXPECT_EQ(measured["strain"], nlohmann::json({0.0, 0.001}));
+    EXPECT_EQ(measured["stress"], nlohmann::json({0.0, 4500.0}));
+    fs::remove(root / "page.html");
+    SampleTest tension;
+    tension.kind = "tension";
+    write_sample_results(root / "pulled", tension);
+    expect_refused("test pulled -o page.html --measured lab.csv", {"lab.csv", "compression and tension"});
+}
+
 TEST_F(Report, RefusesAFolderThatIsNotThere) {
     expect_refused("nowhere -o page.html", {"nowhere: found no such folder", "crackle test"});
 }

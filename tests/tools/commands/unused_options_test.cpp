@@ -30,9 +30,9 @@ class UnusedOptions : public ProgramCall {
 TEST_F(UnusedOptions, OfFiguresAndPagesOfTests) {
     write_sample_results(folder_ / "squeezed", SampleTest{});
     const std::string tests = "folders of tests";
-    expect_without_effect("report squeezed -o page.html --measured missing.csv", "--measured", tests);
     expect_without_effect("report squeezed -o page.html --test tension", "--test", tests);
-    expect_without_effect("plot squeezed -o figure.svg --measured missing.csv", "--measured", tests);
+    expect_without_effect("plot squeezed -o figure.svg --what ae --measured missing.csv", "--measured",
+                          "a figure without curves");
     expect_without_effect("plot squeezed -o figure.svg --figure peak_stress", "--figure", tests);
     expect_without_effect("plot squeezed -o figure.svg --format png", "--format", tests);
     expect_without_effect("plot squeezed -o figure.svg --what curve --at peak", "--at", "a figure without specimens");

@@ -96,6 +96,20 @@ std::optional<Panel> panel_over(const std::vector<const PointSummary*>& points, 
 
 using Points = std::vector<const PointSummary*>;
 
+void require_like_scale(const LabelledCurve& measured, const std::vector<CurveBundle>& bundles) {
+    double largest_strain = 0.0, largest_stress = 0.0;
+    for (const CurveBundle& bundle : bundles) {
+        for (const auto& curve : bundle.curves) {
+            for (const auto& [strain, stress] : curve) {
+                largest_strain = std::max(largest_strain, strain);
+                largest_stress = std::max(largest_stress, stress);
+            }
+        }
+    }
+    crackle::require_like_scale(measured.label, measured.points, largest_strain, largest_stress,
+                                bundles.front().stress_unit);
+}
+
 /// Stress-strain curves of the points of one test; without panels if no curves are kept.
 CampaignFigure curve_figure(const CampaignRecord& record, const std::string& test, const Points& points) {
     CampaignFigure figure{"curve", test, "", {}};
@@ -112,9 +126,11 @@ CampaignFigure curve_figure(const CampaignRecord& record, const std::string& tes
     figure.caption =
         fmt::format("{}: the median of {}, and the range of the middle 80 %{}", test,
                     fewest == most ? counted(most, "packing") : fmt::format("{} to {} packings", fewest, most), some);
-    const auto measured = record.measured.find(test);
-    figure.panels.push_back(
-        curve_bands(bundles, measured == record.measured.end() ? std::vector<LabelledCurve>() : measured->second));
+    const auto found = record.measured.find(test);
+    const std::vector<LabelledCurve> measured =
+        found == record.measured.end() ? std::vector<LabelledCurve>() : found->second;
+    for (const LabelledCurve& curve : measured) require_like_scale(curve, bundles);
+    figure.panels.push_back(curve_bands(bundles, measured));
     return figure;
 }
 
@@ -194,7 +210,7 @@ std::string notice_on_failures(const CampaignRecord& record) {
 }
 
 void add_measured_curve(CampaignRecord& record, const fs::path& file) {
-    const plot::LabelledCurve curve = labelled_curve(file);
+    const LabelledCurve curve = labelled_curve(file);
     std::set<std::string> kinds;
     for (const PointSummary& point : record.points) kinds.insert(point.test);
     if (kinds.size() > 1)

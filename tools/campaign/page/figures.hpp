@@ -30,7 +30,7 @@ struct CampaignRecord {
     std::vector<std::string> figures;  ///< names of the results to draw
     std::vector<PointSummary> points;  ///< points of the plan, with the statistics of `figures`
     /// Measured curves to draw over the curves of a test, by the test's name.
-    std::map<std::string, std::vector<plot::LabelledCurve>> measured;
+    std::map<std::string, std::vector<LabelledCurve>> measured;
 };
 
 /// Whether a folder contains a campaign.

@@ -261,7 +261,7 @@ class Page {
         this.beside?.chart.dispose();
         this.beside = undefined;
         const theme = currentTheme();
-        const shown = panels(withCurve(this.tests), this.state.view);
+        const shown = panels(withCurve(this.tests), this.state.view).map((panel) => ({...panel, measured: this.report.measured}));
         this.panelHolder.classList.toggle('single', shown.length === 1);
         const holders = shown.map((panel) => {
             const figure = element('div', {class: 'panel'});
@@ -295,7 +295,7 @@ class Page {
             this.beside = undefined;
         }
         if (!wanted || this.beside) return;
-        const [panel] = panels([curved], 'test') as [Panel];
+        const panel: Panel = {...panels([curved], 'test')[0]!, measured: this.report.measured};
         const figure = element('div', {class: 'panel'}), theme = currentTheme();
         this.besideHolder.replaceChildren(figure);
         this.beside = new CurvePanel(figure, panel, theme, (value) => this.goToStrain(panel, value * strainFactor), () => viewer!.stageElement.clientHeight - 70);

@@ -57,6 +57,7 @@ interface Manifest {
     version: string;
     view: 'report' | 'view';
     units?: UnitNames;
+    measured?: MeasuredCurve;
     tests: TestEntry[];
 }
 
@@ -68,6 +69,13 @@ export interface UnitNames {
     energy: string;
     stress: string;
     prefixes: boolean; // whether SI prefixes can be added, as in kN
+}
+
+/// A curve from a laboratory, drawn over the curves of the tests.
+export interface MeasuredCurve {
+    label: string;
+    strain: number[]; // -
+    stress: number[]; // in the unit of the tests' stresses
 }
 
 /// summary.json as the test wrote it; keys and units are listed in specimens/results/FILES.md.
@@ -149,6 +157,7 @@ export interface Report {
     version: string;
     view: Manifest['view'];
     units: UnitNames | undefined;
+    measured: MeasuredCurve | undefined;
     tests: TestData[];
 }
 
@@ -242,6 +251,7 @@ export async function readReport(source: HTMLElement | null): Promise<Report> {
         version: manifest.version,
         view: manifest.view,
         units: manifest.units,
+        measured: manifest.measured,
         tests: await Promise.all(manifest.tests.map(unpackTest)),
     };
 }

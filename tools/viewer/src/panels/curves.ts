@@ -12,7 +12,7 @@ import type {ECharts} from 'echarts/core';
 import {SVGRenderer} from 'echarts/renderers';
 
 import type {Theme} from '../colours/theme';
-import {inArea, largestOf, numberOf, peakOf, stressUnitOf, type Curve, type TestData} from '../data/report';
+import {inArea, largestOf, numberOf, peakOf, stressUnitOf, type Curve, type MeasuredCurve, type TestData} from '../data/report';
 import {unique} from '../data/test_labels';
 import {Cursor} from '../elements/chart_cursor';
 import {element} from '../elements/dom';
@@ -53,8 +53,9 @@ function textWidth(text: string, size: number): number {
 }
 
 /// @param height  requested height of the panel, px; by default, the curves have their usual height
-export function layoutOf({title, members}: Panel, width: number, height?: number): PanelLayout {
-    const entries = members.map(({shortLabel}) => textWidth(shortLabel, 12) + 22 + 5 + 14);
+export function layoutOf({title, members, measured}: Panel, width: number, height?: number): PanelLayout {
+    const labels = [...members.map(({shortLabel}) => shortLabel), ...(measured ? [measured.label] : [])];
+    const entries = labels.map((label) => textWidth(label, 12) + 22 + 5 + 14);
     const legend = entries.reduce((sum, entry) => sum + entry, 0), beside = width - left - right - textWidth(title, 15) - 16;
     const room = Math.max(60, width - left - right);
     let lines = 0;
@@ -65,7 +66,7 @@ export function layoutOf({title, members}: Panel, width: number, height?: number
             x += entries[at]!;
         }
     }
-    const {strips, width: interval} = prepare({title, members});
+    const {strips, width: interval} = prepare({title, members, measured});
     const note = `bars: ${kindsOf(strips).join(' or ')} in each ${strainText(interval, 1)} of strain, line: so far`;
     const top = titleLine + 8 + lines * legendLine, below = strips.length * (stripHeight + stripGap) + bottom;
     const stress = height === undefined ? stressHeight : Math.max(leastStressHeight, height - top - below);
@@ -155,6 +156,14 @@ function crackMarks(member: Member, scale: Scale, theme: Theme) {
     }];
 }
 
+function measuredSeries({label, strain, stress}: MeasuredCurve, scale: Scale, theme: Theme) {
+    return {
+        type: 'line', name: label, id: 'measured', xAxisIndex: 0, yAxisIndex: 0, showSymbol: false,
+        data: pairs(strain, stress, strainFactor, scale.factor),
+        lineStyle: {width: 1.6, color: theme.ink, type: [6, 3]}, itemStyle: {color: theme.ink}, emphasis: {disabled: true}, animation: false, z: 4,
+    };
+}
+
 function stressSeries(member: Member, range: number, scale: Scale, theme: Theme) {
     const colour = theme.series[member.colour % theme.series.length]!;
     const peak = peakOf(member.test);
@@ -179,15 +188,16 @@ function stressSeries(member: Member, range: number, scale: Scale, theme: Theme)
     }];
 }
 
-function prepare({members}: Panel): {range: number; width: number; strips: Strip[]} {
-    const range = Math.max(...members.map((member) => largestOf(member.test.curve.strain)), 1e-9), width = intervalWidth(range);
+function prepare({members, measured}: Panel): {range: number; width: number; strips: Strip[]} {
+    const curves = [...members.map((member) => member.test.curve), ...(measured ? [measured] : [])];
+    const range = Math.max(...curves.map(({strain}) => largestOf(strain)), 1e-9), width = intervalWidth(range);
     return {range, width, strips: stripsOf(members, width, range)};
 }
 
 /// Everything that ECharts needs for one panel.
 export function panelOption(panel: Panel, {top, legendTop, legendWidth, stressHeight: high, note}: PanelLayout, theme: Theme) {
-    const {members} = panel, {range, strips} = prepare(panel);
-    const scale = scaleFor(members.map((member) => largestOf(member.test.curve.stress)), ofStress);
+    const {members, measured} = panel, {range, strips} = prepare(panel);
+    const scale = scaleFor([...members.map((member) => largestOf(member.test.curve.stress)), ...(measured ? [largestOf(measured.stress)] : [])], ofStress);
 
     const text = {color: theme.ink, fontFamily, fontSize: 12};
     const small = {...text, fontSize: 11, color: theme.muted};
@@ -237,8 +247,11 @@ export function panelOption(panel: Panel, {top, legendTop, legendWidth, stressHe
         ],
         legend: {
             ...(legendTop > 10 ? {left} : {right}), top: legendTop, width: legendWidth, itemWidth: 22, itemHeight: 8, itemGap: 14, padding: 0, textStyle: text,
-            data: members.map((member) => ({name: member.shortLabel, icon: member.dashed ? dashedIcon : solidIcon,
-                itemStyle: {color: theme.series[member.colour % theme.series.length]}})),
+            data: [
+                ...members.map((member) => ({name: member.shortLabel, icon: member.dashed ? dashedIcon : solidIcon,
+                    itemStyle: {color: theme.series[member.colour % theme.series.length]}})),
+                ...(measured ? [{name: measured.label, icon: dashedIcon, itemStyle: {color: theme.ink}}] : []),
+            ],
             inactiveColor: theme.grid,
         },
         grid: Array.from({length: last + 1}, (_, index) => (index === 0
@@ -253,6 +266,7 @@ export function panelOption(panel: Panel, {top, legendTop, legendWidth, stressHe
         dataZoom: [{type: 'inside', xAxisIndex: 'all', filterMode: 'none', zoomOnMouseWheel: 'shift', moveOnMouseMove: true}],
         series: [
             ...members.flatMap((member) => stressSeries(member, range, scale, theme)),
+            ...(measured ? [measuredSeries(measured, scale, theme)] : []),
             ...strips.flatMap((strip, index) => stripSeries(strip, index + 1, theme)),
         ],
     };

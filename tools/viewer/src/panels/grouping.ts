@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Groups tests into panels of curves, with the name and line style of each test in its panel.
 
-import {largestOf, type CurvedTest, type TestData} from '../data/report';
+import {largestOf, type CurvedTest, type MeasuredCurve, type TestData} from '../data/report';
 import {capitalised, kindOrder, ordered, specimenName, specimenOrder, unique, type LabelledTest} from '../data/test_labels';
 
 export type View = 'kind' | 'specimen' | 'test';
@@ -14,6 +14,7 @@ export interface Member extends LabelledTest<CurvedTest> {
 export interface Panel {
     title: string;
     members: Member[];
+    measured?: MeasuredCurve;
 }
 
 export function viewsFor(tests: TestData[]): View[] {
