@@ -14,7 +14,7 @@ export interface Member extends LabelledTest<CurvedTest> {
 export interface Panel {
     title: string;
     members: Member[];
-    measured?: MeasuredCurve;
+    measured?: MeasuredCurve | undefined;
 }
 
 export function viewsFor(tests: TestData[]): View[] {
