@@ -54,10 +54,9 @@ void check_centres(std::span<const CellCentre> centres, const Rectangle& domain)
         }
         if (s.x < domain.x1 || s.x > domain.x2 || s.y < domain.y1 || s.y > domain.y2) {
             throw MeshError(
-                fmt::format(
-                    "mesh: found centre {} at ({:.9g}, {:.9g}), expected it inside the domain x {:.9g} to {:.9g}, y "
-                    "{:.9g} to {:.9g}; remove it or widen the domain",
-                    k, s.x, s.y, domain.x1, domain.x2, domain.y1, domain.y2),
+                fmt::format("mesh: found centre {} at ({:.9g}, {:.9g}), expected it inside the domain, x from {:.9g} "
+                            "to {:.9g} and y from {:.9g} to {:.9g}; remove the centre or widen the domain",
+                            k, s.x, s.y, domain.x1, domain.x2, domain.y1, domain.y2),
                 {static_cast<int>(k)});
         }
     }
@@ -74,8 +73,8 @@ void check_outline(std::span<const CellCentre> centres, const MeshRequest& reque
                  twice_area_of(outline[k], outline[(k + 1) % outline.size()], outline[(k + 2) % outline.size()]) > 0.0;
     if (!convex)
         throw MeshError(
-            fmt::format("mesh: outline: found {} corners with a right turn, expected a convex "
-                        "polygon, counter-clockwise",
+            fmt::format("mesh: outline: found {} corners that do not all turn left, expected a convex polygon of at "
+                        "least three corners in counter-clockwise order",
                         outline.size()));
     for (std::size_t k = 0; k < centres.size(); ++k) {
         if (depth_within(outline, centres[k]) >= 0.0) continue;
@@ -88,24 +87,25 @@ void check_outline(std::span<const CellCentre> centres, const MeshRequest& reque
 void check_traces(const Rectangle& domain, const MeshRequest& request) {
     if (request.traces.empty()) return;
     if (request.boundary != Boundary::domain || !request.outline.empty()) {
-        throw MeshError(fmt::format("mesh: found {} traces with {}, expected cells that fill the domain",
-                                    request.traces.size(),
-                                    request.outline.empty() ? "triangles between centres alone" : "an outline"));
+        throw MeshError(fmt::format(
+            "mesh: found {} traces together with {}, expected cells that fill the whole domain if there are traces",
+            request.traces.size(),
+            request.outline.empty() ? "triangles that end at the outermost centres" : "an outline"));
     }
     if (request.kind == MeshKind::voronoi && request.merge_destroyed)
         throw MeshError(
-            "mesh: found traces with Voronoi cells to be merged, expected no merging, because merging would "
-            "separate pairs of seeds along traces");
+            "mesh: found traces together with merging of Voronoi cells, expected no merging, because it would separate "
+            "the pairs of seeds along traces");
     for (std::size_t t = 0; t < request.traces.size(); ++t) {
         const std::vector<Point>& trace = request.traces[t];
         if (trace.size() < 2)
-            throw MeshError(fmt::format("mesh: found trace {} of one point, expected two or more", t));
+            throw MeshError(fmt::format("mesh: found trace {} with fewer than two points, expected at least two", t));
         for (std::size_t k = 0; k < trace.size(); ++k) {
             const Point p = trace[k];
             const bool inside = p.x >= domain.x1 && p.x <= domain.x2 && p.y >= domain.y1 && p.y <= domain.y2;
             if (inside && (k == 0 || p != trace[k - 1])) continue;
-            throw MeshError(fmt::format("mesh: found trace {} at ({:.9g}, {:.9g}), expected its points apart from each "
-                                        "other and inside the domain",
+            throw MeshError(fmt::format("mesh: found trace {} with a point at ({:.9g}, {:.9g}), expected points that "
+                                        "lie inside the domain and differ from the point before them",
                                         t, p.x, p.y),
                             {}, {static_cast<int>(t)});
         }

@@ -211,11 +211,13 @@ class Conforming {
     [[noreturn]] void refuse_narrow(int trace, int other, Point at, const std::string& what) const {
         std::vector<int> named{trace};
         if (other >= 0 && other != trace) named.push_back(other);
-        const std::string beside = other < 0 ? "a wall" : other == trace ? "itself" : fmt::format("trace {}", other);
+        const std::string beside = other < 0        ? "a wall"
+                                   : other == trace ? "another part of it"
+                                                    : fmt::format("trace {}", other);
         throw MeshError(
             fmt::format(
-                "mesh: found trace {} and {} {} at ({:.9g}, {:.9g}), expected at least {:.4g} between them ({} of the "
-                "mean spacing) or 1 degree where they meet; remove one, move it, or use smaller particles",
+                "mesh: found trace {} and {} {} at ({:.9g}, {:.9g}), expected at least {:.4g} ({} of the mean spacing) "
+                "between them, or 1 degree where they meet; remove or move a trace, or use smaller particles",
                 trace, beside, what, at.x, at.y, narrowest_share * spacing_, narrowest_share),
             {}, std::move(named));
     }
@@ -427,8 +429,8 @@ class Conforming {
             } while (++edge != start);
             if (best == ConstrainedVertex(nullptr))
                 throw MeshError(
-                    fmt::format("mesh: found trace {} at ({:.9g}, {:.9g}) so close to another that its "
-                                "edges are lost in rounding, expected separate or crossing traces; remove one",
+                    fmt::format("mesh: found trace {} at ({:.9g}, {:.9g}) so close to another trace that its edges are "
+                                "lost in rounding, expected traces that cross or stay apart; remove one of the two",
                                 trace, here.x, here.y));
             mark(best_edge.first, best_edge.second, trace);
             a = best;

@@ -417,8 +417,9 @@ class CellCutter {
         std::vector<int> traces(named.begin(), named.end());
         const Point at = net_.place(net_.loop(piece).corners[0]);
         const std::string text = fmt::format(
-            "mesh: found traces {} near each other, or a tip near a wall, that cut off {:.2g} of the mean cell at "
-            "({:.9g}, {:.9g}), expected at least {:.2g}; remove one, move it, or use smaller particles",
+            "mesh: traces {} cut off a sliver with only {:.2g} of the mean cell area at ({:.9g}, {:.9g}), expected at "
+            "least {:.2g}; they lie too close to each other or to a wall. Remove or move one of them, or use smaller "
+            "particles",
             fmt::join(traces, ", "), piece_area / (spacing_ * spacing_), at.x, at.y,
             least_area_ / (spacing_ * spacing_));
         throw MeshError(text, {}, std::move(traces));

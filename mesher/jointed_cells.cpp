@@ -264,12 +264,12 @@ class JointedPartition {
         }
         std::vector<int> named{trace};
         named.insert(named.end(), others.begin(), others.end());
-        throw MeshError(
-            fmt::format("mesh: found trace {} from ({:.9g}, {:.9g}) to ({:.9g}, {:.9g}) with {} other trace{} within "
-                        "{:.3g}, expected one that cells can follow; remove one, move it, or use smaller particles",
-                        trace, s.a.x, s.a.y, s.b.x, s.b.y, others.size(), others.size() == 1 ? "" : "s",
-                        0.5 * spacing_),
-            {}, std::move(named));
+        throw MeshError(fmt::format("mesh: found no cells that follow trace {} from ({:.9g}, {:.9g}) to ({:.9g}, "
+                                    "{:.9g}), which has {} other trace{} within a distance of {:.3g}; remove or move "
+                                    "one of these traces, or use smaller particles",
+                                    trace, s.a.x, s.a.y, s.b.x, s.b.y, others.size(), others.size() == 1 ? "" : "s",
+                                    0.5 * spacing_),
+                        {}, std::move(named));
     }
 
     std::span<const CellCentre> centres_;

@@ -144,8 +144,8 @@ void Joiner::join(const std::vector<int>& destroyed) {
             const Point at = mesh_.points[static_cast<std::size_t>(c[0])];
             std::vector<int> traces = traces_about(mesh_, static_cast<std::size_t>(key));
             const std::string text = fmt::format(
-                "mesh: found triangle {} at ({:.9g}, {:.9g}){} destroyed by the inset and not convex with any "
-                "of its neighbours, expected a neighbour with a convex union",
+                "mesh: found triangle {} at ({:.9g}, {:.9g}){} destroyed by the inset, expected a neighbour with which "
+                "it forms a convex polygon",
                 key, at.x, at.y, in_words(traces));
             throw MeshError(text, {}, std::move(traces));
         }
@@ -198,7 +198,7 @@ std::vector<int> traces_about(const Triangles& mesh, std::size_t triangle) {
 
 std::string in_words(const std::vector<int>& traces) {
     if (traces.empty()) return "";
-    return fmt::format(" by trace{} {}", traces.size() == 1 ? "" : "s", fmt::join(traces, ", "));
+    return fmt::format(" next to trace{} {}", traces.size() == 1 ? "" : "s", fmt::join(traces, ", "));
 }
 
 }  // namespace crackle

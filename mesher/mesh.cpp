@@ -58,8 +58,8 @@ struct DestroyedCells {
 
 [[noreturn]] void refuse_destroyed(const std::string& cell, double radius, double depth, std::size_t count,
                                    std::vector<int> centres, std::vector<int> traces = {}) {
-    throw DestroyedCells{fmt::format("mesh: found {} of inscribed radius {:.6g} destroyed by the inset of {:.6g} ({} "
-                                     "cell{} in all), expected every cell to survive",
+    throw DestroyedCells{fmt::format("mesh: found {} with an inscribed radius of {:.6g} destroyed by the inset of "
+                                     "{:.6g} ({} cell{} in all), expected every cell to survive",
                                      cell, radius, depth, count, count == 1 ? "" : "s"),
                          radius, std::move(centres), std::move(traces)};
 }
@@ -292,8 +292,8 @@ std::array<int, 3> centres_about(const Triangles& triangles, std::size_t t) {
     }
     std::vector<int> traces = traces_about(triangles, static_cast<std::size_t>(worst));
     const std::string by = in_words(traces);
-    refuse_destroyed(fmt::format("triangle {} of centres {} at {}, {}, {}{}", worst, numbers, place(corners[0]),
-                                 place(corners[1]), place(corners[2]), by),
+    refuse_destroyed(fmt::format("triangle {} of centres {} with corners at {}, {}, {}{}", worst, numbers,
+                                 place(corners[0]), place(corners[1]), place(corners[2]), by),
                      inscribed_radius(corners, scale), depth, destroyed.size(), std::move(named), std::move(traces));
 }
 
@@ -326,10 +326,10 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
                                     ? delaunay_triangles(centres, domain, request.boundary, patience)
                                     : triangles_within(centres, domain, request.outline, patience);
     if (triangles.corners.empty()) {
-        throw MeshError(fmt::format(
-            "mesh: found {} centre{} that form no triangle with a circumcentre in the domain, expected at least three "
-            "not on one line; use boundary domain",
-            centres.size(), centres.size() == 1 ? "" : "s"));
+        throw MeshError(
+            fmt::format("mesh: found {} centre{} that form no triangle with a circumcentre in the domain, expected at "
+                        "least three that do not lie on one line; use the boundary \"domain\"",
+                        centres.size(), centres.size() == 1 ? "" : "s"));
     }
     Inset inset(depth, scale);
     // Outlines are inset twice: first to find the destroyed ones, then to add the others. This is faster than storing

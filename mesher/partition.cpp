@@ -442,11 +442,10 @@ MeshError coincident_centres(std::span<const CellCentre> centres, int a, int b) 
     const auto [first, second] = std::minmax(a, b);
     const CellCentre& p = centres[static_cast<std::size_t>(first)];
     const CellCentre& q = centres[static_cast<std::size_t>(second)];
-    return MeshError(
-        fmt::format("mesh: found centres {} and {} at the same place (({}, {}) and ({}, {}), {:.3g} apart), expected "
-                    "distinct centres; remove one of them",
-                    first, second, p.x, p.y, q.x, q.y, distance(p, q)),
-        {first, second});
+    return MeshError(fmt::format("mesh: found centres {} and {} at the same place, ({}, {}) and ({}, {}), only {:.3g} "
+                                 "apart, expected distinct centres; remove one of them",
+                                 first, second, p.x, p.y, q.x, q.y, distance(p, q)),
+                     {first, second});
 }
 
 double coordinate_scale(const Rectangle& domain) {

@@ -54,7 +54,7 @@ def read_summary(file):
     except FileNotFoundError:
         raise BadInput(f"{file}: file not found, expected the results of a test; make them with tools/quickstart") from None
     except (json.JSONDecodeError, UnicodeDecodeError) as error:
-        raise BadInput(f"{file}: found broken JSON ({error}); run tools/quickstart again") from None
+        raise BadInput(f"{file}: found malformed JSON ({error}); run tools/quickstart again") from None
     if not isinstance(keys, dict) or not isinstance(keys.get("failed"), bool):
         raise BadInput(f"{file}: failed: found {keys.get('failed') if isinstance(keys, dict) else 'no object'}, "
                        "expected true or false")

@@ -26,7 +26,7 @@ class FieldHasher {
     template <class T>
     void add(const T& value) {
         if constexpr (HasFields<T>) {
-            static_assert(lists_all_fields<T>(), "a member is missing in the struct's fields()");
+            static_assert(lists_all_fields<T>(), "a member is missing from the struct's fields()");
             T::fields(value, [&](const char* /*name*/, const auto& field, const auto&... /*more*/) { add(field); });
         } else {
             static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);

@@ -108,7 +108,7 @@ constexpr bool lists_all_fields() {
 /// Serialises any struct that lists its fields with cereal, member by member, since padding has no defined value.
 template <class Archive, HasFields T>
 void serialize(Archive& archive, T& value) {
-    static_assert(lists_all_fields<T>(), "a member is missing in the struct's fields()");
+    static_assert(lists_all_fields<T>(), "a member is missing from the struct's fields()");
     T::fields(value, [&](const char* /*name*/, auto& field, const auto&... /*more*/) { archive(field); });
 }
 

@@ -176,7 +176,7 @@ void read_contacts(DeckReader& reader, const Scene& scene, World& world) {
                 reader.integer(key + "other's element", 0, partner == nullptr ? 0 : element_count(*partner)));
             const double shear_force = reader.number(key + "shear force");
             const double tension = reader.number(key + "back-tension");
-            if (tension > 0.0) reader.refuse(key + "back-tension", "0 (not bonded) or less");
+            if (tension > 0.0) reader.refuse(key + "back-tension", "0 (not bonded) or a negative number (bonded)");
             if (tension < 0.0 && partner == nullptr)
                 reader.refuse(key + "back-tension", "0; domain walls are never bonded");
             const bool slid = reader.integer(key + "slid", 0, 1) == 1;
@@ -188,14 +188,14 @@ void read_contacts(DeckReader& reader, const Scene& scene, World& world) {
             if (found == points.end()) {
                 // A contact that opened by more than the skin in its last step has ended; a bond would have broken.
                 if (tension == 0.0 && may_have_parted(world, index_of, name)) continue;
-                reader.refuse(
-                    contact,
-                    fmt::format("no contact of its element {} with element {} of {}", name.element, name.partner, with),
-                    "them to touch; check that in_gm.dat and in_cf.dat are from the same run");
+                reader.refuse(contact,
+                              fmt::format("no contact between its element {} and element {} of {}", name.element,
+                                          name.partner, with),
+                              "these elements to touch; check that in_gm.dat and in_cf.dat are from the same run");
             }
             if (!entered.insert(found->second).second)
                 reader.refuse(contact, fmt::format("the contact with {} a second time", with),
-                              "every contact point once");
+                              "each contact point only once");
             world.points.shear_force[found->second] = shear_force;
             world.points.state[found->second].flags =
                 static_cast<std::uint16_t>(point_touching | (slid ? point_slid : 0));
@@ -244,22 +244,22 @@ void read_back_tensions(DeckReader& reader, const Scene& scene, World& world) {
             const Body* partner = names.find(other);
             if (partner == nullptr || partner == &body) reader.refuse(key + "other body", "another body of in_gm.dat");
             const double tension = reader.number(key + "value");
-            if (tension > 0.0) reader.refuse(key + "value", "a back-tension, 0 or less (tension is negative)");
+            if (tension > 0.0) reader.refuse(key + "value", "0 or a negative number, because tension is negative");
             PointName name{body.id, static_cast<int>(other), 1, 1};
             if (!plain_pair(body, *partner)) {
                 if (!reader.numbers_follow(2)) {
-                    reader.refuse(fmt::format("body {}: back-tension {}", body.id, c + 1),
-                                  "no element numbers after the value",
-                                  fmt::format("other body, value, own_element and other_element, because bodies {} and "
-                                              "{} are not both single circles; remove the file to bond all bodies that "
-                                              "overlap",
-                                              body.id, other));
+                    reader.refuse(
+                        fmt::format("body {}: back-tension {}", body.id, c + 1), "no element numbers after the value",
+                        fmt::format(
+                            "the four values other body, value, own_element and other_element, because bodies {} and "
+                            "{} are not both single circles; remove the file to bond all bodies that overlap",
+                            body.id, other));
                 }
                 name.element = static_cast<int>(reader.integer(key + "own element", 0, element_count(body)));
                 name.partner = static_cast<int>(reader.integer(key + "other's element", 0, element_count(*partner)));
             }
             if (!listed.emplace(name, Listing{tension, reader.line()}).second)
-                reader.refuse(key + "other body", "every contact point once");
+                reader.refuse(key + "other body", "each contact point only once");
         }
     }
     reader.end_reads();

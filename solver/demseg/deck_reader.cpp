@@ -213,7 +213,8 @@ std::optional<std::string> DeckReader::ignored_numbers() const {
 
 std::string DeckReader::last_ignored_text() const {
     if (last_ignored_.empty()) return "";
-    return fmt::format("; before it {} was ignored, because each READ of DEMseg starts on a new line", last_ignored_);
+    return fmt::format("; before that, {} was ignored, because each READ of DEMseg starts on a new line",
+                       last_ignored_);
 }
 
 void DeckReader::refuse(std::string_view key, std::string_view expected) const {

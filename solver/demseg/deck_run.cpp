@@ -114,7 +114,8 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
     }
     if (options_.seed && !drawn_)
         throw InputError(
-            fmt::format("seed: found with {}, in which all bodies are given; leave the seed out", texts.names[0]));
+            fmt::format("seed: found a seed, but {} lists all bodies, so none of them is random; leave the seed out",
+                        texts.names[0]));
     find_bodies();
     first_step_ = world_.stepping.steps;
     breaks_written_ = world_.bonds.events.size();
@@ -146,7 +147,7 @@ Choice DeckRun::chosen(const char* option, std::optional<Choice> asked, std::opt
                        const std::filesystem::path& state) {
     if (asked && before && *asked != *before) {
         throw InputError(
-            fmt::format("--{}: found {}, expected {}, which {} records for the previous run; leave out the option, or "
+            fmt::format("--{}: found {}, expected {}, as recorded for the previous run in {}; leave out the option, or "
                         "remove that file to continue from the text files alone",
                         option, name_of(*asked), name_of(*before), state.string()));
     }
@@ -296,11 +297,11 @@ void DeckRun::refuse_existing_outputs() const {
         return;
     }
     const bool can_go_on = is_there(output_folder() / (std::string("new_") + deck_text_names[0]));
-    throw InputError(fmt::format(
-        "{}: found the output of an earlier run{}, expected none; give another folder with -o, {}replace it with "
-        "--force",
-        earlier->string(), can_go_on ? "" : ", stopped before it could be continued",
-        can_go_on ? "continue that run with --continue, or " : "or "));
+    throw InputError(
+        fmt::format("{}: found the output of an earlier run{}, expected a folder without outputs; choose another "
+                    "folder with -o, {}replace the output with --force",
+                    earlier->string(), can_go_on ? "" : " that stopped before it wrote the files needed to continue it",
+                    can_go_on ? "continue that run with --continue, or " : "or "));
 }
 
 void DeckRun::refuse_foreign_folder() const {
@@ -350,10 +351,10 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
         step_to_end(outputs, go_on);
     } catch (const UnstableRun& error) {
         if (outputs.renames().empty()) throw;
-        throw UnstableRun(error,
-                          fmt::format("earlier outputs in {0} are unchanged, the outputs of this run so far are in "
-                                      "{0}/*.dat{1}",
-                                      output_folder().string(), staged_suffix));
+        throw UnstableRun(
+            error,
+            fmt::format("earlier outputs in {0} are unchanged, and the outputs of this run so far are in {0}/*.dat{1}",
+                        output_folder().string(), staged_suffix));
     } catch (const OutputError& error) {
         if (counts_as_done(outputs)) throw;
         throw OutputError(fmt::format("{}; {}", error.what(), fate_of_earlier_outputs()));

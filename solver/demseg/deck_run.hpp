@@ -126,9 +126,9 @@ class DeckRun {
     std::optional<FolderLock> lock_;
     BoundaryConditions asked_;  // in_bc.dat of this run
     bool drawn_ = false;        // whether the bodies were generated at random from the seed
-    DeckGeometry base_;         // bodies at the very beginning of the run, before its first part
-    BoundaryConditions
-        boundary_;  // conditions at the very beginning of the run; ramps are counted from boundary_.steps_before
+    DeckGeometry base_;         // bodies at the start of the first part of the run
+    // Boundary conditions at the start of the first part of the run; steps of ramps count from boundary_.steps_before.
+    BoundaryConditions boundary_;
     World world_;
     std::vector<BodyIndex> order_;     // bodies in deck order
     std::vector<BodyIndex> watched_;   // bodies written to f-d_curve.dat

@@ -99,8 +99,10 @@ std::optional<DeckState> load_deck_state(const std::filesystem::path& path, cons
     state.world = load_world(source.text(), name, "remove it to continue from the text files");
     require_whole(state.world, name);
     if (!source.at_end())
-        throw InputError(fmt::format(
-            "{}: found more bytes after its end, expected a complete state; remove it to run without it", name));
+        throw InputError(
+            fmt::format("{}: found more bytes after the end of the state, expected the end of the file; remove the "
+                        "file to run without it",
+                        name));
     return state;
 }
 
@@ -117,7 +119,7 @@ std::optional<DeckLaws> laws_of_deck_state(const std::filesystem::path& path, st
         if (source.number() != asked && k == which) return std::nullopt;
     source.text();  // skips the geometry and boundary conditions at the beginning of the run
     source.text();
-    const World world = load_world(source.text(), name, "remove it to run without it");
+    const World world = load_world(source.text(), name, "remove the file to run without it");
     return DeckLaws{world.settings.segment_law, world.settings.integrator};
 }
 

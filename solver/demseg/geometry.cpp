@@ -135,7 +135,7 @@ class BodyReader {
             length += norm(end - start);
             if (!(norm(end - start) > 0.0))
                 reader_.refuse(key(body.id, "xe ye"), fmt::format("{} {}", end.x, end.y),
-                               "a point different from xs ys");
+                               "a point that differs from xs ys");
             if (e == 1) {
                 joints.push_back(start);
             } else if (norm(start - joints.back()) > joint_tolerance * length) {
@@ -194,19 +194,22 @@ void check_writable(const Scene& scene) {
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
         if (scene.materials[m].damping_ratio) {
             throw InputError(
-                fmt::format("material {}: found a damping ratio, expected normal and shear damping: in_gm.dat cannot "
-                            "hold a ratio",
+                fmt::format("material {}: found a damping ratio, expected coefficients of normal and shear damping, "
+                            "because in_gm.dat cannot hold a ratio",
                             m + 1));
         }
     }
     const Domain& domain = scene.domain;
     for (std::size_t w = 0; w < domain.wall_present.size(); ++w) {
         if (!domain.wall_present[w])
-            throw InputError("domain: found a side without a wall, expected four: in_gm.dat cannot omit one");
+            throw InputError(
+                "domain: found a side without a wall, expected walls on all four sides, because in_gm.dat cannot omit "
+                "a wall");
     }
     for (const double side : {domain.x1, domain.x2, domain.y1, domain.y2}) {
         if (!std::isfinite(side))
-            throw InputError(fmt::format("domain: found {}, expected finite sides for in_gm.dat", side));
+            throw InputError(fmt::format(
+                "domain: found the coordinate {}, expected finite coordinates of all sides for in_gm.dat", side));
     }
 }
 
@@ -258,7 +261,8 @@ DeckGeometry read_deck_geometry(const std::filesystem::path& path) {
 
 DeckGeometry read_deck_geometry(DeckReader& reader) {
     if (read_mode(reader) != 1) {
-        reader.refuse("mode", "1 (bodies given); a file of mode 0 asks for random circles, which `crackle run` makes");
+        reader.refuse("mode",
+                      "1 (the file lists all bodies); mode 0 requests random circles, which `crackle run` generates");
     }
     read_sub_modes(reader);
     const Head head = read_head(reader);

@@ -82,7 +82,7 @@ std::int64_t random_circle_count(const RandomGeometry& geometry) {
     const double count = std::round(area / ((1.0 + geometry.void_ratio) * std::numbers::pi * mean_square));
     if (!(count >= 1.0 && count <= 1e7)) {
         throw InputError(fmt::format(
-            "in_gm.dat: random circles: found {} circles from domain, radii and void ratio, expected 1 to 1e7", count));
+            "in_gm.dat: random circles: domain, radii and void ratio give {} circles, expected 1 to 1e7", count));
     }
     return static_cast<std::int64_t>(count);
 }

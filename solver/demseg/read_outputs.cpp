@@ -204,7 +204,7 @@ std::vector<DeckContact> DeckFrames::contacts(std::size_t k) const {
         contact.place = read_place(forces, "x", "y");
         contact.force = read_place(forces, "fx", "fy");
         if (read_id(details, "body", 1) != contact.id || read_id(details, "other", -4) != contact.other) {
-            details.refuse("body, other", fmt::format("the {} and {} of cont.dat", contact.id, contact.other));
+            details.refuse("body, other", fmt::format("{} and {}, as in cont.dat", contact.id, contact.other));
         }
         for (const char* passed_over : {"nx", "ny", "overlap"}) details.number(passed_over);
         contact.normal_force = details.number("normal_force");

@@ -80,8 +80,8 @@ class Bonder {
                                          bonding.materials.size(), world.settings.materials.size()));
         if (!(bonding.least_distance_share > 0.0 && bonding.least_distance_share <= 1.0))
             throw InputError(
-                fmt::format("faces: found a least distance between reference points of {:.6g} times the mean, "
-                            "expected a factor > 0 that is at most 1",
+                fmt::format("faces: least distance between reference points, divided by the mean distance: found "
+                            "{:.6g}, expected a number > 0 and <= 1",
                             bonding.least_distance_share));
         for (BodyIndex b = 0; b < world.bodies.size(); ++b) centres_.push_back(reference_of(b));
         least_distance_ = bonding.least_distance_share * mean_distance();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Motions and forces of intact faces in lanes, compiled for an instruction set. Results are bit-identical for any
+// Motions and forces of intact faces in SIMD lanes, compiled for an instruction set. Results are bit-identical for any
 // number of lanes. Broken faces are first treated as intact; the force pass then replaces their values.
 // Tested by tests/solver/faces/face_pass_test.cpp.
 #pragma once

@@ -30,7 +30,8 @@ void refuse_no_plain_file(const std::filesystem::path& path) {
     const char* const kind = S_ISLNK(found.st_mode)   ? "a symbolic link"
                              : S_ISDIR(found.st_mode) ? "a folder"
                                                       : "a device or a pipe";
-    const char* const remedy = S_ISLNK(found.st_mode) ? "; name the file that it points to, or remove it" : "";
+    const char* const remedy =
+        S_ISLNK(found.st_mode) ? "; give the name of the file that the link points to, or remove the link" : "";
     fail_writing(EEXIST, fmt::format("{}: found {}, expected a file or nothing{}", path.string(), kind, remedy));
 }
 

@@ -52,7 +52,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder, Hold hold)
 }
 
 FolderLock::~FolderLock() {
-    if (descriptor_ >= 0) ::close(descriptor_);  // closing removes the lock
+    if (descriptor_ >= 0) ::close(descriptor_);  // closing the file releases the lock
 }
 
 }  // namespace crackle

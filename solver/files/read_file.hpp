@@ -28,8 +28,8 @@ std::string_view without_byte_order_mark(std::string_view text);
 /// Refuses a file in UTF-16. @throws InputError
 void refuse_wide_letters(const std::filesystem::path& path, std::string_view bytes);
 
-/// Reads a text file, without its byte order mark. @throws InputError as read_file(), and if the text is UTF-16, with a
-/// message that says so
+/// Reads a text file, without its byte order mark. @throws InputError under the same conditions as read_file(), and if
+/// the text is UTF-16, with a message that says so
 std::string read_text(const std::filesystem::path& path, std::uint64_t most_bytes = most_bytes_of_particles);
 
 /// Checks that reading from a stream stopped at the end of the data. @throws InputError if it stopped because of a

@@ -18,7 +18,8 @@ void bring_names_to_disc(const std::filesystem::path& folder);
 /// Creates a folder and missing parent folders. @throws InputError if this fails
 void make_folder(const std::filesystem::path& folder);
 
-/// Flushes everything written to the file system of a folder to the disc. @throws InputError if this fails
+/// Flushes to the disc all data that has been written to the file system that contains a folder. @throws InputError if
+/// this fails
 void bring_all_to_disc(const std::filesystem::path& folder);
 
 }  // namespace crackle

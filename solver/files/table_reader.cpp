@@ -82,7 +82,7 @@ std::optional<std::size_t> TableReader::column(std::string_view name) const {
     const auto found = std::find(names_.begin(), names_.end(), name);
     if (found == names_.end()) return std::nullopt;
     if (std::find(found + 1, names_.end(), name) != names_.end())
-        lines_.refuse(fmt::format("two columns {:.40}", name), "one; rename or remove the other");
+        lines_.refuse(fmt::format("two columns named {:.40}", name), "only one; rename or remove the other");
     return static_cast<std::size_t>(found - names_.begin());
 }
 

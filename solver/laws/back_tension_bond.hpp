@@ -25,9 +25,10 @@ namespace crackle {
 
 struct BackTensionBond {
     static constexpr BondLaw law = BondLaw::back_tension;
-    static constexpr BondLawFacts facts{.meaning = "the overlap at bonding sets the strength, as in the guide",
-                                        .with_guide_segments = true,
-                                        .remembers_strong_forces = true};
+    static constexpr BondLawFacts facts{
+        .meaning = "the overlap at the time of bonding determines the strength, as in DEMseg's guide",
+        .with_guide_segments = true,
+        .remembers_strong_forces = true};
 
     /// Whether a bond breaks in this force pass (stepping/record_breaks.cpp records it).
     template <class Number>

@@ -39,7 +39,7 @@ constexpr bool points_have_what_facts_need(const std::tuple<Bonds...>&) {
     return ((Bonds::facts.own_shares || !(Bonds::facts.strengths_are_given || Bonds::facts.from_rest_overlap)) && ...);
 }
 static_assert(points_have_what_facts_need(BondLaws{}),
-              "given strengths need a strength factor per point, and a rest overlap is kept only with own_shares");
+              "a law with strengths_are_given or from_rest_overlap must also have own_shares");
 
 /// The type that implements a law.
 template <BondLaw law>

@@ -29,14 +29,15 @@ struct CoulombBond {
     static constexpr BondLaw law = BondLaw::coulomb;
     static constexpr BondConstant constants[]{
         {"tensile_strength", &BondConstants::tensile_strength, &ContactLaw::tensile_strength, false,
-         "Tensile strength of a bond with law = \"coulomb\": N per point, or Pa in area units."},
+         "Tensile strength of a bond with law = \"coulomb\" or \"face\", in N per contact point, or in Pa in "
+         "area units."},
         {"cohesion", &BondConstants::cohesion, &ContactLaw::cohesion, false,
-         "Shear strength of a bond without normal force, N per point or Pa; at least tan(friction_angle) times "
-         "tensile_strength."},
+         "Shear strength of a bond at zero normal force, in N per contact point or in Pa; at least tan(friction_angle) "
+         "times tensile_strength."},
         {"residual_friction_angle", &BondConstants::residual_friction_angle, &ContactLaw::friction, true,
-         "Friction angle of contacts without a bond, with law = \"coulomb\"; at most the friction_angle of bonds, and "
-         "equal "
-         "to it if not given."}};
+         "Friction angle of unbonded contacts, with law = \"coulomb\" or \"face\"; at most the friction_angle of "
+         "bonds, and equal to it if not "
+         "given."}};
     static constexpr BondLawFacts facts{.meaning = "bonds have the material's tensile strength, cohesion and friction",
                                         .constants = constants,
                                         .friction = &ContactLaw::bond_friction,

@@ -30,8 +30,9 @@ FaceModuli face_moduli_without_pressure(double youngs_modulus, double poissons_r
     const double unlike = 4.0 * poissons_ratio / (b + std::sqrt(b * b + 8.0 * correction * poissons_ratio * c));
     if (!(poissons_ratio >= 0.0 && unlike < 1.0))
         throw InputError(
-            fmt::format("faces: found a Poisson's ratio of {:.6g}, expected a value >= 0 for which k_t > 0 "
-                        "(below 1/3 without a mesh correction); for larger values, let the cells have a pressure",
+            fmt::format("faces: found a Poisson's ratio of {:.6g}, expected a value >= 0 for which k_t > 0 (below 1/3 "
+                        "without a mesh correction); for larger values, give stiffness_ratio, so that the pressure of "
+                        "the cells produces Poisson's ratio",
                         poissons_ratio));
     return {youngs_modulus / b, 0.0, (1.0 - unlike) / (1.0 + unlike)};
 }

@@ -37,22 +37,26 @@ inline constexpr FaceConstant face_constants[]{
     {"youngs_modulus", "Pa", &FaceConstants::youngs_modulus, 1e300,
      "Young's modulus of the rock; with bond.law = \"face\", it replaces contact_modulus."},
     {"poissons_ratio", "", &FaceConstants::poissons_ratio, 1.0,
-     "Poisson's ratio of the rock in plane stress, with bond.law = \"face\". The pressure of the cells produces it if "
-     "stiffness_ratio is given. Otherwise stiffness_ratio is computed from it, which is always possible below 1/3."},
+     "Poisson's ratio of the rock in plane stress, with bond.law = \"face\". If stiffness_ratio is given, the "
+     "pressure of the cells produces "
+     "Poisson's ratio. Otherwise "
+     "stiffness_ratio is computed from it, "
+     "which is always possible for values "
+     "below 1/3."},
     {"moment_share", "", &FaceConstants::moment_share, 1.0 + 1e-12,
-     "Share of a face's bending stress that adds to its tensile stress, 0 to 1, with bond.law = \"face\"; 0 if not "
-     "given."},
+     "Fraction (0 to 1) of the bending stress of a face that is added to its tensile stress, with bond.law = "
+     "\"face\"; 0 if not given."},
     {"friction_knee", "Pa", &FaceConstants::friction_knee, 1e300,
-     "Normal stress above which the shear strength of a face increases with friction_angle_beyond, with bond.law = "
-     "\"face\"."},
+     "Normal stress above which the shear strength of a face increases at friction_angle_beyond instead of "
+     "friction_angle, with bond.law = \"face\"."},
     {"friction_angle_beyond", "deg", &FaceConstants::friction_angle_beyond, 90.0,
-     "Friction angle of an intact face beyond friction_knee; at most friction_angle."},
+     "Friction angle of an intact face at normal stresses above friction_knee; at most friction_angle."},
     {"residual_cohesion", "Pa", &FaceConstants::residual_cohesion, 1e300,
-     "Cohesion of a face after its failure in shear, with bond.law = \"face\"; 0 if not given."},
+     "Cohesion of a face after it has failed in shear, with bond.law = \"face\"; 0 if not given."},
     {"softening_slip", "m", &FaceConstants::softening_slip, 1e300,
      "Slip over which the cohesion of a face falls to residual_cohesion; 0 if not given."},
     {"residual_tensile_strength", "Pa", &FaceConstants::residual_tensile_strength, 1e300,
-     "Tensile strength of a face after its failure in shear, with bond.law = \"face\"; 0 if not given."},
+     "Tensile strength of a face after it has failed in shear, with bond.law = \"face\"; 0 if not given."},
     {"softening_opening", "m", &FaceConstants::softening_opening, 1e300,
      "Opening over which residual_tensile_strength falls to 0; 0 if not given."},
 };

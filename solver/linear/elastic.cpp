@@ -160,11 +160,11 @@ Refined refine(const Workers& workers, const Solver& factor, const Full& full, c
     }
     const double residual = size > 0.0 ? rest.norm() / size : 0.0;
     if (!(residual <= residual_goal)) {
-        throw InputError(fmt::format(
-            "elastic solve: found a residual of {:.3g}, expected at most {:.3g}; the specimen's stiffness "
-            "is too ill-conditioned; check that every part is held, for example blocks between joints without "
-            "friction",
-            residual, residual_goal));
+        throw InputError(
+            fmt::format("elastic solve: found a residual of {:.3g}, expected at most {:.3g}, because the stiffness "
+                        "matrix is too ill-conditioned; check that every part of the specimen is held, for example "
+                        "blocks between frictionless joints",
+                        residual, residual_goal));
     }
     return {u, residual, std::abs(rest.dot(factor.solve(rest)))};
 }
@@ -235,7 +235,8 @@ std::vector<BodyMotion> forces_of(ElasticSolution& solution, const std::vector<S
 
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
                               const std::vector<BodyMotion>& loads, ClosedPoints closed) {
-    if (prescribed.empty()) throw InputError("elastic solve: found no prescribed body, expected at least one platen");
+    if (prescribed.empty())
+        throw InputError("elastic solve: found no body with a prescribed motion, expected at least one platen");
     ElasticSolution solution;
     solution.displacement.assign(world.bodies.size(), BodyMotion{});
     std::vector<BodyIndex> bodies;

@@ -50,8 +50,8 @@ struct BodyBlocks {
     SymmetricBlock stiffness, damping;
 };
 
-/// Block that bounds the contribution of all faces of the world to any body: upper bounds on the eigenvalues of the
-/// faces' matrices, on the diagonal.
+/// Block that bounds the contribution of all faces of the world to any body. It is diagonal, and its diagonal elements
+/// are the upper bounds on the eigenvalues of the faces' matrices.
 BodyBlocks block_of_faces(const World& world) {
     const auto diagonal = [](double value) { return SymmetricBlock{value, value, value}; };
     return {diagonal(world.faces.stiffness_bound), diagonal(world.faces.damping_bound)};

@@ -17,7 +17,7 @@ const std::vector<BreakColumn>& break_columns() {
          [](Event e) { return written(e.position.x); }},
         {{"y", "m", "y coordinate of the contact point, positive upwards"},
          [](Event e) { return written(e.position.y); }},
-        {{"body_i", "", "id of one body"}, [](Event e) { return written(e.body_i); }},
+        {{"body_i", "", "id of one of the two bodies"}, [](Event e) { return written(e.body_i); }},
         {{"body_j", "", "id of the other body"}, [](Event e) { return written(e.body_j); }},
         {{"orientation", "rad", "direction of the contact normal, counter-clockwise from the x axis, in (-π/2, π/2]"},
          [](Event e) { return written(e.orientation); }},
@@ -26,7 +26,7 @@ const std::vector<BreakColumn>& break_columns() {
           "(solver/MODEL.md 5)"},
          [](Event e) { return written(e.energy); }},
         {{"strength", "N",
-          "strength of the bond: the tensile strength k_n δ0 of a back-tension bond; for a coulomb bond, the limit "
+          "strength of the bond: for a back-tension bond, its tensile strength k_n δ0; for a coulomb bond, the limit "
           "that was reached, T or C + μ f_n; for a face, the stress limit times the length of the face"},
          [](Event e) { return written(e.strength); }},
         {{"normal_force", "N",
@@ -43,7 +43,7 @@ const std::vector<BreakColumn>& break_columns() {
          [](Event e) { return written(e.slid ? 1 : 0); }},
         {{"mode", "word",
           "`shear` if the bond had slid and shear_force exceeds normal_force in magnitude, otherwise `tension`; for a "
-          "coulomb bond or a face, the limit that was reached first",
+          "coulomb bond or a face, the kind of limit that was reached first",
           "nearly all back-tension bonds break in `tension`: such a bond breaks when its overlap vanishes, and its "
           "Coulomb limit vanishes with the overlap. `slid` shows whether it slid first"},
          [](Event e) { return std::string(e.shear_mode ? "shear" : "tension"); }},

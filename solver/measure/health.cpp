@@ -32,11 +32,11 @@ void check_bodies(const World& world) {
         }
         const double move = world.stepping.time_step * norm(Vec2{body.vx, body.vy});
         if (move > world.list.fastest_allowed_move && !world.stepping.allow_unstable) {
-            throw UnstableRun(world.stepping.steps, id,
-                              fmt::format("it moves {:.3g} m a step, more than half the smallest body ({:.3g} m), so "
-                                          "that contacts would be missed; "
-                                          "the time step is too large or the impact too fast",
-                                          move, world.list.fastest_allowed_move));
+            throw UnstableRun(
+                world.stepping.steps, id,
+                fmt::format("it moves {:.3g} m per step, more than half the radius of the smallest body ({:.3g} m), so "
+                            "that contacts would be missed; the time step is too large or the impact too fast",
+                            move, world.list.fastest_allowed_move));
         }
         if (outside_domain(world, b)) {
             throw UnstableRun(world.stepping.steps, id,
@@ -87,21 +87,20 @@ void check_energy(World& world) {
     const double supply =
         world.account.initial_energy - ledger.potential + ledger.displacement_work + ledger.force_work;
     if (!std::isfinite(mechanical) || !std::isfinite(supply)) {
-        throw UnstableRun(
-            world.stepping.steps, world.bodies.info(liveliest_body(world)).id,
-            fmt::format("kinetic and stored energy of {:.4g} J, after an input of {:.4g} J, exceeds the largest "
-                        "number (this body carries most of the kinetic energy); look for a force, mass "
-                        "or stiffness of unrealistic size",
-                        mechanical, supply));
+        throw UnstableRun(world.stepping.steps, world.bodies.info(liveliest_body(world)).id,
+                          fmt::format("the kinetic and stored energy, {:.4g} J after an input of {:.4g} J, exceeds the "
+                                      "largest number that can be represented (this body carries most of the kinetic "
+                                      "energy); look for a force, mass or stiffness of unrealistic size",
+                                      mechanical, supply));
     }
     world.account.largest_supply = std::max({world.account.largest_supply, std::abs(supply), mechanical * 1e-3});
     if (mechanical <= supply + world.account.largest_supply + rounding_energy(world, ledger)) return;
     throw UnstableRun(
         world.stepping.steps, world.bodies.info(liveliest_body(world)).id,
-        fmt::format("runaway energy, {:.4g} J of kinetic and stored energy after an input of {:.4g} J (this body "
-                    "carries most of the kinetic energy); the time step "
-                    "({:.4g} s, bound {:.4g} s) is likely too large",
-                    mechanical, supply, world.stepping.time_step, world.stepping.step_bound));
+        fmt::format(
+            "runaway energy, with {:.4g} J of kinetic and stored energy after an input of {:.4g} J (this body carries "
+            "most of the kinetic energy); the time step ({:.4g} s, stable bound {:.4g} s) is likely too large",
+            mechanical, supply, world.stepping.time_step, world.stepping.step_bound));
 }
 
 }  // namespace

@@ -62,8 +62,9 @@ std::vector<Lump> lumps_of(const World& world, double probe, bool mirrored) {
     return lumps;
 }
 
-/// Path of the disc around the lumps. While rolling, its centre moves clockwise along circles around the lumps, whose
-/// radii are enlarged by the disc's radius, and changes to the first other circle that it meets.
+/// Path of the disc around the lumps. While the disc rolls around a lump, its centre moves clockwise along a circle
+/// around that lump, with the sum of the two radii. At the first other circle of this kind that the centre meets, it
+/// changes to that circle.
 class Walk {
   public:
     Walk(const std::vector<Lump>& lumps, double probe) : lumps_(lumps), probe_(probe), grid_(make_grid()) {}
@@ -367,9 +368,8 @@ void add_membrane(World& world, double pressure, double probe, BodyIndex bottom,
     wrap_membrane(world);
     if (membrane.points.empty()) {
         throw InputError(fmt::format(
-            "membrane: found that a disc of radius {:.3g} m passes through the specimen, expected particles "
-            "without such gaps "
-            "on either side; pack the specimen more densely",
+            "membrane: found gaps through which a disc of radius {:.3g} m passes through the specimen, expected closed "
+            "sides around which the membrane can be wrapped; pack the specimen more densely",
             probe));
     }
     velocities_changed(world);

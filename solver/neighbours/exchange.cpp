@@ -143,7 +143,7 @@ MergedList merge_lists(World& world, PointKind kind, Array<ContactPoint> found) 
     return next;
 }
 
-/// Moves groups of four points between the same two bodies to the front. @return number of points in these groups
+/// Moves the points of all pairs of bodies that have exactly four points to the front. @return number of these points
 PointIndex put_fours_first(MergedList& next) {
     MergedList others;
     std::size_t fours = 0;
@@ -306,8 +306,8 @@ void find_shear_roots(World& world) {
     });
 }
 
-/// Sets the stiffness and strength factors of points that have none yet to the values for unbonded contacts, and
-/// includes the stiffness factor of each point in its root mass.
+/// Sets the stiffness and strength factors of new points, which have no factors yet, to the values for unbonded
+/// contacts. Multiplies the root mass of each point by the root of its stiffness factor.
 void find_shares(World& world) {
     if (!world.settings.own_shares()) return;
     const bool by_area = world.settings.units == StiffnessUnits::area;

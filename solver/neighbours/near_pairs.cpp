@@ -48,8 +48,8 @@ CellLayout layout_for(const World& world) {
             static_cast<std::size_t>(height / size) + 1};
 }
 
-/// Bounding radii in descending order, m, followed by 0. Each pair is found from its larger body, which searches only
-/// as far as the next smaller body reaches.
+/// Bounding radii in descending order, m, followed by 0. The search for a pair starts at its larger body. It therefore
+/// extends only as far as required by the bounding radius of the next smaller body.
 std::vector<double> reaches_by_rank(const World& world) {
     std::vector<double> reaches(world.bodies.size() + 1, 0.0);
     for (std::size_t b = 0; b < world.bodies.size(); ++b) reaches[world.list.size_rank[b]] = world.bodies.info(b).reach;

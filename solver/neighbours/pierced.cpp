@@ -75,8 +75,8 @@ std::uint32_t segment_between(const World& world, const BodyInfo& chain, Vec2 th
 /// End of a message: possible reasons why a body passed through another. Which reason applies is not known here.
 std::string likely_cause(const World& world) {
     return fmt::format(
-        "; the impact is too fast or the load too high for its stiffness and thickness, or the time step, {:.3g} s "
-        "(bound {:.3g} s), is too large; try half this time step",
+        "; the impact is too fast, the load is too high for the stiffness and thickness of the bodies, or the time "
+        "step, {:.3g} s (stable bound {:.3g} s), is too large; try half this time step",
         world.stepping.time_step, world.stepping.step_bound);
 }
 
@@ -112,8 +112,8 @@ void refuse_piercing(const World& world) {
                             j_now.inwards(i_now.outwards(at)));
         if (segment == 0) continue;
         throw UnstableRun(world.stepping.steps, world.bodies.info(i).id,
-                          fmt::format("it went through segment {} of body {}{}; four segments that form a closed box "
-                                      "push such a body back out",
+                          fmt::format("it went through segment {} of body {}{}, or replace the segment with four "
+                                      "segments that form a closed box, which pushes such a body back out",
                                       segment, target.id, likely_cause(world)));
     }
 }

@@ -58,8 +58,9 @@ StrengthFactors::StrengthFactors(StrengthDistribution distribution, double cv, s
     if (distribution == StrengthDistribution::none) return;
     const double highest = distribution == StrengthDistribution::normal ? largest_normal_cv : 2.0;
     if (!(cv >= 1e-4 && cv <= highest)) {
-        throw InputError(fmt::format("coefficient of variation of strengths: found {}, expected 0.0001 to {} ({})", cv,
-                                     highest, name_of(distribution)));
+        throw InputError(fmt::format(
+            "coefficient of variation of strengths: found {}, expected 0.0001 to {} for the distribution {}", cv,
+            highest, name_of(distribution)));
     }
     if (distribution == StrengthDistribution::normal) {
         // s is the ratio of the standard deviation to the mean before truncation. That mean equals the mode.

@@ -110,7 +110,8 @@ void validate_bond_constants(const std::string& name, const BondConstants& const
         const std::string what = name + constant.spoken();
         if (!constant.is_angle) require_not_negative(what, *value, "N");
         if (constant.is_angle && !(*value >= 0.0 && *value <= friction_angle))
-            refuse(what, *value, fmt::format("degrees from 0 to the friction angle{}, {:g}", whose, friction_angle));
+            refuse(what, *value,
+                   fmt::format("an angle from 0 to the friction angle{}, {:g} deg", whose, friction_angle));
     }
 }
 
@@ -136,12 +137,12 @@ void validate_laws(const Scene& scene) {
     const BondLawFacts& bonds = facts_of(scene.bond_law);
     const char* law = name_of(scene.bond_law);
     if (guide() && !bonds.with_guide_segments)
-        throw InputError(
-            fmt::format("bond law: found {} with the DEMseg guide's segment law, expected the rounded law", law));
+        throw InputError(fmt::format(
+            "bond law: found {} with the DEMseg guide's segment law, expected the rounded segment law", law));
     if (bonds.sticks && (any_material([](const Material& m) { return m.shear_stiffness == 0.0; }) ||
                          any_pair([](const MaterialPair& p) { return p.shear_stiffness == 0.0; })))
-        throw InputError(
-            fmt::format("shear stiffness: found 0 with {} bonds, expected a number > 0; these bonds carry shear", law));
+        throw InputError(fmt::format(
+            "shear stiffness: found 0 with {} bonds, expected a number > 0, because these bonds resist shear", law));
     for (const BondConstant& constant : all_bond_constants()) {
         if (bonds.constant(constant.key) != nullptr) continue;
         // A material always has a residual friction angle, which is 0 if not given.
@@ -153,7 +154,8 @@ void validate_laws(const Scene& scene) {
     }
     if (scene.units == StiffnessUnits::area) {
         if (guide())
-            throw InputError("units: found area with the DEMseg guide's segment law, expected the rounded law");
+            throw InputError(
+                "units: found area units with the DEMseg guide's segment law, expected the rounded segment law");
         if (any_material([](const Material& m) {
                 return !m.damping_ratio && (m.normal_damping > 0.0 || m.shear_damping > 0.0);
             }))
@@ -217,7 +219,7 @@ void validate_joint(const Scene& scene, const Joint& joint, const std::string& n
     if (joint.aperture > farthest_apart(scene))
         refuse(name + "aperture", joint.aperture,
                scene.trace_pieces.empty()
-                   ? fmt::format("at most the thickness, {} m, the gap between the faces", scene.thick)
+                   ? fmt::format("at most the thickness of {} m, which is the gap between the faces", scene.thick)
                    : fmt::format("at most the radius of the smallest circle, {:.6g} m", farthest_apart(scene)));
 }
 
@@ -254,13 +256,15 @@ void validate_joints(const Scene& scene) {
     const auto joints = static_cast<std::int32_t>(scene.joints.size());
     if (std::ranges::any_of(scene.trace_joints, [&](std::int32_t j) { return j < -1 || j >= joints; }))
         throw InputError(
-            fmt::format("traces: found a joint that does not exist, expected a number below {}, or -1", joints));
+            fmt::format("traces: found a joint that does not exist, expected the index of a joint, which is below {}, "
+                        "or -1 for a trace without a joint",
+                        joints));
     const auto sides = 2 * static_cast<TraceSide>(scene.trace_joints.size());
     if ((!scene.edge_sides.empty() && scene.edge_sides.size() != scene.vertices.size()) ||
         std::ranges::any_of(scene.edge_sides, [&](TraceSide s) { return s < no_side || s >= sides; }))
         throw InputError(
             fmt::format("edges: found {} sides of traces for {} vertices, or a side of a trace that does not exist, "
-                        "expected one side for each vertex",
+                        "expected one existing side for each vertex",
                         scene.edge_sides.size(), scene.vertices.size()));
     SmallestAngles smallest;
     for (const Body& body : scene.bodies) {
@@ -310,7 +314,7 @@ void validate_chain(Scene& scene, const Body& body) {
     for (std::size_t k = 0; k < edges; ++k) perimeter += norm(corners[(k + 1) % corners.size()] - corners[k]);
     // For a sliver with a smaller area, the centroid would lose half its digits.
     if (std::abs(area) < 1e-10 * perimeter * perimeter)
-        refuse(name + "area of the closed chain", area, "more than 1e-10 of its perimeter squared");
+        refuse(name + "area of the closed chain", area, "more than 1e-10 times the square of its perimeter");
     if (area < 0.0) turn_round(scene, body, corners);
     for (std::size_t a = 0; a < edges; ++a) {
         for (std::size_t b = a + 2; b < edges; ++b) {
@@ -344,10 +348,10 @@ void require_room_to_move(const Scene& scene, const Body& body) {
     }
     const double gap = std::nextafter(farthest, std::numeric_limits<double>::infinity()) - farthest;
     if (gap <= largest_share * size) return;
-    throw InputError(
-        fmt::format("body {}: found coordinates up to {:.6g} m, where floating-point numbers are {:.2g} m apart, "
-                    "expected at most {} of the body's size, {:.4g} m; shift the origin towards the bodies",
-                    body.id, farthest, gap, largest_share, size));
+    throw InputError(fmt::format(
+        "body {}: found coordinates up to {:.6g} m, where floating-point numbers are {:.2g} m apart, expected them to "
+        "be at most {} of the body's size, {:.4g} m, apart; move the origin closer to the bodies",
+        body.id, farthest, gap, largest_share, size));
 }
 
 void validate_body(Scene& scene, const Body& body) {
@@ -421,7 +425,7 @@ MassProperties mass_properties(const Scene& scene, const Body& body) {
 }
 
 void validate(Scene& scene) {
-    if (scene.materials.empty()) throw InputError("materials: found none, expected at least one");
+    if (scene.materials.empty()) throw InputError("materials: found no material, expected at least one");
     for (std::size_t k = 0; k < scene.materials.size(); ++k) validate_material(scene.materials[k], k);
     validate_pairs(scene);
     const auto by_ratio = [](const Material& m) { return m.damping_ratio && *m.damping_ratio > 0.0; };
@@ -430,11 +434,11 @@ void validate(Scene& scene) {
     };
     if (std::ranges::any_of(scene.materials, by_ratio) && std::ranges::any_of(scene.materials, by_value)) {
         throw InputError(
-            "materials: found a damping ratio in one and dashpot coefficients in another, expected the same kind for "
-            "all, since the two kinds cannot be combined in a contact");
+            "materials: found a damping ratio in one material and dashpot coefficients in another, expected the same "
+            "kind of damping in all, since a contact cannot combine the two kinds");
     }
     validate_laws(scene);
-    if (scene.bodies.empty()) throw InputError("bodies: found none, expected at least one particle");
+    if (scene.bodies.empty()) throw InputError("bodies: found no body, expected at least one particle");
     require_not_negative("thick", scene.thick, "m");
     require_finite("gravity x", scene.gravity.x);
     require_finite("gravity y", scene.gravity.y);
@@ -471,7 +475,8 @@ void validate(Scene& scene) {
         for (const DofControl& dof : {control.x, control.y, control.rotation}) {
             require_finite("control value", dof.value);
             if (dof.drive == Drive::displacement && control.ramp_steps < 1) {
-                refuse("steps of a displacement control", static_cast<double>(control.ramp_steps), "at least 1");
+                refuse("number of steps of a displacement control", static_cast<double>(control.ramp_steps),
+                       "at least 1");
             }
         }
     }
@@ -484,8 +489,8 @@ std::vector<std::string> scene_notices(const Scene& scene) {
     const auto segment = std::ranges::find_if(scene.bodies, open);
     if (scene.thick == 0.0 && segment != scene.bodies.end() && std::ranges::count_if(scene.bodies, chain) > 1) {
         notices.push_back(
-            fmt::format("thick: found 0 with open segments (body {}) and corners of other bodies, which then never "
-                        "touch each other; give a thickness > 0 if they should touch",
+            fmt::format("thick: at a thickness of 0, open segments (body {}) and corners of other bodies never touch "
+                        "each other; give a thickness > 0 if they should touch",
                         segment->id));
     }
     return notices;

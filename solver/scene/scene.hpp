@@ -206,12 +206,12 @@ struct Scene {
     StiffnessUnits units = StiffnessUnits::point;
     Vec2 gravity;  ///< m/s2, gravitational acceleration
 
-    double time_step = 0.0;   ///< s; 0: chosen automatically from the stable bound and safety_factor
+    double time_step = 0.0;   ///< s; 0: chosen automatically from the stability limit and safety_factor
     double step_scale = 1.0;  ///< factor on all automatic steps, for example for a comparison with half the step
-    /// Fraction of the stable bound used for an automatic step (at most loose_step_share without bonds).
+    /// Fraction of the stability limit used for an automatic step (at most loose_step_share without bonds).
     double safety_factor = 0.8;
     bool allow_unstable =
-        false;  ///< allows a given time step above the stable bound, and energy that grows without a source
+        false;  ///< allows a given time step above the stability limit, and energy that grows without a source
     FirstKick first_kick = FirstKick::half;
     IntactOptions intact;
     int threads = 1;

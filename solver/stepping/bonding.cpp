@@ -180,10 +180,10 @@ void set_strengths(World& world, const Bonding& bonding) {
         }
         const double mean = count > 0 ? sum / static_cast<double>(count) : 0.0;
         if (count > 0 && !(mean > 0.0)) {
-            throw InputError(
-                fmt::format("strength factors: found a mean back-tension of {:.6g} N, expected a value > 0 to "
-                            "multiply; cells bond without overlap, so give tensile_strength and cohesion",
-                            mean));
+            throw InputError(fmt::format(
+                "strength factors: found a mean back-tension of {:.6g} N, expected a value > 0 for the factors to "
+                "multiply; cells bond without overlap, so give tensile_strength and cohesion instead",
+                mean));
         }
         for (std::size_t number = 0; number < pairs; ++number) {
             ContactLaw& law = world.settings.laws[number];
@@ -373,8 +373,8 @@ std::int64_t bond_by_faces(World& world, const FaceBonding& bonding, FaceQuality
 std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double gap) {
     if (gap > 0.0 && !facts_of(world.settings.bond_law).bonds_across_gaps)
         throw InputError(
-            fmt::format("gap: found {:g} m under {}, expected 0, since the strength of such a bond follows from its "
-                        "overlap; bond across gaps with bond.law = {}",
+            fmt::format("gap: found {:g} m with {} bonds, expected 0, since the strength of such a bond follows from "
+                        "its overlap; to bond across gaps, use bond.law = {}",
                         gap, name_of(world.settings.bond_law), laws_with(&BondLawFacts::bonds_across_gaps)));
     std::vector<BodyIndices> asked;
     for (const BodyPair& pair : pairs) {

@@ -266,8 +266,8 @@ void build_laws(World& world, const Scene& scene) {
     if (world.settings.laws.size() > std::numeric_limits<std::uint16_t>::max()) {
         throw InputError(settings.joints.empty()
                              ? fmt::format("materials: found {}, expected at most 255", settings.materials.size())
-                             : fmt::format("joints: found {} with {} materials, which need {} contact laws, expected "
-                                           "at most {} laws; use fewer joints or materials",
+                             : fmt::format("joints: found {} joints with {} materials, which need {} contact laws, "
+                                           "expected at most {} laws; use fewer joints or materials",
                                            settings.joints.size(), settings.materials.size(), settings.laws.size(),
                                            std::numeric_limits<std::uint16_t>::max()));
     }
@@ -292,7 +292,7 @@ void refuse_bodies_outside(const World& world) {
         if (!outside_domain(world, b)) continue;
         throw InputError(
             fmt::format("body {}: found its centroid at ({:.6g}, {:.6g}), beyond a wall of the domain, expected it "
-                        "inside; move it, widen the domain, or hold the body",
+                        "inside the domain; move the body, widen the domain, or hold the body fixed",
                         world.bodies.info(b).id, world.bodies.state[b].x, world.bodies.state[b].y));
     }
 }
@@ -308,11 +308,10 @@ void choose_time_step(World& world, const Scene& scene) {
         world.stepping.automatic_step ? derived_step_share(world) * world.stepping.step_bound : scene.time_step;
     if (!world.stepping.automatic_step && !world.stepping.allow_unstable &&
         world.stepping.time_step > world.stepping.step_bound) {
-        throw InputError(
-            fmt::format("time step: found {} s, expected at most the stable bound of this scene, {:.6g} s; give a "
-                        "smaller time step, omit it for an automatic step, or run with --allow-unstable to find the "
-                        "limit",
-                        world.stepping.time_step, world.stepping.step_bound));
+        throw InputError(fmt::format(
+            "time step: found {} s, expected at most the stable bound of this scene, {:.6g} s; give a smaller time "
+            "step, leave it out to have it chosen automatically, or run with --allow-unstable to find the limit",
+            world.stepping.time_step, world.stepping.step_bound));
     }
 }
 

@@ -65,12 +65,11 @@ void keep_step_below_bound(World& world) {
     if (world.bonds.made)
         world.stepping.step_bound =
             std::max(world.stepping.step_bound, critical_step(world, ClosedPoints::touching).step);
-    throw UnstableRun(
-        world.stepping.steps, world.bodies.info(world.stepping.limiting_body).id,
-        fmt::format("the time step, {:.6g} s, is above the stable bound, which fell to {:.6g} s as this body gained "
-                    "contacts; give a smaller one, leave it out (0 in a deck) to have it chosen, or run "
-                    "with --allow-unstable",
-                    world.stepping.time_step, world.stepping.step_bound));
+    throw UnstableRun(world.stepping.steps, world.bodies.info(world.stepping.limiting_body).id,
+                      fmt::format("the time step, {:.6g} s, is above the stable bound, which fell to {:.6g} s as this "
+                                  "body gained contacts; give a smaller time step, leave it out (0 in a deck) to have "
+                                  "it chosen automatically, or run with --allow-unstable",
+                                  world.stepping.time_step, world.stepping.step_bound));
 }
 
 void set_time_step(World& world, double time_step) {

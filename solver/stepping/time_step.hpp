@@ -12,16 +12,16 @@ namespace crackle {
 /// @throws UnstableRun if a given time step is above the stable bound (not with allow_unstable)
 void refresh_neighbours(World& world);
 /// Computes StepControl::step_bound for the points that carry load (without bonds: for all listed points) and keeps the
-/// step below it. @throws UnstableRun as refresh_neighbours()
+/// step below it. @throws UnstableRun under the same conditions as refresh_neighbours()
 void evaluate_step_bound(World& world);
 /// Computes the exact stable step for the points in contact. In a bonded world, also sets the target of automatic step
 /// control (StepControl::step_goal).
 void find_exact_step(World& world);
 /// Lowers StepControl::step_bound, and an automatic step with it, for points that began to carry load in the last force
-/// pass. @throws UnstableRun as refresh_neighbours()
+/// pass. @throws UnstableRun under the same conditions as refresh_neighbours()
 void count_new_points(World& world);
 /// Lowers an automatic step to what step_bound allows, or raises it towards step_goal when the bound has risen. @throws
-/// UnstableRun as refresh_neighbours()
+/// UnstableRun under the same conditions as refresh_neighbours()
 void keep_step_below_bound(World& world);
 /// Sets a fixed time step, s, in place of an automatic step. It may be as large as the exact limit for the points that
 /// carry load.

@@ -24,10 +24,10 @@ std::string save_world(const World& world);
 /// the message contains `name`
 /// @param remedy the advice in the message if another version wrote the checkpoint
 World load_world(std::istream& in, std::streamoff end, const std::string& name,
-                 const char* remedy = "run the test again with this crackle");
+                 const char* remedy = "run the test again with this version of crackle");
 /// Reads a world from a string that holds nothing else.
 World load_world(std::string bytes, const std::string& name,
-                 const char* remedy = "run the test again with this crackle");
+                 const char* remedy = "run the test again with this version of crackle");
 
 /// Whether the bodies and elements that a contact point refers to exist in the world.
 bool is_point_of(const World& world, PointKind kind, const ContactPoint& point);

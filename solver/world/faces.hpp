@@ -221,7 +221,7 @@ struct Faces {
     std::vector<HandOver> hand_over;
     Array<float> whole_share;  // for each point: its stiffness_share at q = 0; empty if no points replace faces
 
-    // 1/s² and 1/s: upper bounds on the eigenvalues of M^-½KM^-½ and M^-½CM^-½ of all faces, if none were broken.
+    // 1/s² and 1/s: upper bounds on the eigenvalues of M^-½KM^-½ and M^-½CM^-½, computed as if all faces were intact.
     double stiffness_bound = 0.0, damping_bound = 0.0;
     FaceColumns<FaceDashpots> dashpots,
         dashpot_force;  // coefficients, and forces in the last force pass; both empty without damping

@@ -14,7 +14,7 @@ std::vector<FieldHash> hash_fields(const World& world) {
     std::vector<FieldHash> hashes;
     const auto add = [&](const std::string& group_name, const auto& group) {
         using Group = std::remove_cvref_t<decltype(group)>;
-        static_assert(lists_all_fields<Group>(), "a member is missing in the group's fields()");
+        static_assert(lists_all_fields<Group>(), "a member is missing from the group's fields()");
         Group::fields(group, [&](const char* name, const auto& field, const auto&... /*more*/) {
             hashes.push_back({group_name + "." + name, hash_of_field(field)});
         });

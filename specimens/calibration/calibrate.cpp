@@ -181,20 +181,19 @@ class Calibration {
             negative = static_cast<Index>((figures.col(t).array() <= 0.0).count());
         }
         const std::int64_t peakless = search_.without_peak(values, packings, static_cast<std::size_t>(worst));
-        const char* remedy = "find out which tests went wrong";
-        if (negative > 0) remedy = "take another target";
+        const char* remedy = "find out why these tests went wrong";
+        if (negative > 0) remedy = "choose another target";
         if (peakless > 0)
             remedy =
-                "such specimens are ductile: raise loading.max_axial_strain, or use largest_stress, the largest stress "
-                "up to that strain, as the figure";
-        throw InputError(fmt::format(
-            "{}: found {} of {} above 0 in only {} of {} packings (0 or less in {}; without a peak in {}; missing in "
-            "{}, "
-            "which went wrong) at {}, expected all targets' figures of half the packings or more; {}; see `crackle "
-            "campaign show {}`",
-            space_.target(worst).where, space_.target(worst).quantity(), space_.target(worst).source(rock_.tests),
-            fewest, packings.count, negative, peakless, packings.count - fewest - negative - peakless, at, remedy,
-            search_.options().folder.string()));
+                "such specimens are ductile: raise loading.max_axial_strain, or use largest_stress (the largest stress "
+                "up to that strain) as the figure";
+        throw InputError(
+            fmt::format("{}: found {} of {} above 0 in only {} of {} packings (0 or less in {}; without a peak in {}; "
+                        "missing in {}, which went wrong) at {}, expected figures for all targets from at least half "
+                        "of the packings; {}; see `crackle campaign show {}`",
+                        space_.target(worst).where, space_.target(worst).quantity(),
+                        space_.target(worst).source(rock_.tests), fewest, packings.count, negative, peakless,
+                        packings.count - fewest - negative - peakless, at, remedy, search_.options().folder.string()));
     }
 
     void search() {
@@ -203,7 +202,7 @@ class Calibration {
         int stalls = 0;
         for (int round = 1; round <= most_rounds; ++round) {
             outcome_.rounds = round;
-            if (!linear_.empty()) begin("moduli from the linear solves");
+            if (!linear_.empty()) begin("fitting moduli by linear solves");
             x_ = linear_.solve(x_);
             begin(fmt::format("round {}: measuring the centre point on {}", round, counted(rock_.fit, "packing")));
             const Measured middle = measured_at(x_, fit_packings());

@@ -151,10 +151,11 @@ std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& reques
         return !failed.empty() || !unwritten.empty() || (request.interrupted && request.interrupted());
     };
     const bool complete = run_crew(std::min(request.workers, static_cast<int>(count)), crew);
-    if (!unwritten.empty()) throw OutputError(unwritten + "; the same command resumes");
+    if (!unwritten.empty()) throw OutputError(unwritten + "; run the same command again to resume");
     if (!failed.empty())
-        throw SystemFailure(fmt::format("{}: a linear solve failed because of the system: {}; the same command resumes",
-                                        rock.file.string(), failed));
+        throw SystemFailure(
+            fmt::format("{}: a linear solve failed because of the system: {}; run the same command again to resume",
+                        rock.file.string(), failed));
     if (!complete) throw TestInterrupted();
     std::vector<std::vector<double>> means = means_of(found, request.tests.size(), rock.fit);
     const bool refuses = std::ranges::any_of(means, [](const auto& of_test) { return std::isnan(of_test[0]); });

@@ -51,11 +51,11 @@ bool needs_peak(const Target& target, double value) {
 /// Error for a target without a figure in any test. @param done whether its test was done
 InputError no_figure(const Target& target, const std::vector<PlannedTest>& tests, bool done,
                      const std::filesystem::path& folder) {
-    return InputError(
-        fmt::format("{}: found no {} in any test of {}{}, expected a number; see `crackle campaign show {} --wrong`",
-                    target.where, target.quantity(), target.source(tests),
-                    done ? " (did any specimen fail before loading.max_axial_strain?)" : ", none of which finished",
-                    folder.string()));
+    return InputError(fmt::format(
+        "{}: found no {} in any test of {}{}, expected a number; see `crackle campaign show {} --wrong`", target.where,
+        target.quantity(), target.source(tests),
+        done ? " (did any specimen fail before it reached loading.max_axial_strain?)" : ", none of which finished",
+        folder.string()));
 }
 
 }  // namespace

@@ -59,11 +59,13 @@ std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
             "\n{} = {:.4g} cannot be met together with the other targets; the nearest value reached is {:.4g} ± "
             "{:.2g}{}\n",
             target_name(rock, k), rock.targets[k].value, reached.fresh.mean, reached.fresh.standard_error,
-            bounds.empty() ? "" : fmt::format(", with {} at the bounds", bounds));
+            bounds.empty() ? "" : fmt::format(", at which these keys are at their bounds: {}", bounds));
     }
     if (outcome.frontier.empty()) return text;
-    text += fmt::format("\npossible compromises for {} (means of the packings used for fitting ± standard error):\n",
-                        target_name(rock, outcome.frontier_of));
+    text += fmt::format(
+        "\npossible compromises for {} (each value is the mean over the packings used for fitting ± its standard "
+        "error):\n",
+        target_name(rock, outcome.frontier_of));
     for (const FrontierPoint& point : outcome.frontier) {
         std::string line, keys;
         for (std::size_t t = 0; t < rock.targets.size(); ++t) {
@@ -123,15 +125,15 @@ std::string directions_text(const Rock& rock, const CalibrationOutcome& outcome)
                 ratio ? fmt::format("times {:.2f}", factor) : fmt::format("{:+.3g}", factor * rock.free[f].scale()));
         }
         text += fmt::format(
-            "\nnot determined by the targets: {}: this combined change moves no target by more than {:.2g} of its "
-            "tolerance; only another target can distinguish these values\n",
+            "\nnot determined by the targets: the combined change {} shifts no target by more than {:.2g} of its "
+            "tolerance; only an additional target can determine these keys\n",
             keys, direction.change);
     }
     for (std::size_t f = 0; f < rock.free.size(); ++f) {
         if (!outcome.keys[f].lost_in_scatter) continue;
         text += fmt::format(
-            "\nnot determined by these packings: {}: their scatter allows any value between its bounds, {:.4g} and "
-            "{:.4g}; use a larger polish in [packings], or another target\n",
+            "\nnot determined by these packings: their scatter allows {} to have any value between its bounds, {:.4g} "
+            "and {:.4g}; use a larger polish in [packings], or another target\n",
             rock.free[f].name(), rock.free[f].from, rock.free[f].to);
     }
     return text;

@@ -28,40 +28,42 @@ constexpr DeclaredKey rock_keys[]{
     {"", "title", "a text", "Name of the rock."},
     {"[[test]]", "case", "a file", "Case of `crackle test`, relative to this file; required."},
     {"[[test]]", "name", "a text", "Name by which targets refer to the test; by default, the case's file name."},
-    {"[[test]]", "set", "a table", "Keys of the case with other values, as in a plan."},
+    {"[[test]]", "set", "a table", "Keys of the case that are given other values, as in a plan of `crackle campaign`."},
     {"[[target]]", "test", "the name of a test", "Test that provides the figure; required if there are several tests."},
     {"[[target]]", "figure", "a figure of summary.json", "\"youngs_modulus\", \"peak_stress\"; required."},
     {"[[target]]", "over", "another figure of summary.json",
-     "The target is then the ratio of `figure` to this one, for example crack_initiation_stress to peak_stress."},
+     "The target is then the ratio of `figure` to this key, for example crack_initiation_stress to peak_stress."},
     {"[[target]]", "tests", "a list of names",
-     "In place of test, with figure \"friction_angle\" (Mohr-Coulomb, deg) or \"hoek_brown_m\": compression tests "
-     "under at least three pressures including 0. The law is fitted to the tests of each packing separately."},
+     "Replaces test if figure is \"friction_angle\" (Mohr-Coulomb, deg) or \"hoek_brown_m\": names of compression "
+     "tests under at least three confining pressures, including 0. The law is fitted to the tests of each packing "
+     "separately."},
     {"[[target]]", "value", "a number > 0",
      "Value that the mean over packings should reach, in the figure's unit; required."},
     {"[[target]]", "tolerance", "a number > 0 and < 1",
      "Allowed deviation of the mean, as a fraction of the value; 0.05 by default."},
     {"[[target]]", "error", "a number >= 0 and < 1",
      "Standard error of the measured value, as a fraction of the value; 0 by default."},
-    {"[[free]]", "key", "a key of a case", "Key of the cases to be calibrated; required."},
+    {"[[free]]", "key", "a key of a case", "Key of the cases whose value is to be calibrated; required."},
     {"[[free]]", "of", "another free key",
-     "The ratio to this key is calibrated, for example cohesion divided by tensile strength."},
+     "If given, the ratio of `key` to this key is calibrated, for example cohesion divided by tensile strength."},
     {"[[free]]", "from", "a number",
      "Lower bound; required. If it is above 0, the search uses a logarithmic scale, otherwise a linear one."},
     {"[[free]]", "to", "a number > from", "Upper bound; required."},
-    {"[[free]]", "start", "a number between",
-     "Start of the search; by default, a guess from the targets or, without one, the middle of the bounds."},
+    {"[[free]]", "start", "a number between from and to",
+     "Value at which the search starts; by default, an estimate from the targets or, if there is none, the middle of "
+     "the bounds."},
     {"[[curve]]", "test", "the name of a test",
      "Test to which the measured curve belongs; required if there are several tests."},
     {"[[curve]]", "file", "a file", "CSV with columns axial_strain and axial_stress; required."},
     {"[packings]", "fit", "a whole number, 4 to 10000",
-     "Number of packings tested at each point of a design; 8 by default."},
+     "Number of packings tested at each point of the search; 8 by default."},
     {"[packings]", "polish", "a whole number, from the value of fit to 10000",
      "Number of packings used for the last correction; 40 by default."},
     {"[packings]", "fresh", "a whole number, 4 to 10000",
      "Number of fresh packings on which the result is judged; 20 by default."},
     {"[packings]", "first_seed", "a whole number >= 0", "Seed of the first packing; 1 by default."},
     {"[run]", "time_limit", "a number > 0 in s",
-     "Largest wall-clock time of a test; a test that takes longer is stopped and reported."},
+     "Longest wall-clock time allowed for a test; a test that takes longer is stopped and reported."},
 };
 constexpr std::size_t most_free_keys = 8;
 
@@ -153,15 +155,14 @@ FreeKey read_free(const Rock& rock, const KeyedTable& table) {
         table.refuse("key", fmt::format("\"{:.40}\"", key), "a key with a numeric value");
     for (const char* other : {"numerics.", "output.", "loading."})
         if (key.starts_with(other))
-            table.refuse("key", fmt::format("\"{}\"", key),
-                         "a key of the rock, not one that only describes how it is tested");
+            table.refuse("key", fmt::format("\"{}\"", key), "a key that describes the rock, not how it is tested");
     FreeKey free;
     free.key = key;
     for (const PlannedTest& test : rock.tests)
         for (const CaseSetting& setting : test.settings)
             if (setting.key == key)
-                table.refuse("key", fmt::format("{}, which `set` of test {} gives a value", key, test.name),
-                             "the key in one of them only");
+                table.refuse("key", fmt::format("{}, to which `set` of test {} also gives a value", key, test.name),
+                             "a key that is either free or in `set`, not both");
     free.where = table.where("key");
     for (const FreeKey& other : rock.free)
         if (other.key == free.key) table.refuse("key", fmt::format("{} twice", key), "one [[free]] per key");
@@ -169,7 +170,7 @@ FreeKey read_free(const Rock& rock, const KeyedTable& table) {
     if (!free.of.empty() && std::none_of(rock.free.begin(), rock.free.end(), [&](const FreeKey& other) {
             return other.key == free.of && other.of.empty();
         }))
-        table.refuse("of", fmt::format("\"{:.40}\"", free.of), "the key of a [[free]] above this one");
+        table.refuse("of", fmt::format("\"{:.40}\"", free.of), "the key of an earlier [[free]] table");
     const std::optional<double> from = table.number("from"), to = table.number("to"), start = table.number("start");
     if (!from || !to) table.refuse(from ? "to" : "from", "nothing");
     if (!(*to > *from)) table.refuse("to", shown(*table.get("to")));

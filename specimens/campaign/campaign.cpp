@@ -231,8 +231,8 @@ class CampaignRun {
     CampaignOutcome run() {
         ledger_.set_plan(plan_, tasks_.identities);
         for (const std::string& damaged : ledger_.drop_damaged())
-            say(fmt::format("{}: {}: found other values than were recorded; the test is run again", file_.string(),
-                            damaged));
+            say(fmt::format("{}: {}: found values that differ from those recorded; the test is run again",
+                            file_.string(), damaged));
         const std::vector<std::size_t> open = open_tasks();
         CampaignProgress& progress = outcome_.progress;
         progress.tests = static_cast<std::int64_t>(tasks_.tasks.size());
@@ -354,9 +354,10 @@ class CampaignRun {
     }
 
     void refuse_unfinished() const {
-        if (!stop_.empty()) throw OutputError(stop_ + "; the same command resumes");
+        if (!stop_.empty()) throw OutputError(stop_ + "; run the same command again to resume");
         const std::int64_t left = outcome_.progress.left;
-        if (!stop_by_system_.empty() && left > 0) throw SystemFailure(stop_by_system_ + "; the same command resumes");
+        if (!stop_by_system_.empty() && left > 0)
+            throw SystemFailure(stop_by_system_ + "; run the same command again to resume");
         if (!outcome_.interrupted && left > 0)
             throw std::logic_error(fmt::format("campaign: {} tests were never given to a worker", left));
     }
@@ -428,8 +429,8 @@ Gathered gather_shards(const fs::path& folder) {
     }
     if (!damaged.empty()) {
         throw InputError(fmt::format(
-            "{}: found other values than were recorded, expected values that match their hashes; all other tests were "
-            "gathered. Run these shards again with the same commands, then gather again",
+            "{}: found values that differ from those recorded, expected values that match their hashes; all other "
+            "tests were gathered. Run these shards again with the same commands, then gather again",
             damaged));
     }
     gathered.counts = ledger.counts();

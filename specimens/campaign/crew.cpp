@@ -244,7 +244,8 @@ class Crew {
 }  // namespace
 
 std::string spoken_end(const PieceEnd& end) {
-    if (end.how == PieceEnd::How::ended) return fmt::format("its process ended by itself with code {}", end.code);
+    if (end.how == PieceEnd::How::ended)
+        return fmt::format("its process exited with code {} and without a result", end.code);
     return fmt::format("its process was ended by signal {} ({})", end.code, ::strsignal(end.code));
 }
 

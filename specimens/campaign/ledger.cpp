@@ -435,8 +435,8 @@ void CampaignLedger::require_whole() const {
             if (!row.whole) damaged.push_back(called(*database_, row.identity));
         if (damaged.empty()) return;
         throw InputError(
-            fmt::format("{}: {}: found other values than were recorded, expected values that match its hash{}; run the "
-                        "command that made the ledger again, which repeats the test",
+            fmt::format("{}: {}: found values that differ from those recorded, expected values that match their "
+                        "hash{}; run the command that made the ledger again, which repeats the test",
                         file_.string(), damaged.front(),
                         damaged.size() > 1 ? fmt::format(" (also in {} more tests)", damaged.size() - 1) : ""));
     });

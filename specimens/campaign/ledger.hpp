@@ -108,7 +108,8 @@ class CampaignLedger {
     void require_whole() const;
     /// Results of the present plan, one row per row of the plan: row, test, axes, seed, variant, identity, state,
     /// processor time, figures by name.
-    /// @throws InputError as require_whole() does, and if a row lacks its test, seed, variant or identity
+    /// @throws InputError under the same conditions as require_whole(), and if a row lacks its test, seed, variant or
+    /// identity
     LedgerTable results() const;
     /// Result of an SQL query on any table or view. Hashes are not checked.
     LedgerTable query(const std::string& sql) const;

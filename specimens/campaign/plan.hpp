@@ -77,7 +77,7 @@ struct Plan {
     /// Ordered by packing, then point, then variant, so that rows with the same packing are adjacent.
     std::vector<PlanRow> rows;
 
-    /// The test of a row. @throws InputError as read_case() does
+    /// The test of a row. @throws InputError under the same conditions as read_case()
     ResolvedCase test_of(const PlanRow& row) const;
     /// The planned test to which a row belongs.
     const PlannedTest& kind_of(const PlanRow& row) const { return tests[points[row.point].test]; }

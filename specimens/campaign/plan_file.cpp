@@ -23,26 +23,30 @@ constexpr DeclaredKey plan_keys[]{
     {"", "title", "a text", "Title of the campaign."},
     {"[[test]]", "case", "a file", "Case of `crackle test`, relative to the plan; required."},
     {"[[test]]", "name", "a text", "Name of the test; by default, the case's file name."},
-    {"[[test]]", "set", "a table", "Keys of the case with other values: set = {\"loading.max_axial_strain\" = 0.02}."},
+    {"[[test]]", "set", "a table",
+     "Keys of the case that are given other values, for example set = {\"loading.max_axial_strain\" = 0.02}."},
     {"[[axis]]", "key", "a key of a case", "\"material.cohesion\", \"mineral[2].cohesion\"; required."},
     {"[[axis]]", "values", "a list", "Values of the axis; alternatively, give from and to."},
     {"[[axis]]", "from", "a number", "First value; `to` is then required as well."},
     {"[[axis]]", "to", "a number", "Last value."},
     {"[[axis]]", "count", "a whole number, 2 to ten million",
-     "Number of values from first to last; without it the axis belongs to the design."},
-    {"[[axis]]", "spacing", "\"linear\" or \"logarithmic\"", "Spacing of these values; linear by default."},
+     "Number of values from `from` to `to`; without it, the axis is one of the axes of [design]."},
+    {"[[axis]]", "spacing", "\"linear\" or \"logarithmic\"",
+     "Spacing of the values between `from` and `to`; linear by default."},
     {"[[axis]]", "tests", "a list of names", "The tests to which the axis applies; all by default."},
     {"[design]", "points", "a whole number, 1 to ten million",
-     "Number of points that fill the box of the design's axes."},
-    {"[design]", "sequence", "\"sobol\" or \"halton\"", "Sequence of the points; sobol by default."},
+     "Number of points, which are spread evenly over the ranges of all axes that have no count."},
+    {"[design]", "sequence", "\"sobol\" or \"halton\"",
+     "Low-discrepancy sequence from which the points are taken; sobol by default."},
     {"[packings]", "count", "a whole number >= 1",
-     "Number of packings tested at every point, the same for all points; 1 by default."},
+     "Number of packings tested at every point, with the same seeds at all points; 1 by default."},
     {"[packings]", "first_seed", "a whole number >= 0",
      "Seed of the first packing; the next packings have consecutive seeds. 1 by default."},
     {"[run]", "keep", "\"figures\", \"curves\" or \"all\"",
-     "Files of a test to keep in addition to the ledger; figures by default."},
+     "Files of each test to keep in addition to the ledger: none (figures), curve.csv (curves) or all files (all); "
+     "figures by default."},
     {"[run]", "time_limit", "a number > 0 in s",
-     "Largest wall-clock time of a test; a test that takes longer is stopped and reported."},
+     "Longest wall-clock time allowed for a test; a test that takes longer is stopped and reported."},
 };
 
 PlannedTest read_test(const fs::path& file, const KeyedTable& table) {
@@ -166,7 +170,7 @@ Plan read_plan(const fs::path& path, bool with_companions, std::int64_t most_row
         if (!plan.axes.back().of_design()) continue;
         if (design.points == 0) table.refuse("from", "from and to without count", "count, or points in [design]");
         if (++of_design > most_design_axes)
-            table.refuse("key", fmt::format("axis {} of the design", of_design),
+            table.refuse("key", fmt::format("axis number {} of the design", of_design),
                          fmt::format("at most {}", most_design_axes));
     }
     if (design.points > 0 && of_design == 0)

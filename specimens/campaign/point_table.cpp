@@ -226,13 +226,13 @@ std::string unit_of_figure(const std::string& column, bool area_units) {
 std::string verdict_on(const MeanFigure& mean, const MeanBias& bias) {
     const double size = std::abs(mean.mean), chance = mean.standard_error, wrong = std::abs(bias.value);
     if (!std::isfinite(chance) || !std::isfinite(bias.standard_error) || size == 0.0)
-        return "too few packings for a bias";
+        return "too few packings to estimate a bias";
     const auto percent = [&](double value, double error) {
         return fmt::format("{:+.2g} ± {:.2g} %", 100.0 * value / size, 100.0 * error / size);
     };
-    const std::string parts =
-        fmt::format("bias {} (step {}, rate {}; {} packings)", percent(bias.value, bias.standard_error),
-                    percent(bias.step, bias.step_error), percent(bias.rate, bias.rate_error), bias.packings);
+    const std::string parts = fmt::format("bias {} (due to the time step {}, due to the rate {}; {} packings)",
+                                          percent(bias.value, bias.standard_error), percent(bias.step, bias.step_error),
+                                          percent(bias.rate, bias.rate_error), bias.packings);
     if (!bias.known()) {
         constexpr double goal = 0.01;
         const double deviation = bias.standard_error * std::sqrt(static_cast<double>(bias.packings));

@@ -108,10 +108,11 @@ RowKind kind_of_row(std::string_view state) {
 }
 
 std::string spoken_wrong(std::int64_t gone_wrong, std::int64_t failures) {
-    return fmt::format("{} gone wrong{}", gone_wrong,
-                       failures > 0 ? fmt::format(", {} of them because of the system: the same command runs {} again",
-                                                  failures, failures > 1 ? "them" : "it")
-                                    : "");
+    return fmt::format(
+        "{} gone wrong{}", gone_wrong,
+        failures > 0 ? fmt::format(", {} of them because of a system error; run the same command again to repeat {}",
+                                   failures, failures > 1 ? "them" : "it")
+                     : "");
 }
 
 Figures figures_of(const Summary& summary) {

@@ -44,8 +44,8 @@ RowKind kind_of_row(std::string_view state);
 /// Results of a test by name: numbers and strings. Boolean values are 0 or 1.
 using Figures = std::vector<std::pair<std::string, std::variant<double, std::string>>>;
 
-/// Text for the number of tests without results: "3 gone wrong", or "3 gone wrong, 1 of them because of the system: the
-/// same command runs it again".
+/// Text for the number of tests without results: "3 gone wrong", or "3 gone wrong, 1 of them because of a system error;
+/// run the same command again to repeat it".
 std::string spoken_wrong(std::int64_t gone_wrong, std::int64_t failures);
 
 /// Outcome of one test, as recorded in the ledger.

@@ -52,7 +52,7 @@ CaseValue value_of(const Parameter& p, const toml::node& node, const std::string
                 const double number = *node.value<double>();
                 if (!p.accepts(number))
                     refuse(shown(node) +
-                           (is_a_size(number) || !std::isfinite(number) ? "" : ", which is not a possible size"));
+                           (is_a_size(number) || !std::isfinite(number) ? "" : ", which is too small or too large"));
                 return CaseValue(number);
             }
             break;
@@ -457,8 +457,9 @@ void write_resolved_case(std::ostream& out, const ResolvedCase& test, const fs::
 }
 
 void describe_case_keys(std::ostream& out) {
-    out << "include = \"FILE\" at the top: values of FILE apply to keys that the case does not set; FILE may include "
-           "another. A list such as [[mineral]] replaces the whole list of FILE. A line has at most "
+    out << "include = \"FILE\" at the top of a case: FILE supplies the values of keys that the case does not set, and "
+           "may itself include another file. A list in the case, such as [[mineral]], replaces the whole list in FILE. "
+           "A line may have at most "
         << longest_toml_line << " bytes.\n";
     for (const TableDescription& table : case_tables()) {
         if (!table.name.empty()) out << '\n' << table.heading() << "  " << table.sentence << '\n';

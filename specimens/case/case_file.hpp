@@ -45,7 +45,8 @@ struct RunScale {
 /// many tests.
 class CaseFiles {
   public:
-    /// @throws InputError as read_case() does, except for errors that can be detected only in a complete case
+    /// @throws InputError under the same conditions as read_case(), except for errors that can be detected only in a
+    /// complete case
     explicit CaseFiles(const std::filesystem::path& path);
     /// Reads the values from a text instead of a file.
     explicit CaseFiles(const CaseText& text);

@@ -70,10 +70,10 @@ class ConsistencyCheck {
     void specimen() const {
         const bool file = test_.has_table("particles");
         const bool pack = test_.has_table("packing");
-        if (file && pack) refuse("packing", "a [particles] table, too", "one of them", "remove one");
+        if (file && pack) refuse("packing", "both [particles] and [packing]", "one of them", "remove one");
         if (!file && !pack)
             refuse("particles", "neither [particles] nor [packing]", "one of them",
-                   "state where the specimen comes from");
+                   "add the table that describes the specimen's origin");
     }
 
     void packing() const {
@@ -87,7 +87,7 @@ class ConsistencyCheck {
             exclude("packing.height_to_width", "width and height determine the shape of the box");
         }
         if (p.mean_overlap && p.void_ratio)
-            exclude("packing.void_ratio", "mean_overlap is given as the target of the packing");
+            exclude("packing.void_ratio", "mean_overlap already determines how far the packing is compressed");
         if (!p.mean_overlap && !p.void_ratio) need("packing.mean_overlap", "or write void_ratio");
         if (p.cell_diameter || p.cell_spread) {
             cells();
@@ -102,13 +102,13 @@ class ConsistencyCheck {
         }
         expect_beside("packing.sieve", "sizes = \"sieve\"");
         if (p.sizes == RadiusLaw::uniform) {
-            need("packing.radius_min", "sizes = \"uniform\" needs both ends");
-            need("packing.radius_max", "sizes = \"uniform\" needs both ends");
+            need("packing.radius_min", "sizes = \"uniform\" needs both radius_min and radius_max");
+            need("packing.radius_max", "sizes = \"uniform\" needs both radius_min and radius_max");
             expect_beside("packing.radius_median", "sizes = \"lognormal\"");
             expect_beside("packing.radius_log_deviation", "sizes = \"lognormal\"");
         } else {
-            need("packing.radius_median", "sizes = \"lognormal\" needs it");
-            need("packing.radius_log_deviation", "sizes = \"lognormal\" needs it");
+            need("packing.radius_median", "sizes = \"lognormal\" needs this key");
+            need("packing.radius_log_deviation", "sizes = \"lognormal\" needs this key");
         }
         if (p.radius_min && p.radius_max && *p.radius_min > *p.radius_max) {
             refuse("packing.radius_min", fmt::format("{} m", *p.radius_min),
@@ -123,7 +123,7 @@ class ConsistencyCheck {
             exclude(std::string("packing.") + key, because);
         if (!test_.has_table("mesh"))
             refuse(test_.packing.cell_diameter ? "packing.cell_diameter" : "packing.cell_spread", "no [mesh] table",
-                   "one", "only a mesh has cells; give radii for circles");
+                   "one", "only a mesh has cells, so add [mesh], or give the radii of the circles");
         if (test_.packing.sizes == RadiusLaw::sieve)
             refuse("packing.sizes", "\"sieve\"", "\"uniform\" or \"lognormal\"", because);
         need("packing.cell_diameter", "cell_spread needs the mean diameter");
@@ -133,7 +133,7 @@ class ConsistencyCheck {
     void material() const {
         const auto& m = test_.material;
         if (m.damping_ratio && (m.normal_damping || m.shear_damping)) {
-            refuse("material.damping_ratio", "a damping ratio and dashpots", "one kind of damping",
+            refuse("material.damping_ratio", "a damping ratio and dashpots", "only one kind of damping",
                    "remove damping_ratio or the dashpots");
         }
         const bool area = test_.area_units();
@@ -144,10 +144,11 @@ class ConsistencyCheck {
                 exclude_of_materials(key, "units = \"area\" uses damping_ratio");
             if (!test_.bond_facts().by_faces)
                 for (const char* key : {"contact_modulus", "stiffness_ratio"})
-                    need(std::string("material.") + key, "units = \"area\" needs it");
+                    need(std::string("material.") + key, "units = \"area\" needs this key");
             if (test_.numerics.contact_law != SegmentLaw::rounded)
-                refuse("material.units", "\"area\"", "\"point\" with the contact law of DEMseg's guide",
-                       "that law does not use the area of faces; use contact_law = \"rounded\"");
+                refuse(
+                    "material.units", "\"area\"", "\"point\" with the contact law of DEMseg's guide",
+                    "that law does not use the area of faces, so use contact_law = \"rounded\" with units = \"area\"");
         } else {
             for (const char* key : {"contact_modulus", "stiffness_ratio"})
                 expect_materials_beside(key, "units = \"area\"");
@@ -159,15 +160,15 @@ class ConsistencyCheck {
         for (std::size_t k = 0; k < test_.mineral_pair.size(); ++k)
             numbers(fmt::format("mineral_pair[{}]", k + 1), pair_material(test_, k));
         if (!test_.has_table("packing")) return;
-        need("material.density", "required, since no particle file provides it");
-        need("material.friction_angle", "required, since no particle file provides it");
+        need("material.density", "this key is required, since no particle file provides its value");
+        need("material.friction_angle", "this key is required, since no particle file provides its value");
         if (!area) {
-            need("material.normal_stiffness", "required, since no particle file provides it");
-            need("material.shear_stiffness", "required, since no particle file provides it");
+            need("material.normal_stiffness", "this key is required, since no particle file provides its value");
+            need("material.shear_stiffness", "this key is required, since no particle file provides its value");
         }
         if (!m.normal_damping && !m.shear_damping) return;  // a damping ratio is used, either given or the default
-        need("material.normal_damping", "dashpots come in pairs");
-        need("material.shear_damping", "dashpots come in pairs");
+        need("material.normal_damping", "normal_damping and shear_damping must be given together");
+        need("material.shear_damping", "normal_damping and shear_damping must be given together");
     }
 
     /// Checks the keys that bonds of whole faces (bond.law = "face") require, and the keys that only such bonds use.
@@ -179,9 +180,9 @@ class ConsistencyCheck {
         }
         if (!test_.area_units())
             refuse("material.units", fmt::format("\"{}\"", name_of(test_.material.units)), "\"area\" with faces",
-                   "a face has stiffness and strengths per area");
+                   "the stiffness and strengths of a face are per unit area");
         for (const char* key : {"youngs_modulus", "poissons_ratio"})
-            need(std::string("material.") + key, "bond.law = \"face\" needs it");
+            need(std::string("material.") + key, "bond.law = \"face\" needs this key");
         exclude_of_materials("contact_modulus", "it follows from youngs_modulus and poissons_ratio");
         for (const char* key : {"bond.gap", "bond.thick"}) exclude(key, "faces bond where cells share an edge");
         if (test_.has_table("packing") && !test_.has_table("mesh"))
@@ -248,7 +249,8 @@ class ConsistencyCheck {
         refuse(
             key("tensile_strength"), fmt::format("{} {}", *m.tensile_strength, unit),
             fmt::format("at most cohesion/tan(friction_angle) of {}, {:.6g} {}", table, *m.cohesion / friction, unit),
-            "the apex of the bond's strength envelope limits it; raise the cohesion or lower the tensile strength");
+            "a larger value would lie beyond the apex of the bond's strength envelope; raise the cohesion or lower the "
+            "tensile strength");
     }
 
     /// Checks the keys that a bond law allows and requires.
@@ -270,7 +272,7 @@ class ConsistencyCheck {
         if (test_.numerics.contact_law != SegmentLaw::rounded && !facts.with_guide_segments)
             refuse("bond.law", fmt::format("\"{}\"", name_of(b.law)),
                    laws_with(&BondLawFacts::with_guide_segments) + " with the guide's contact law",
-                   "or use contact_law = \"rounded\"");
+                   "alternatively, use contact_law = \"rounded\"");
         strength("tensile");
         strength("cohesion");
         const bool random = b.strength_distribution != StrengthDistribution::none;
@@ -294,14 +296,15 @@ class ConsistencyCheck {
         const std::string factor = "bond." + which + "_factor";
         if (written(number) && written(factor)) exclude(factor, number + " gives the strength");
         if (!written(number) && !written(factor))
-            need(number, fmt::format("bond.law = \"{}\" needs it, or {}", name_of(test_.bond.law), factor));
+            need(number, fmt::format("bond.law = \"{}\" needs this key, or {}", name_of(test_.bond.law), factor));
         if (!written(factor)) return;
         exclude_of_materials(which == "tensile" ? "tensile_strength" : "cohesion",
-                             factor + " determines it for all bonds");
+                             factor + " determines this strength for all bonds");
         if (test_.has_table("mesh"))
-            exclude(factor,
-                    "bonds of these polygons need no overlap, so there is no back-tension to multiply: give " + number);
-        if (test_.area_units()) exclude(factor, "with units = \"area\" strengths are in Pa: give " + number);
+            exclude(
+                factor,
+                "these polygons bond without overlap, so the factor has no back-tension to multiply; give " + number);
+        if (test_.area_units()) exclude(factor, "with units = \"area\", strengths are in Pa; give " + number);
     }
 
     void mesh() const {
@@ -312,11 +315,12 @@ class ConsistencyCheck {
         }
         const bool across_gaps = test_.bond_facts().bonds_across_gaps;
         if (across_gaps && !test_.mesh.thick && !test_.mesh.inset) {
-            exclude("bond.thick", "mesh.thick is derived; give both keys or neither");
+            exclude("bond.thick", "mesh.thick is not given and is therefore derived; give both keys or neither");
             return;
         }
         if (!across_gaps)
-            need("mesh.thick", "with back-tension the excess of bond.thick over mesh.thick determines the strength");
+            need("mesh.thick",
+                 "with back_tension, the amount by which bond.thick exceeds mesh.thick determines the strength");
         const double gap = test_.mesh.inset ? 2.0 * *test_.mesh.inset : *test_.mesh.thick;
         if (across_gaps) {
             if (test_.bond.thick && *test_.bond.thick < gap)
@@ -324,11 +328,11 @@ class ConsistencyCheck {
                        "faces at that distance would not bond; leave the key out");
             return;
         }
-        need("bond.thick", "polygons bond at the excess of bond.thick over mesh.thick");
+        need("bond.thick", "polygons bond only if bond.thick exceeds the gap between them");
         if (*test_.bond.thick <= gap) {
             refuse("bond.thick", fmt::format("{} m", *test_.bond.thick),
                    fmt::format("more than {} = {} m", test_.mesh.inset ? "twice mesh.inset" : "mesh.thick", gap),
-                   "the excess is the overlap that bonds the polygons");
+                   "the difference is the overlap with which the polygons bond");
         }
     }
 
@@ -341,10 +345,10 @@ class ConsistencyCheck {
             if (kind_.bonded_because != nullptr)
                 refuse("loading.platens", "\"frictional\"", "\"glued\" or \"bonded\" " + with_kind(),
                        kind_.bonded_because);
-            need("loading.platen_friction_angle", "frictional platens need it");
+            need("loading.platen_friction_angle", "frictional platens need this key");
             if (test_.numerics.intact)
                 refuse("numerics.intact", "true", "false with frictional platens",
-                       "such platens act through contacts that form later");
+                       "such platens act through contacts that form during the test, which intact = true prevents");
         } else {
             expect_beside("loading.platen_friction_angle",
                           "platens = \"frictional\" (bonded and glued platens have the specimen's friction angle)");
@@ -353,7 +357,7 @@ class ConsistencyCheck {
         turning_round();
         if (test_.confinement.by_walls() && test_.numerics.intact)
             refuse("numerics.intact", "true", "false with confinement.side = \"walls\"",
-                   "walls act through contacts without bonds");
+                   "walls act through unbonded contacts, which intact = true prevents");
         if (test_.loading.platens != PlatenKind::glued) expect_beside("loading.grip", "platens = \"glued\"");
     }
 
@@ -383,14 +387,15 @@ class ConsistencyCheck {
             refuse("loading.unload_at_stress", "stresses in addition to unload_at_strain", "one of them",
                    "remove the other");
         if (loading.axial_strain_rate)
-            refuse(key, "unloading at an axial_strain_rate", "a loading rate controlled by rate_tolerance",
+            refuse(key, "unloading together with axial_strain_rate", "a loading rate controlled by rate_tolerance",
                    "a sudden reversal of the platen causes a shock wave; give rate_tolerance instead of the rate");
         const std::vector<double>& at = by_strain ? *loading.unload_at_strain : *loading.unload_at_stress;
         if (!std::ranges::is_sorted(at))
             refuse(key, fmt::format("[{}]", fmt::join(at, ", ")), "numbers in ascending order", "sort them");
         if (by_strain && at.back() >= loading.max_axial_strain)
             refuse(key, fmt::format("{}", at.back()),
-                   fmt::format("strains below max_axial_strain = {}", loading.max_axial_strain), "the test ends there");
+                   fmt::format("strains below max_axial_strain = {}", loading.max_axial_strain),
+                   "the test ends at max_axial_strain");
     }
 
     /// Checks the keys that belong to certain kinds of test, and the other keys that a kind requires.

@@ -71,7 +71,7 @@ class JointCheck {
         }
         if (fisher && !written("joints.section_trend"))
             refuse("joints.section_trend", "nothing", find_parameter("joints", "section_trend")->expected(),
-                   "the direction of the section is needed to intersect it with planes");
+                   "the direction of the section must be known to find where planes intersect it");
         if (!fisher && written("joints.section_trend"))
             throw key_needs(test_, "joints.section_trend", "a set with orientation = \"fisher\"");
         for (std::size_t k = 0; k < test_.trace.size(); ++k) trace(k);
@@ -115,7 +115,8 @@ class JointCheck {
         const auto chosen =
             std::find_if(laws.begin(), laws.end(), [&](const auto& one) { return choice == one.choice; });
         const std::string because = fmt::format("{} = \"{}\"", key, name_of(choice));
-        for (const char* needed : chosen->needed) need(of_set(k, needed), "joint_set", needed, because + " needs it");
+        for (const char* needed : chosen->needed)
+            need(of_set(k, needed), "joint_set", needed, because + " needs this key");
         const auto has = [](const std::vector<const char*>& keys, const std::string& one) {
             return std::find(keys.begin(), keys.end(), one) != keys.end();
         };
@@ -208,7 +209,7 @@ class JointCheck {
                 exclude(key(name), "an open joint has no bonds; friction_angle applies to its faces");
         } else if (own.aperture) {
             refuse(key("aperture"), fmt::format("{} m", *own.aperture), "no aperture for a bonded joint",
-                   "write bonded = false, or remove it");
+                   "write bonded = false, or remove the aperture");
         }
         if (own.tensile_strength && own.cohesion)
             exclude(key("strength_factor"), "tensile_strength and cohesion already replace it");
@@ -255,7 +256,8 @@ class JointAgainstRock {
                 throw key_needs(test_, table_.label + "." + key,
                                 fmt::format("bond.law = {}", laws_with(&BondLawFacts::by_faces)));
         if (by_faces && own_.dilation_angle)
-            refuse("dilation_angle", fmt::format("{} deg", *own_.dilation_angle), "none with bond.law = \"face\"",
+            refuse("dilation_angle", fmt::format("{} deg", *own_.dilation_angle),
+                   "no dilation angle with bond.law = \"face\"",
                    "faces do not dilate; use coulomb bonds, or remove the key");
         if (across_joints && test_.area_units()) return;
         for (const Parameter& p : joint_mechanics_keys()) {
@@ -278,7 +280,7 @@ class JointAgainstRock {
         if (peak && own_.residual_friction_angle && *own_.residual_friction_angle > *peak)
             refuse("residual_friction_angle", fmt::format("{} deg", *own_.residual_friction_angle),
                    fmt::format("at most the rock's friction_angle, {} deg", *peak),
-                   "give friction_angle of the joint as well");
+                   "give the friction_angle of the joint as well");
         const std::optional<double> slides_at = first(
             {own_.residual_friction_angle, own_.friction_angle, rock.residual_friction_angle, rock.friction_angle});
         if (slides_at && own_.dilation_angle.value_or(0.0) > *slides_at)
@@ -300,7 +302,8 @@ class JointAgainstRock {
                                      : "friction_angle",
                fmt::format("a tensile strength of {:.6g} Pa", tensile),
                fmt::format("at most its cohesion/tan(friction_angle), {:.6g} Pa", cohesion / friction),
-               "the apex of the strength envelope limits it; lower tensile_strength or raise cohesion");
+               "a larger value would lie beyond the apex of the strength envelope; lower tensile_strength or raise "
+               "cohesion");
     }
 
     const TestCase& test_;

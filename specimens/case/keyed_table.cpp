@@ -110,7 +110,7 @@ CaseValue KeyedTable::case_value(const char* key, const toml::node& node) const 
     if (const auto* number = node.as_integer()) return number->get();
     if (const auto* number = node.as_floating_point()) return number->get();
     if (const auto* text = node.as_string()) return text->get();
-    refuse(key, kind_name(node), "values that a key of a case can have: numbers, texts, true or false");
+    refuse(key, kind_name(node), "a value that a key of a case can have: a number, a text, true or false");
 }
 
 KeyedFile::KeyedFile(const fs::path& path, const std::string& expected, std::span<const DeclaredKey> declared)

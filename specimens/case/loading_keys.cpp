@@ -16,10 +16,11 @@ std::vector<Parameter> loading_keys() {
                     "platens, the rate of their nominal strain.")
             .above(0)
             .below(1e6),
-        CRACKLE_KEY(loading, rate_tolerance, "",
-                    "Tolerance of the inertia error (out-of-balance of the platens, ratio of kinetic to strain "
-                    "energy). The platen's largest speed is proportional to its square root; while the error exceeds "
-                    "the tolerance, the platen slows down to 0.15 of that speed.")
+        CRACKLE_KEY(
+            loading, rate_tolerance, "",
+            "Tolerance for the inertia error, which is measured by the imbalance of the platen forces and the ratio of "
+            "kinetic to strain energy. The platen's largest speed is proportional to the square root of the tolerance. "
+            "While the error exceeds the tolerance, the platen slows down, to as little as 0.15 of that speed.")
             .otherwise(0.01)
             .above(0)
             .at_most(1),
@@ -41,7 +42,7 @@ std::vector<Parameter> loading_keys() {
             .otherwise(0.5),
         CRACKLE_KEY(loading, platens, "",
                     "How platens hold the specimen. bonded: by bonds like all others; glued: by unbreakable bonds, as "
-                    "within the grips; frictional: by friction (compression only). glued in tension if not given.")
+                    "within the grips; frictional: by friction (compression only). In tension, glued if not given.")
             .otherwise(PlatenKind::bonded),
         CRACKLE_KEY(loading, grip, "",
                     "Fraction of the height at each end within which bonds never break, with glued platens. If not "
@@ -52,62 +53,64 @@ std::vector<Parameter> loading_keys() {
             .at_least(0)
             .below(90),
         CRACKLE_KEY(loading, half_angle, "deg",
-                    "brazilian: half the angle of the arc over which a bonded jaw, or one with jaws = \"arc\", "
+                    "brazilian: half the angle of the arc on which a bonded jaw, or a jaw with jaws = \"arc\", "
                     "presses; 10 if not given.")
             .above(0)
             .at_most(30),
         CRACKLE_KEY(loading, jaws, "",
-                    "brazilian with frictional platens: arc (the disc's radius, over the half angle), flat, or curved "
-                    "(1.5 times the disc's radius); arc if not given."),
+                    "brazilian with frictional platens: shape of the jaws, which is arc (with the disc's radius, over "
+                    "half_angle on each side), flat, or curved (with 1.5 times the disc's radius); arc if not given."),
         CRACKLE_KEY(
             loading, span, "m",
             "Distance between the supports. If not given: four times the depth (bending), 0.8 of the diameter (scb).")
             .above(0),
         CRACKLE_KEY(loading, pad_width, "m",
-                    "bending, scb: width of the three pads; a tenth of the depth or radius if not given, at least two "
-                    "particles.")
+                    "bending, scb: width of the three pads. If not given: a tenth of the depth or radius, but at least "
+                    "the size of two particles.")
             .above(0),
         CRACKLE_KEY(loading, normal_stiffness, "N/m2 or Pa/m",
-                    "direct_shear: increase of normal stress per rise of the upper box; 0 if not given.")
+                    "direct_shear: increase of the normal stress per unit rise of the upper box; 0 if not given.")
             .at_least(0),
         CRACKLE_KEY(loading, normal_stress, "N/m or Pa", "direct_shear: normal stress on the upper box.").at_least(0),
         CRACKLE_KEY(loading, box_gap, "m",
                     "direct_shear: gap between the half boxes; twice the mean particle size if not given.")
             .above(0),
         CRACKLE_KEY(loading, control, "",
-                    "Strain that increases at a steady rate: axial (if not given), or lateral in compression, for "
-                    "which the platen moves back when the specimen would break by itself (class II). "
-                    "max_axial_strain then limits the total strain travelled, back and forth. Needs rate_tolerance."),
+                    "Strain that increases at a steady rate: axial (if not given), or lateral, in compression. Under "
+                    "lateral control, the platen moves back when the specimen would otherwise fail of its own accord "
+                    "(class II), and max_axial_strain limits the cumulative axial strain, loading and unloading "
+                    "together. Needs rate_tolerance."),
         CRACKLE_KEY(loading, unload_at_strain, "",
-                    "Axial strains, in ascending order, at each of which the specimen is unloaded and reloaded; equal "
-                    "strains are cycles of the same amplitude (fatigue). summary.json contains the modulus of each "
-                    "cycle, which damage lowers. Needs rate_tolerance.")
+                    "Axial strains, in ascending order, at each of which the specimen is unloaded and reloaded; "
+                    "repeated values give cycles of the same amplitude (fatigue). summary.json contains the modulus of "
+                    "each cycle, which decreases with damage. Needs rate_tolerance.")
             .above(0)
             .below(1),
         CRACKLE_KEY(loading, unload_at_stress, "N/m or Pa",
                     "Axial stresses at which the specimen is unloaded and reloaded, in place of strains.")
             .above(0),
         CRACKLE_KEY(loading, unload_to, "",
-                    "Unloading ends at this fraction of the stress where it began; 0.1 if not given.")
+                    "Fraction of the stress at the start of unloading at which unloading ends; 0.1 if not given.")
             .at_least(0)
             .below(1),
 
         CRACKLE_KEY(confinement, pressure, "N/m or Pa",
-                    "Pressure on the sides throughout the test; before loading begins, the platens also apply it. "
-                    "Pa with material.units = \"area\".")
+                    "Pressure on the sides throughout the test; before loading begins, the platens apply the same "
+                    "pressure. In Pa with material.units = \"area\".")
             .above(0),
         CRACKLE_KEY(confinement, side, "",
                     "What applies the pressure: a membrane (if not given), which follows the specimen; or walls, two "
                     "smooth rigid plates, each loaded with the pressure times the initial height."),
 
-        CRACKLE_KEY(numerics, time_step, "s", "Time step; derived from the stiffness bound if not given.").above(0),
+        CRACKLE_KEY(numerics, time_step, "s", "Time step; if not given, it is derived from the exact stable step.")
+            .above(0),
         CRACKLE_KEY(numerics, safety_factor, "",
                     "Ratio of the derived time step to the exact stable step. The derived step is smaller if the "
                     "guaranteed bound requires it.")
             .above(0)
             .at_most(1)
             .otherwise(0.8),
-        CRACKLE_KEY(numerics, threads, "", "Number of threads; does not affect the results.")
+        CRACKLE_KEY(numerics, threads, "", "Number of threads, which does not affect the results.")
             .at_least(1)
             .at_most(1024)
             .otherwise(std::int64_t{1}),
@@ -125,35 +128,38 @@ std::vector<Parameter> loading_keys() {
             "Whether breaking, sliding and new contacts are disabled, to compare a run with the linear solution.")
             .otherwise(false),
         CRACKLE_KEY(numerics, allow_unstable, "",
-                    "Whether a time step above the stable bound is accepted, to demonstrate the limit.")
+                    "Whether a time step above the stable bound is accepted, for example to demonstrate the limit.")
             .otherwise(false),
 
         CRACKLE_KEY(output, curve_rows, "",
-                    "Number of rows of curve.csv over max_axial_strain; peak and failure are determined from at least "
+                    "Number of rows of curve.csv up to max_axial_strain; peak and failure are determined from at least "
                     "2000 rows, even if fewer are written.")
             .at_least(10)
             .at_most(99998)
             .otherwise(std::int64_t{2000}),
         CRACKLE_KEY(output, frames, "",
-                    "Number of frames over max_axial_strain, besides start, peak and end. If not given: 100 for up to "
-                    "2000 bodies; for more, 200,000 divided by their number, at least 20 and at most curve_rows.")
+                    "Number of frames up to max_axial_strain, besides those at the start, the peak and the end. If not "
+                    "given: 100 for up to 2000 bodies; for more bodies, 200,000 divided by their number, but at least "
+                    "20 and at most curve_rows.")
             .at_least(1)
             .at_most(99998),
         CRACKLE_KEY(output, frame_precision, "",
                     "Precision of the points in frames: single resolves a hundred-millionth of the specimen and a "
                     "thousandth of an overlap; double is exact.")
             .otherwise(FramePrecision::single_),
-        CRACKLE_KEY(output, slips, "",
-                    "Whether slips.csv is written: when each back-tension bond first reaches its Coulomb limit.")
+        CRACKLE_KEY(
+            output, slips, "",
+            "Whether slips.csv is written, which records when each back-tension bond first reaches its Coulomb limit.")
             .otherwise(false),
         CRACKLE_KEY(output, emission, "",
-                    "Whether ae.csv is written: acoustic events (bond breaks clustered in place and time) with their "
-                    "moments; this takes some time.")
+                    "Whether ae.csv is written, which lists acoustic events (bond breaks clustered in place and time) "
+                    "with their moments; this takes some time.")
             .otherwise(false),
         CRACKLE_KEY(output, checkpoint_interval, "s", "Wall-clock time between checkpoints.").above(0).otherwise(60.0),
         CRACKLE_KEY(output, out_of_plane_thickness, "m",
-                    "Only converts reported numbers: stresses in N/m are divided by this thickness for the _pa values, "
-                    "and for values in MPa in the terminal and on the page. If not given, the _pa values are for 1 m.")
+                    "Used only to convert reported numbers: stresses in N/m are divided by this thickness for the _pa "
+                    "values, and for values in MPa in the terminal and on the page. If not given, the _pa values are "
+                    "for a thickness of 1 m.")
             .above(0),
     };
 }

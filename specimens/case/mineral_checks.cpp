@@ -86,7 +86,7 @@ class MineralCheck {
         }
         if (open == 1 && sum >= 1.0 - share_rounding)
             refuse("mineral[1]", "a mineral without area_share although the others fill the specimen",
-                   "shares that leave an area for it", "lower a share, or remove it");
+                   "shares that leave some area for this mineral", "lower a share, or remove it");
         if (open == 0 && sum < 1.0 - share_rounding)
             refuse("mineral[1]", fmt::format("shares with a sum of {:g}", sum), "a sum of 1",
                    "raise a share, or omit the share of one mineral, which then gets the remaining area");
@@ -100,14 +100,14 @@ class MineralCheck {
             const bool written = test_.position.contains(name);
             if (written && assign != file) throw key_needs(test_, name, fmt::format("assign = \"{}\"", key));
             if (!written && assign == file)
-                refuse(name, "nothing", "a file name in quotes", fmt::format("assign = \"{}\" needs it", key));
+                refuse(name, "nothing", "a file name in quotes", fmt::format("assign = \"{}\" needs this key", key));
         }
         std::map<std::uint32_t, std::string> taken;
         for (std::size_t k = 0; k < test_.mineral.size(); ++k) {
             const TestCase::Mineral& m = test_.mineral[k];
             if (!m.colour) {
                 if (assign == MineralAssignment::image)
-                    refuse(key_of(k, "colour"), "nothing", "\"#rrggbb\"", "assign = \"image\" needs it");
+                    refuse(key_of(k, "colour"), "nothing", "\"#rrggbb\"", "assign = \"image\" needs this key");
                 continue;
             }
             const auto colour = colour_of(*m.colour);
@@ -129,13 +129,14 @@ class MineralCheck {
         for (std::size_t k = 0; k < test_.mineral.size(); ++k) {
             const TestCase::MaterialKeys& own = test_.mineral[k].own;
             if (own.damping_ratio && dashpots)
-                refuse(key_of(k, "damping_ratio"), "a damping ratio although [material] has dashpots",
+                refuse(key_of(k, "damping_ratio"),
+                       "a damping ratio, which cannot be combined with the dashpots in [material]",
                        "the same kind of damping everywhere",
                        "give dashpots for the mineral, or damping_ratio in [material]");
             for (const bool normal : {true, false}) {
                 if (!(normal ? own.normal_damping : own.shear_damping) || dashpots) continue;
                 refuse(key_of(k, normal ? "normal_damping" : "shear_damping"),
-                       "a dashpot although [material] has no dashpots", "the same kind of damping everywhere",
+                       "a dashpot, while [material] has no dashpots", "the same kind of damping everywhere",
                        "give damping_ratio for the mineral, or dashpots in [material]");
             }
         }
@@ -167,7 +168,7 @@ class MineralCheck {
                 refuse(key, "stiffness_ratio", "only strengths and friction with bond.law = \"face\"",
                        "the stiffness of a face follows from its two minerals");
             if (is_written("contact_modulus") != is_written("stiffness_ratio"))
-                refuse(key, "one of contact_modulus and stiffness_ratio", "both, or neither",
+                refuse(key, "only one of contact_modulus and stiffness_ratio", "both, or neither",
                        "together they replace the values of the two minerals");
         }
     }

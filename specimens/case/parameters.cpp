@@ -140,22 +140,23 @@ const std::vector<Alternatives>& case_alternatives() {
 
 const std::vector<TableDescription>& case_tables() {
     static const std::vector<TableDescription> all{
-        {"", "Top of the file."},
+        {"", "Keys at the top of the file."},
         {"particles", "A specimen read from a file, in place of [packing]."},
         {"packing", "A specimen made by packing circles, in place of [particles]."},
-        {"mesh", "Turns the circles into polygons; without it they stay circles."},
+        {"mesh", "Turns the circles into polygons; without this table, they stay circles."},
         {"material", "Material of the specimen; with [particles], each key overrides the file's value."},
-        {"minerals", "How grains get the minerals listed below."},
+        {"minerals", "How the minerals listed below are assigned to the grains."},
         {"mineral",
-         "One table per mineral; values that it does not give are taken from [material], which also describes the "
-         "platens.",
+         "One table per mineral; values that this table does not give are taken from [material], which also describes "
+         "the platens.",
          [](const TestCase& c) { return c.mineral.size(); }, [](TestCase& c, std::size_t n) { c.mineral.resize(n); }},
         {"mineral_pair",
-         "Contacts between two minerals, in place of springs in series and the smaller friction angle of the two.",
+         "Properties of contacts between two minerals. Without this table, the springs of the two act in series, with "
+         "the smaller of the two friction angles.",
          [](const TestCase& c) { return c.mineral_pair.size(); },
          [](TestCase& c, std::size_t n) { c.mineral_pair.resize(n); }},
         {"joints", "How traces of joints are generated."},
-        {"joint_set", "One table per set of joints, generated from its distributions.",
+        {"joint_set", "One table per set of joints, whose traces are generated from the given distributions.",
          [](const TestCase& c) { return c.joint_set.size(); },
          [](TestCase& c, std::size_t n) { c.joint_set.resize(n); }},
         {"trace", "One table per measured trace, or per file of traces.",

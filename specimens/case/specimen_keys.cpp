@@ -66,14 +66,17 @@ std::vector<Parameter> specimen_keys() {
         CRACKLE_KEY(packing, height_to_width, "", "Ratio of height to width of the box, with count; 2 if not given.")
             .above(0),
         CRACKLE_KEY(packing, sizes, "", "Distribution of the radii.").otherwise(RadiusLaw::uniform),
-        CRACKLE_KEY(packing, radius_min, "m", "Smallest radius (uniform; cut-off of lognormal).").above(0),
-        CRACKLE_KEY(packing, radius_max, "m", "Largest radius (uniform; cut-off of lognormal).").above(0),
+        CRACKLE_KEY(packing, radius_min, "m", "Smallest radius of uniform sizes, or lower cut-off of lognormal sizes.")
+            .above(0),
+        CRACKLE_KEY(packing, radius_max, "m", "Largest radius of uniform sizes, or upper cut-off of lognormal sizes.")
+            .above(0),
         CRACKLE_KEY(packing, radius_median, "m", "Median radius (lognormal).").above(0),
         CRACKLE_KEY(packing, radius_log_deviation, "", "Standard deviation of ln(radius) (lognormal).").above(0),
-        CRACKLE_KEY(packing, sieve, "", "Sieve curve: a table with the columns size and passing_by_mass.").path(),
+        CRACKLE_KEY(packing, sieve, "", "File with the sieve curve, a table with the columns size and passing_by_mass.")
+            .path(),
         CRACKLE_KEY(packing, cell_diameter, "m",
-                    "Mean of the cells' equivalent diameters sqrt(4 area/pi), gaps included; with [mesh], in place of "
-                    "radii, which follow from it.")
+                    "Mean of the cells' equivalent diameters sqrt(4 area/pi), gaps included. With [mesh], this can be "
+                    "given in place of the radii, which are then derived.")
             .above(0),
         CRACKLE_KEY(packing, cell_spread, "", "Coefficient of variation of the cells' diameters, with cell_diameter.")
             .above(0)
@@ -87,37 +90,43 @@ std::vector<Parameter> specimen_keys() {
             .at_least(0)
             .otherwise(std::int64_t{1}),
 
-        CRACKLE_KEY(mesh, kind, "", "Polygons made from the circles' centres.").needed_with_table(),
+        CRACKLE_KEY(mesh, kind, "", "Kind of polygons that are made from the circles' centres.").needed_with_table(),
         CRACKLE_KEY(mesh, thick, "m",
-                    "Gap between neighbouring polygons. If not given: twice inset, or with coulomb bonds 0.02 of the "
-                    "mean cell size sqrt(width height/cells).")
+                    "Gap between neighbouring polygons. If not given: twice inset, or, with coulomb bonds, 0.02 times "
+                    "the mean cell size sqrt(width height/cells).")
             .above(0),
         CRACKLE_KEY(mesh, inset, "m", "Depth by which each polygon is inset; thick/2 if not given.").at_least(0),
-        CRACKLE_KEY(mesh, boundary, "", "Outer faces: flat on the domain boundary, or where the outermost centres lie.")
+        CRACKLE_KEY(mesh, boundary, "",
+                    "Where the outer faces lie: on the flat boundary of the domain, or at the outermost centres.")
             .otherwise(Boundary::domain),
         CRACKLE_KEY(mesh, merge_destroyed, "", "Whether a cell that the inset destroys is merged into a neighbour.")
             .otherwise(false),
 
-        CRACKLE_KEY(material, density, "kg/m2", "Density, per unit thickness.").above(0),
+        CRACKLE_KEY(material, density, "kg/m2", "Density as mass per unit area of the model.").above(0),
         CRACKLE_KEY(material, normal_stiffness, "N/m", "Normal stiffness k_n of a contact point.").above(0),
         CRACKLE_KEY(material, shear_stiffness, "N/m", "Shear stiffness k_s of a contact point.").at_least(0),
         CRACKLE_KEY(material, friction_angle, "deg", "Friction angle; mu = tan(angle).").at_least(0).below(90),
         CRACKLE_KEY(material, damping_ratio, "",
-                    "Damping ratio h of every contact point. A packing without any damping key has 0.2384: a particle "
-                    "that vibrates on its contacts then loses 95 % of its energy per period.")
+                    "Damping ratio h of every contact point. A packing without any damping key gets 0.2384, at which a "
+                    "particle that vibrates on its contacts loses 95 % of its energy per period.")
             .at_least(0),
-        CRACKLE_KEY(material, normal_damping, "N s/m", "Normal dashpot, in place of damping_ratio.").at_least(0),
-        CRACKLE_KEY(material, shear_damping, "N s/m", "Shear dashpot, in place of damping_ratio.").at_least(0),
+        CRACKLE_KEY(material, normal_damping, "N s/m",
+                    "Coefficient of the normal dashpot of a contact point, in place of damping_ratio.")
+            .at_least(0),
+        CRACKLE_KEY(material, shear_damping, "N s/m",
+                    "Coefficient of the shear dashpot of a contact point, in place of damping_ratio.")
+            .at_least(0),
 
         CRACKLE_KEY(material, units, "",
-                    "What stiffness and strengths refer to: a contact point (N/m, N), or the area of a face (Pa), so "
-                    "that neither depends on the size of the grains.")
+                    "What stiffness and strengths refer to: a contact point (N/m, N), or the area of a face (Pa), "
+                    "which makes them independent of the grain size.")
             .otherwise(StiffnessUnits::point),
         CRACKLE_KEY(material, contact_modulus, "Pa",
                     "Contact modulus E_c in area units: a face of length L between centroids a distance l apart has "
                     "k_n = E_c L/l.")
             .above(0),
-        CRACKLE_KEY(material, stiffness_ratio, "", "k_n over k_s, in area units.").above(0),
+        CRACKLE_KEY(material, stiffness_ratio, "", "Ratio of normal to shear stiffness, k_n/k_s, in area units.")
+            .above(0),
         CRACKLE_KEY(minerals, assign, "",
                     "How grains get their minerals: at random until the area shares are met; by size, where the "
                     "largest grains get the mineral listed first; from a file of labels; from an image.")
@@ -141,8 +150,9 @@ std::vector<Parameter> specimen_keys() {
             .at_most(1),
         CRACKLE_LIST_KEY(mineral, colour, "", "Colour in the image, \"#rrggbb\"."),
 
-        CRACKLE_LIST_KEY(mineral_pair, between, "",
-                         "Names of two minerals; the same name twice for contacts among its grains.")
+        CRACKLE_LIST_KEY(
+            mineral_pair, between, "",
+            "Names of the two minerals; the same name twice means contacts between grains of that mineral.")
             .needed_with_table(),
 
         CRACKLE_KEY(joints, seed, "", "Seed of the joint sets; the same seed gives the same traces.")
@@ -157,9 +167,9 @@ std::vector<Parameter> specimen_keys() {
             .below(360),
 
         CRACKLE_KEY(joints, shortest, "m",
-                    "Traces that are shorter than this in the box are left out, because grains are larger; they still "
-                    "count towards the amounts. If not given: the mean spacing of the grains, or 0 if traces are "
-                    "generated without grains.")
+                    "Length of the shortest trace that is kept. Traces with a shorter part in the box are left out, "
+                    "because grains are larger, but still count towards the amounts. If not given: the mean spacing of "
+                    "the grains, or 0 if traces are generated without grains.")
             .above(0),
         CRACKLE_KEY(
             joints, snap, "m",
@@ -202,9 +212,11 @@ std::vector<Parameter> specimen_keys() {
         CRACKLE_LIST_KEY(joint_set, length_deviation, "m",
                          "Half the range of lengths (uniform, gaps), or their standard deviation (lognormal).")
             .above(0),
-        CRACKLE_LIST_KEY(joint_set, length_min, "m", "Shortest trace, for length = \"power_law\".").above(0),
-        CRACKLE_LIST_KEY(joint_set, length_max, "m", "Longest trace, for length = \"power_law\".").above(0),
-        CRACKLE_LIST_KEY(joint_set, length_exponent, "", "Exponent, for length = \"power_law\".")
+        CRACKLE_LIST_KEY(joint_set, length_min, "m", "Length of the shortest trace, for length = \"power_law\".")
+            .above(0),
+        CRACKLE_LIST_KEY(joint_set, length_max, "m", "Length of the longest trace, for length = \"power_law\".")
+            .above(0),
+        CRACKLE_LIST_KEY(joint_set, length_exponent, "", "Exponent of the power law, for length = \"power_law\".")
             .at_least(-10)
             .at_most(10),
         CRACKLE_LIST_KEY(joint_set, gap_mean, "m",
@@ -228,14 +240,14 @@ std::vector<Parameter> specimen_keys() {
                          "Direction of the scan line of P10; perpendicular to the mean direction if not given.")
             .at_least(-360)
             .at_most(360),
-        CRACKLE_LIST_KEY(
-            joint_set, spacing_law, "",
-            "Distribution of distances between lines; uniform is within spacing_deviation; fixed if not given."),
+        CRACKLE_LIST_KEY(joint_set, spacing_law, "",
+                         "Distribution of the distances between lines; uniform: within spacing_deviation of spacing; "
+                         "fixed if not given."),
         CRACKLE_LIST_KEY(joint_set, spacing_deviation, "m",
                          "Half the range of distances (uniform), or their standard deviation (lognormal).")
             .above(0),
         CRACKLE_LIST_KEY(joint_set, through, "m",
-                         "x and y of a point on one of the lines, with spacing; at random if not given."),
+                         "x and y of a point on one of the lines, with spacing; chosen at random if not given."),
 
         CRACKLE_LIST_KEY(trace, name, "",
                          "Name of the trace in reports, figures and results; its number or its file if not given."),
@@ -245,51 +257,53 @@ std::vector<Parameter> specimen_keys() {
             "Measured traces: .csv with the columns trace,x,y (a line per point) or x1,y1,x2,y2 (a line per straight "
             "trace); .dxf (R12: lines and polylines); any other: a line per trace, x1 y1 x2 y2 ...")
             .path(),
-        CRACKLE_LIST_KEY(trace, layer, "", "The only layer of a DXF file that is read; all if not given."),
+        CRACKLE_LIST_KEY(trace, layer, "", "Layer of a DXF file to read; all layers are read if not given."),
         CRACKLE_LIST_KEY(trace, scale, "m", "Length of one unit of the file; 1 if not given.").above(0),
         CRACKLE_LIST_KEY(trace, offset, "m", "x and y that are added to a file's coordinates after scaling."),
 
         CRACKLE_KEY(bond, law, "", meanings_of_laws()).otherwise(BondLaw::back_tension),
         CRACKLE_KEY(bond, thick, "m",
-                    "Segment thickness at bonding. Polygons with back-tension need more than mesh.thick: the excess is "
-                    "the overlap that bonds them. Polygons with coulomb bonds: mesh.thick if not given. Circles bond "
-                    "at the overlaps they have; a tenth of the mean radius if not given, which only affects where the "
-                    "platens' centre lines are drawn.")
+                    "Thickness of segments when bonds are made. For polygons with back-tension it must exceed "
+                    "mesh.thick, by the overlap with which they bond. For polygons with coulomb bonds it is mesh.thick "
+                    "if not given. Circles bond with the overlaps they have; for them it only affects where the "
+                    "platens' centre lines are drawn, and is a tenth of the mean radius if not given.")
             .above(0),
-        CRACKLE_KEY(bond, gap, "m",
-                    "Polygons with coulomb bonds: corners with at most this gap are bonded, too, at the gap that they "
-                    "have. A twentieth of bond.thick if not given, for corners that overhang after the inset.")
-            .at_least(0),
         CRACKLE_KEY(
-            bond, range, "",
-            "Circles with coulomb bonds: pairs whose gap is below this fraction of their mean radius are bonded, too.")
+            bond, gap, "m",
+            "Polygons with coulomb bonds: corners across a gap of at most this width are bonded as well, and the gap "
+            "is kept. A twentieth of bond.thick if not given, for corners that overhang after the inset.")
+            .at_least(0),
+        CRACKLE_KEY(bond, range, "",
+                    "Circles with coulomb bonds: pairs whose gap is below this fraction of their mean radius are "
+                    "bonded as well.")
             .at_least(0)
             .at_most(1)
             .otherwise(0.0),
         CRACKLE_KEY(bond, tensile_factor, "",
-                    "Tensile strength as a factor of the back-tension averaged over all bonds, in place of "
+                    "Tensile strength as a multiple of the back-tension averaged over all bonds, in place of "
                     "material.tensile_strength.")
             .above(0),
-        CRACKLE_KEY(bond, cohesion_factor, "",
-                    "Cohesion as a factor of the back-tension averaged over all bonds, in place of material.cohesion.")
-            .above(0),
         CRACKLE_KEY(
-            bond, strength_distribution, "",
-            "Distribution of a random factor of mean 1 on tensile strength and cohesion, one per pair of particles.")
+            bond, cohesion_factor, "",
+            "Cohesion as a multiple of the back-tension averaged over all bonds, in place of material.cohesion.")
+            .above(0),
+        CRACKLE_KEY(bond, strength_distribution, "",
+                    "Distribution of a random factor, with mean 1, by which the tensile strength and cohesion of each "
+                    "pair of particles are multiplied.")
             .otherwise(StrengthDistribution::none),
         CRACKLE_KEY(bond, strength_cv, "",
-                    "Coefficient of variation of the random factor on strengths (normal: at most 0.7555).")
+                    "Coefficient of variation of the random strength factor (at most 0.7555 for normal).")
             .above(0)
             .at_most(2),
-        CRACKLE_KEY(bond, strength_seed, "", "Seed of the random factor on strengths.").at_least(0),
+        CRACKLE_KEY(bond, strength_seed, "", "Seed of the random strength factor.").at_least(0),
 
         CRACKLE_KEY(shape, diameter, "m",
                     "Diameter of the disc, or half disc, that is cut from the packing (brazilian, scb); the largest "
                     "possible if not given.")
             .above(0),
         CRACKLE_KEY(shape, notch, "m",
-                    "Length of a notch from the lower face at midspan. Bonds across it are not made, and circles on it "
-                    "are removed. If not given: no notch (bending), half the radius (scb).")
+                    "Length of a notch that starts from the lower face at midspan. No bonds are made across the notch, "
+                    "and circles on it are removed. If not given: no notch (bending), half the radius (scb).")
             .above(0),
     };
     const auto last = std::ranges::find(keys, "material.stiffness_ratio", &Parameter::full_key);

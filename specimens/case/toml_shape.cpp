@@ -51,7 +51,7 @@ class Walk {
 
     void refuse_beyond_ascii(char c) const {
         if ((static_cast<unsigned char>(c) & 0x80U) != 0)
-            refuse("a non-ASCII letter outside quotes", "only ASCII letters there; put text in quotes");
+            refuse("a non-ASCII letter outside quotes", "only ASCII letters outside quotes; put text in quotes");
     }
 
     /// A quotation mark or opening bracket must begin a key or a value, and a key has one value. Otherwise the parser

@@ -29,7 +29,7 @@ struct Side {
     double outwards;       // 1 or -1
 };
 
-/// Number of bonds of each body that are included in linear solutions.
+/// For each body, the number of its bonds that a linear solution includes.
 std::vector<int> bonds_of_bodies(const World& world) {
     std::vector<int> bonds(world.bodies.size(), 0);
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
@@ -71,8 +71,8 @@ std::vector<OuterFace> faces_on(const World& world, const Side& side, double ins
     }
     if (faces.empty())
         throw InputError(
-            fmt::format("compliance: found no edges on the {} side, expected cells that end on it; fill "
-                        "the box with cells (mesh.boundary = \"domain\")",
+            fmt::format("compliance: found no edges on the {} side of the box, expected cells that end on it; fill the "
+                        "box with cells (mesh.boundary = \"domain\")",
                         side.name));
     std::ranges::sort(faces, {}, &OuterFace::from);
     faces.front().from = side.low;

@@ -34,11 +34,11 @@ double energy_of_mean_strain(const World& world, const PlacedApparatus& apparatu
 void refuse_mechanism(const World& world, const PlacedApparatus& apparatus, double energy) {
     const double share = energy / energy_of_mean_strain(world, apparatus);
     if (share > free_share) return;
-    throw InputError(
-        fmt::format("found a mechanism: under a uniform strain, the specimen stores {:.1g} of the energy that its "
-                    "springs would store if all particles followed it. Its particles roll or slide past one another; "
-                    "expected shear_stiffness and friction_angle above 0, and bonds that reach from platen to platen",
-                    share));
+    throw InputError(fmt::format(
+        "found a mechanism: under a uniform strain, the specimen stores only {:.1g} of the energy that its springs "
+        "would store if all particles followed that strain. Its particles roll or slide past one another; expected "
+        "shear_stiffness and friction_angle above 0, and bonds that reach from platen to platen",
+        share));
 }
 
 }  // namespace

@@ -82,7 +82,8 @@ EmissionRule emission_rule(const World& world, const TestSetup& setup, double yo
                            double thickness) {
     if (world.faces.size() > 0)
         throw InputError(
-            "found bonds that are faces, expected bonds of points; clusters of breaks are found among points");
+            "found bonds of whole faces (bond.law = \"face\"), expected bonds of contact points; acoustic events are "
+            "groups of breaks of contact points");
     EmissionRule rule;
     rule.mean_field = !setup.apparatus.uniaxial || std::isnan(youngs_modulus) || std::isnan(poissons_ratio);
     const double shear_modulus =

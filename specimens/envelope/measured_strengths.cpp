@@ -76,7 +76,7 @@ class Collection {
         const Stated<LoadingKind>& kind = figures.about.kind;
         if (!kind || !test_kind(*kind).uniaxial) {
             leave_out(test.where,
-                      fmt::format("is a test of another kind, {}: its peak is not a strength under confinement",
+                      fmt::format("is a test of kind {}, whose peak is not a strength under confining pressure",
                                   kind.name()));
             return;
         }
@@ -101,10 +101,11 @@ class Collection {
         const double confinement = figures.confinement.confining_pressure.value_or(0.0);
         const auto [at, is_new] = seen_.emplace(std::tuple(pulled, confinement, test.packing), test.where);
         if (!is_new) {
-            throw InputError(fmt::format(
-                "envelope: {}: found a second {} of packing {}{} (the other in {}), expected one; leave one out",
-                test.where, pulled ? "tension" : "compression", test.packing,
-                pulled ? "" : fmt::format(" under {:g} {}", confinement, unit), at->second));
+            throw InputError(
+                fmt::format("envelope: {}: found a second {} of packing {}{} (the first is in {}), expected only one; "
+                            "leave one of them out",
+                            test.where, pulled ? "tension" : "compression", test.packing,
+                            pulled ? "" : fmt::format(" under {:g} {}", confinement, unit), at->second));
         }
         if (pulled)
             all_.tensions.push_back(strength);
@@ -136,8 +137,8 @@ class Collection {
                               : std::string("its curve was not kept; set keep = \"curves\" under [run] in the plan");
         }
         if (!pulled && measure.figure != "peak_stress") return "has no " + measure.figure;
-        return "did not fail before loading.max_axial_strain (--figure largest_stress or --strain accept tests that "
-               "harden)";
+        return "did not fail before loading.max_axial_strain (for tests that harden, use --figure largest_stress or "
+               "--strain)";
     }
 
     void require_same(const StrengthTest& test, const std::string& unit) const {
@@ -239,8 +240,8 @@ RockKeys keys_of(const Json& rocks, const std::string& test, const fs::path& fol
                        std::ranges::all_of(*found, [](const Json& value) { return value.is_string(); });
     if (!known) {
         throw InputError(
-            fmt::format("envelope: {}: found no rock of test {} in the ledger, expected the keys "
-                        "of its case; run `crackle campaign` again, which keeps finished tests",
+            fmt::format("envelope: {}: found no record of the rock of test {} in the ledger, expected the keys of its "
+                        "case; run `crackle campaign` again (finished tests are kept)",
                         folder.string(), test));
     }
     for (const auto& [key, value] : found->items()) keys[key] = value.get<std::string>();
@@ -253,8 +254,8 @@ void add_campaign(Collection& all, const fs::path& folder, bool with_curves) {
     const std::string text = ledger.meta("rocks");
     if (text.empty()) {
         throw InputError(
-            fmt::format("envelope: {}: found no record of the tests' rocks in the ledger, expected one; run "
-                        "`crackle campaign` again, which keeps finished tests",
+            fmt::format("envelope: {}: found no record of the tests' rocks in the ledger, expected one; run `crackle "
+                        "campaign` again (finished tests are kept)",
                         folder.string()));
     }
     const Json rocks = Json::parse(text, nullptr, false);

@@ -323,11 +323,11 @@ StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests) {
     const PackingStrengths packings = by_packing(tests);
     envelope.packings = packings.size();
     if (envelope.strengths.size() < fewest_confinements || packings.size() < fewest_packings) {
-        throw InputError(fmt::format(
-            "envelope: found {} of {}, expected at least {} confinements (including 0, up to half of the unconfined "
-            "strength) of at least {} packings, since strengths scatter between packings",
-            counted(envelope.strengths.size(), "confinement"), counted(packings.size(), "packing"), fewest_confinements,
-            fewest_packings));
+        throw InputError(
+            fmt::format("envelope: found {} and {}, expected at least {} confinements (from 0 to half of the "
+                        "unconfined strength) and at least {} packings, since strengths scatter between packings",
+                        counted(envelope.strengths.size(), "confinement"), counted(packings.size(), "packing"),
+                        fewest_confinements, fewest_packings));
     }
     envelope.variation = pooled_variation(envelope.strengths);
     WeightedPoints points;

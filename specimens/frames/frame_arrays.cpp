@@ -10,7 +10,7 @@ constexpr Quantity fields_of_a_moment[]{
     {"time", "s since loading began", "time of the frame"},
 };
 constexpr Quantity arrays_of_particles[]{
-    {"id", "", "id of the body in the particle file or packing; platens have ids above the largest of these"},
+    {"id", "", "id of the body in the particle file or packing; platens have larger ids than all particles"},
     {"radius", "m", "radius of a circle; 0 for polygons and platens"},
     {"material", "",
      "one-based index of the material in the specimen's file: first the minerals in case order, then `[material]`"},
@@ -30,7 +30,7 @@ constexpr Quantity arrays_of_particles[]{
      "particles"},
 };
 constexpr Quantity arrays_of_contacts[]{
-    {"body_i", "", "id of one body; between polygons, the body whose corner touches the other's outline"},
+    {"body_i", "", "id of one body; for two polygons, the body whose corner touches the other's outline"},
     {"body_j", "", "id of the other body"},
     {"normal_force", "N", "elastic normal force, positive if it pushes the bodies apart"},
     {"shear_force", "N",
@@ -41,7 +41,8 @@ constexpr Quantity arrays_of_contacts[]{
     {"age", "s",
      "time since loading began for an intact bond, and time since the break for a broken bond. For a contact without a "
      "bond, time since the first curve row in which it touched",
-     "rows that are not written count as well: there are at least 2000 up to `loading.max_axial_strain`"},
+     "curve rows that are not written to curve.csv count as well; there are at least 2000 rows up to "
+     "`loading.max_axial_strain`"},
 };
 constexpr Quantity arrays_of_cracks[]{
     {"body_i", "", "id of one body, as in events.csv"},

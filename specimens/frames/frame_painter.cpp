@@ -325,7 +325,7 @@ void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, 
         for (std::size_t k = 0; k < loose.size(); ++k) add(static_cast<std::uint8_t>(ContactState::loose));
     });
     write_array<double>(out, of_contacts("age"), contacts, [&](const auto& add) {
-        std::vector<std::pair<PointIndex, double>> breaks;  // bonds and times of their breaks
+        std::vector<std::pair<PointIndex, double>> breaks;  // broken bonds, and the times at which they broke
         for (const Crack& crack : cracks) breaks.emplace_back(crack.bond, crack.time);
         std::sort(breaks.begin(), breaks.end());
         auto broken = breaks.begin();

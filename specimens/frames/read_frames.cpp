@@ -52,7 +52,9 @@ class ArrayReader {
         const std::uint64_t blocks = word_at(decode(0, 32, 24), 0);
         if (blocks == 0) return {};
         if (blocks > text.size())
-            refuse_frame(file, fmt::format("array '{}': found {} blocks in {} characters", name, blocks, text.size()));
+            refuse_frame(file,
+                         fmt::format("array '{}': found a header with {} blocks, more than its {} characters can hold",
+                                     name, blocks, text.size()));
         const std::size_t header_bytes = 8 * (3 + static_cast<std::size_t>(blocks));
         const std::size_t header_letters = (header_bytes + 2) / 3 * 4;
         const Bytes header = decode(0, header_letters, header_bytes);
@@ -66,8 +68,8 @@ class ArrayReader {
             const std::uint64_t packed_size = word_at(header, 3 + block);
             // zlib compresses by a factor of at most about 1000, so a larger size indicates damage.
             if (packed_size > packed.size() - at || size > 1100 * packed_size) {
-                refuse_frame(file,
-                             fmt::format("array '{}': found sizes that its {} bytes cannot hold", name, packed.size()));
+                refuse_frame(file, fmt::format("array '{}': found block sizes that its {} bytes of data cannot hold",
+                                               name, packed.size()));
             }
             const std::size_t begin = values.size();
             values.resize(begin + static_cast<std::size_t>(size));
@@ -129,7 +131,7 @@ pugi::xml_document load(const std::filesystem::path& file) {
     pugi::xml_document document;
     const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
     if (!result)
-        refuse_frame(file, fmt::format("found broken XML ({} at byte {})", result.description(), result.offset));
+        refuse_frame(file, fmt::format("found malformed XML ({} at byte {})", result.description(), result.offset));
     return document;
 }
 
@@ -141,11 +143,11 @@ void append_cells(const std::filesystem::path& file, const pugi::xml_node& list,
     double begin = 0;
     for (const double end : offsets) {
         if (!(end >= begin && end <= static_cast<double>(connectivity.size())))
-            refuse_frame(file, "cell offsets decrease, or exceed the connectivity");
+            refuse_frame(file, "found cell offsets that decrease, or exceed the length of the connectivity array");
         PolyData::Cell cell{line, {}};
         for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
             if (!(connectivity[k] >= 0 && connectivity[k] < static_cast<double>(data.points.size()))) {
-                refuse_frame(file, fmt::format("a cell refers to point {}, expected 0 to {}", connectivity[k],
+                refuse_frame(file, fmt::format("found a cell with point {}, expected points 0 to {}", connectivity[k],
                                                static_cast<double>(data.points.size()) - 1));
             }
             cell.points.push_back(static_cast<std::size_t>(connectivity[k]));
@@ -179,7 +181,7 @@ PolyData read_polydata(const std::filesystem::path& file) {
     expect("header_type", "UInt64");
     expect("compressor", "vtkZLibDataCompressor");
     const pugi::xml_node piece = root.child("PolyData").child("Piece");
-    if (!piece) refuse_frame(file, "found no Piece in PolyData");
+    if (!piece) refuse_frame(file, "found no element Piece in PolyData");
 
     PolyData data;
     if (const pugi::xml_node points = piece.child("Points").child("DataArray")) {
@@ -210,7 +212,7 @@ std::map<std::string, double> read_field_values(const std::filesystem::path& fil
     const std::size_t begin = text.find("<FieldData>");
     pugi::xml_document document;
     if (begin == std::string::npos || line != "</FieldData>" || !document.load_string(text.c_str() + begin))
-        refuse_frame(file, "found no FieldData at its beginning");
+        refuse_frame(file, "found no element FieldData at the start");
     return field_values_of(file, document.child("FieldData"));
 }
 

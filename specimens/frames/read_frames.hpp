@@ -31,10 +31,12 @@ struct PolyData {
 /// Reads a frame. @throws InputError that names the file and what is missing or damaged
 PolyData read_polydata(const std::filesystem::path& file);
 
-/// Reads only the field_values, at the start of the file. @throws InputError as read_polydata() does
+/// Reads only the field_values, at the start of the file. @throws InputError under the same conditions as
+/// read_polydata()
 std::map<std::string, double> read_field_values(const std::filesystem::path& file);
 
-/// Values of the cell data `name`, with `components` values per cell. @throws InputError as read_polydata() does
+/// Values of the cell data `name`, with `components` values per cell. @throws InputError under the same conditions as
+/// read_polydata()
 const std::vector<double>& cell_values(const std::filesystem::path& file, const PolyData& data, const char* name,
                                        std::size_t components = 1);
 

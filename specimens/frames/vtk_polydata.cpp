@@ -117,7 +117,7 @@ PackedArray<T>::PackedArray(std::ostream& out, std::string_view name, std::size_
 template <class T>
 void PackedArray<T>::pack_block() {
     added_ += block_.size();
-    if (added_ > values_) throw std::logic_error("frames: an array received more values than its declared number");
+    if (added_ > values_) throw std::logic_error("frames: an array received more values than declared");
     if (block_.size() < block_values) header_[2] = block_.size() * sizeof(T);
     const std::size_t before = packed_.size();
     append_packed(bytes_of(block_), packed_);
@@ -142,7 +142,7 @@ void PackedArray<T>::write_packed(std::size_t bytes) {
 template <class T>
 void PackedArray<T>::finish() {
     if (!block_.empty()) pack_block();
-    if (added_ != values_) throw std::logic_error("frames: an array received fewer values than its declared number");
+    if (added_ != values_) throw std::logic_error("frames: an array received fewer values than declared");
     if (held_) write_header();
     write_packed(packed_.size());
     if (!held_) {

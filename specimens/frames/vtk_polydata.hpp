@@ -57,7 +57,8 @@ class PackedArray {
     void finish();
 
   private:
-    // Values per block: a multiple of 1 and 3 components, and small enough for the cache.
+    // Number of values per block. It is divisible by 3, the number of components of a vector, and a block fits in the
+    // cache.
     static constexpr std::size_t block_values = 3 << 12;
     static constexpr std::size_t most_held = 1 << 20;  // bytes of values; larger arrays are written block by block
     void pack_block();

@@ -464,8 +464,8 @@ std::string cleaning_text(const Cleaning& cleaning) {
     if (!(cleaning.snap > 0.0)) return "";
     const std::string snap = fmt::format(
         "joints: snap = {:.4g} m{}", cleaning.snap,
-        cleaning.derived ? fmt::format(" by default, {} of the mean spacing of the grains", snap_share) : "");
-    if (!cleaning.changed()) return snap + ": no nodes are that close, and no point can be removed";
+        cleaning.derived ? fmt::format(" by default, {} times the mean spacing of the grains", snap_share) : "");
+    if (!cleaning.changed()) return snap + ": no nodes are close enough to be merged, and no point can be removed";
     std::string text = fmt::format(
         "{}: {} point{} left out, {} node{} brought together, none moved further than {:.3g} m; {:.6g} m of "
         "traces ({:.6g} m before)",
@@ -473,7 +473,8 @@ std::string cleaning_text(const Cleaning& cleaning) {
         cleaning.brought_together == 1 ? "" : "s", cleaning.largest_displacement, cleaning.length,
         cleaning.length_before);
     if (cleaning.coincident > 0.0)
-        text += fmt::format(", {:.3g} m that lay on other traces or walls removed", cleaning.coincident);
+        text += fmt::format("; {:.3g} m of traces were removed because they lay on other traces or walls",
+                            cleaning.coincident);
     return text;
 }
 

@@ -263,11 +263,13 @@ class SetDrawing {
         const double reach = half_width * directions_.stretch();
         const auto refuse_beyond = [&](double length, double most, const char* lines) {
             if (length / amount_.value > most)
-                throw InputError(fmt::format("{}: found {} m, expected at most {:.0f} lines {}; make it larger",
-                                             at(CaseKey::joint_set_spacing), amount_.value, most, lines));
+                throw InputError(fmt::format(
+                    "{}: found {} m, expected a spacing that gives at most {:.0f} lines {}; make the spacing larger",
+                    at(CaseKey::joint_set_spacing), amount_.value, most, lines));
         };
         refuse_beyond(2.0 * half_width, most_traces_of_a_set, "in the box");
-        refuse_beyond(2.0 * reach, most_drawn, "beside the box, which may cross it because their directions scatter");
+        refuse_beyond(2.0 * reach, most_drawn,
+                      "in and near the box (lines near it may cross it, because their directions scatter)");
         const auto place = [&](double offset) {
             const double angle = directions_.draw(generator_);
             const Vec2 through = centre_ + offset * normal;

@@ -14,7 +14,8 @@ namespace crackle {
 /// Largest number of traces of one set; sets that need more are rejected.
 inline constexpr std::size_t most_traces_of_a_set = 100'000;
 
-/// Draws a set. @param set  its index, also stored in the traces @throws InputError as make_joints() does
+/// Draws a set. @param set  its index, also stored in the traces @throws InputError under the same conditions as
+/// make_joints()
 std::vector<JointTrace> draw_set(const JointRequest& joints, std::size_t set, const Domain& box);
 
 /// Length of a trace projected perpendicular to a scan line. The sum of these lengths, divided by the area, is the

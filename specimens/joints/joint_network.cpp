@@ -17,7 +17,7 @@
 namespace crackle {
 namespace {
 
-// Limits of snap, relative to the shorter side of the box.
+// Largest and smallest snap distance > 0, relative to the shorter side of the box.
 constexpr double most_of_a_side = 0.1, least_of_a_side = 1e-9;
 constexpr double join_share = 0.5;  // largest distance between ends of rows at one node, relative to the snap distance
 
@@ -98,12 +98,12 @@ void take_measured(JointNetwork& network, const JointRequest& joints, std::size_
             network.traces.push_back({*piece, source, whole, centred && piece == longest, line});
     }
     if (outside == traces.size()) {
-        throw InputError(
-            fmt::format("{}: found all of its traces outside of the box x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, "
-                        "expected one inside; "
-                        "{}",
-                        joints.places.at(CaseKey::trace, number), network.box.x1, network.box.x2, network.box.y1,
-                        network.box.y2, read.file.empty() ? "correct its points" : "give scale and offset"));
+        throw InputError(fmt::format(
+            "{}: found all of its traces outside of the box x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, "
+            "expected one inside; "
+            "{}",
+            joints.places.at(CaseKey::trace, number), network.box.x1, network.box.x2, network.box.y1, network.box.y2,
+            read.file.empty() ? "correct its points" : "give the scale and offset of the file"));
     }
     if (outside > 0)
         network.notices.push_back(
@@ -131,10 +131,10 @@ double snap_of(const JointRequest& joints, const Domain& box, double spacing) {
     const double snap = *joints.snap, side = std::min(box.x2 - box.x1, box.y2 - box.y1);
     const double most = spacing > 0.0 ? spacing : most_of_a_side * side, least = least_of_a_side * side;
     if (snap > 0.0 && (snap < least || snap > most))
-        throw InputError(fmt::format(
-            "{}: found {:.4g}, expected 0, or {:.4g} to {:.4g} m: {}", joints.places.at(CaseKey::joints_snap), snap,
-            least, most,
-            spacing > 0.0 ? "at most the mean spacing of the grains" : "at most a tenth of the shorter side"));
+        throw InputError(
+            fmt::format("{}: found {:.4g}, expected 0, or {:.4g} to {:.4g} m, which is {}",
+                        joints.places.at(CaseKey::joints_snap), snap, least, most,
+                        spacing > 0.0 ? "the mean spacing of the grains" : "a tenth of the shorter side of the box"));
     return snap;
 }
 
@@ -185,8 +185,7 @@ void check_apertures(const JointRequest& joints, double gap, bool meshed) {
             throw InputError(fmt::format(
                 "{}: found {} m, expected at most {}, {:.6g} m; {}", joints.places.at(key, k),
                 list[k].mechanics->aperture, meshed ? "the gap of the mesh" : "the radius of the smallest circle", gap,
-                meshed ? "this is the distance between the faces; lower the aperture or raise mesh.thick"
-                       : "lower it"));
+                meshed ? "the faces are this far apart, so lower the aperture or raise mesh.thick" : "lower it"));
         }
     };
     check(joints.sets, CaseKey::joint_set_aperture);

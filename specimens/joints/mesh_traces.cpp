@@ -39,15 +39,15 @@ std::string shape_text(const Mesh& with, const std::vector<CellCentre>& centres,
         const MeshQuality plain =
             quality_of(make_mesh(centres, {domain.x1, domain.x2, domain.y1, domain.y2}, without_traces));
         return fmt::format(
-            "cells, and those without joints in brackets: smallest angle {:.3g} ({:.3g}) degrees, ratio of smallest "
-            "to mean area {:.2g} ({:.2g}), ratio of shortest to mean edge {:.2g} ({:.2g})",
+            "cells (in brackets: cells without joints): smallest angle {:.3g} ({:.3g}) degrees, ratio of smallest to "
+            "mean area {:.2g} ({:.2g}), ratio of shortest to mean edge {:.2g} ({:.2g})",
             shape.smallest_angle, plain.smallest_angle, shape.smallest_area, plain.smallest_area, shape.shortest_edge,
             plain.shortest_edge);
         // The centres are not suited to a mesh without traces, since they include those that were removed for traces.
     } catch (const MeshError&) {
         return fmt::format(
             "cells: smallest angle {:.3g} degrees, ratio of smallest to mean area {:.2g}, ratio of shortest to mean "
-            "edge {:.2g}; the same centres have no mesh without joints to compare",
+            "edge {:.2g}; a comparison is missing, because the same centres cannot be meshed without joints",
             shape.smallest_angle, shape.smallest_area, shape.shortest_edge);
     }
 }
@@ -59,23 +59,24 @@ std::vector<std::string> jointed_mesh_text(const Mesh& with, const std::vector<C
     const MeshReport& report = with.report;
     request.traces.clear();
     std::vector<std::string> lines{
-        fmt::format("joints: {:.6g} m of traces form {} edges of cells; {} centres were removed, {} points were added",
-                    report.trace_length, report.trace_edges, report.centres_left, report.points_added),
+        fmt::format(
+            "joints: {:.6g} m of traces form {} edges of cells; {} centres were removed and {} points were added",
+            report.trace_length, report.trace_edges, report.centres_left, report.points_added),
         shape_text(with, centres, domain, request)};
     if (report.cells_cut > 0)
         lines.push_back(
-            fmt::format("joints: {} cells were cut by traces that are too close together for separate cells; {} "
-                        "pieces smaller than {} of the mean cell were joined to a neighbour",
+            fmt::format("joints: {} cells were cut by traces that are too close together for separate cells; {} pieces "
+                        "smaller than {} of the mean cell area were joined to a neighbour",
                         report.cells_cut, report.pieces_joined, smallest_piece_share));
     if (report.ends_moved > 0)
         lines.push_back(
-            fmt::format("joints: {} ends within {} of the mean spacing of another trace, a wall or the outline of a "
-                        "cut cell were extended to it, by at most {:.3g} m",
+            fmt::format("joints: {} ends of traces were less than {} times the mean spacing away from another trace, a "
+                        "wall or the outline of a cut cell. They were extended to it, by at most {:.3g} m",
                         report.ends_moved, trace_reach_share, report.largest_move));
     if (report.coincident > 0.0)
-        lines.push_back(
-            fmt::format("joints: {:.3g} m of traces lie on earlier traces; the edges there belong to the earlier ones",
-                        report.coincident));
+        lines.push_back(fmt::format(
+            "joints: {:.3g} m of traces lie on earlier traces; the edges there are assigned to the earlier traces",
+            report.coincident));
     return lines;
 }
 

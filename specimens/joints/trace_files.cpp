@@ -24,7 +24,7 @@ namespace {
 double coordinate(std::string_view word, std::string_view what, const TextLines& lines) {
     const std::optional<double> value = number_of(word);
     if (!value || !is_a_size(*value))
-        lines.refuse_number(word, fmt::format("a number for {}, 0 or of magnitude 1e-30 to 1e30", what));
+        lines.refuse_number(word, fmt::format("a number for {} that is 0 or has a magnitude from 1e-30 to 1e30", what));
     return *value;
 }
 
@@ -166,12 +166,12 @@ class CsvTraces {
     }
 
   private:
-    static constexpr const char* expected_heading = "a heading with trace,x,y or with x1,y1,x2,y2";
+    static constexpr const char* expected_heading = "a heading with the column names trace,x,y or x1,y1,x2,y2";
 
     struct PointColumns {
         std::size_t x = 0, y = 0;
     };
-    /// Columns of the points: x1,y1,x2,y2 and as many further pairs as there are.
+    /// Columns of the points of a trace in one row: x1,y1,x2,y2 and all further numbered pairs in the heading.
     std::vector<PointColumns> columns_along() const {
         std::vector<PointColumns> columns;
         while (true) {
@@ -198,16 +198,16 @@ class CsvTraces {
     }
 
     void point(std::string_view trace, Vec2 place) {
-        if (trace.empty()) reader_.refuse("no trace", "its name or number");
+        if (trace.empty()) reader_.refuse("no name of a trace", "the name or number of the trace");
         if (points_.empty() || trace != trace_) {
             finish();
             trace_ = trace;
             begun_ = reader_.line();
-            // A trace that appears again after another trace was probably split by mistake: its points would have to
-            // continue the first part.
+            // If a trace appears again after another trace, it was probably split by mistake. It is refused, because
+            // it is not known whether these points continue the first part.
             if (!seen_.insert(trace_).second)
                 reader_.refuse(fmt::format("points of trace {:.40} after those of another trace", trace),
-                               "consecutive points of each trace");
+                               "all points of a trace in consecutive rows");
         }
         points_.push_back(place);
     }
@@ -243,8 +243,9 @@ class DxfTraces {
             }
             if (entities && !ended && at_end_) break;
         }
-        if (!entities) lines_.refuse("no section ENTITIES", "a DXF file of lines");
-        if (!ended) lines_.refuse("the end of the file within the section ENTITIES", "ENDSEC before it");
+        if (!entities) lines_.refuse("no ENTITIES section", "a DXF file of lines");
+        if (!ended)
+            lines_.refuse("the end of the file within the ENTITIES section", "ENDSEC before the end of the file");
         return std::move(found_);
     }
 
@@ -258,9 +259,9 @@ class DxfTraces {
         const std::string_view code = stripped(*line);
         const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), code_);
         if (error != std::errc{} || end != code.data() + code.size())
-            lines_.refuse(fmt::format("'{:.40}'", code), "a group code, a whole number");
+            lines_.refuse(fmt::format("'{:.40}'", code), "a group code, which is a whole number");
         const auto value = lines_.next();
-        if (!value) lines_.refuse("the end of the file after a group code", "its value");
+        if (!value) lines_.refuse("the end of the file after a group code", "the value that belongs to this code");
         value_ = stripped(*value);
         return true;
     }
@@ -370,9 +371,9 @@ Found parse_by_kind(const std::string& name, std::string_view text, const std::s
 }  // namespace
 
 TracePoints parse_traces(const std::string& name, std::string_view text, const std::string& layer, TraceRows* rows) {
-    refuse_foreign(
-        name, text,
-        "CSV (trace,x,y or x1,y1,x2,y2), DXF, or x1 y1 x2 y2 ... with a trace per line; export it as one of them");
+    refuse_foreign(name, text,
+                   "CSV (trace,x,y or x1,y1,x2,y2), DXF, or x1 y1 x2 y2 ... with one trace per line; export the file "
+                   "in one of these formats");
     Found found = parse_by_kind(name, text, layer);
     if (found.traces.empty() && !found.rows.without_length.empty())
         throw InputError(

@@ -64,13 +64,14 @@ Apparatus bending_apparatus(const KindRequest& request, const Shape& shape) {
         request.refuse(
             CaseKey::loading_span,
             fmt::format("{:.6g} m{}", span, request.test.loading.span ? "" : ", four times the beam's depth"),
-            fmt::format("supports within the beam: span plus the width of a pad, {:.4g} m, at most {:.6g} m", pad,
-                        shape.width),
+            fmt::format(
+                "a span that, together with the pad width of {:.4g} m, is at most the beam's length of {:.6g} m", pad,
+                shape.width),
             "increase packing.width, or reduce the span");
     }
     if (span < 2.0 * pad) {
         request.refuse(CaseKey::loading_span, fmt::format("{:.6g} m", span),
-                       fmt::format("at least two pads of {:.4g} m", pad), "increase the span");
+                       fmt::format("at least twice the pad width of {:.4g} m", pad), "increase the span");
     }
     if (shape.notch && std::abs(span / (default_span * depth) - 1.0) > notched_span_share) {
         request.refuse(CaseKey::loading_span, fmt::format("{:.6g} m", span),

@@ -110,10 +110,10 @@ double disc_diameter(const KindRequest& request, double room) {
     const double width = request.packing.x2 - request.packing.x1, height = request.packing.y2 - request.packing.y1;
     const double diameter = request.test.shape.diameter.value_or(room);
     if (diameter > room * (1.0 + 1e-12)) {
-        request.refuse(
-            CaseKey::shape_diameter, fmt::format("{} m", diameter),
-            fmt::format("at most {:.6g} m: the packing is {:.6g} m wide and {:.6g} m high", room, width, height),
-            "use a larger packing, or a smaller disc");
+        request.refuse(CaseKey::shape_diameter, fmt::format("{} m", diameter),
+                       fmt::format("at most {:.6g} m, because the packing is {:.6g} m wide and {:.6g} m high", room,
+                                   width, height),
+                       "use a larger packing, or a smaller disc");
     }
     return diameter;
 }

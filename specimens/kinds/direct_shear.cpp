@@ -63,7 +63,7 @@ Apparatus direct_shear_apparatus(const KindRequest& request, const Shape& shape)
 }
 
 constexpr std::array direct_shear_keys{
-    KindKey{"loading.normal_stress", "kind = \"direct_shear\" needs it; 0 means no normal stress"},
+    KindKey{"loading.normal_stress", "kind = \"direct_shear\" needs this key; 0 means no normal stress"},
     KindKey{"loading.box_gap"}, KindKey{"loading.normal_stiffness"}};
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace crackle {
 namespace {
 
-constexpr std::array biaxial_keys{KindKey{"confinement.pressure", "kind = \"biaxial\" needs it"},
+constexpr std::array biaxial_keys{KindKey{"confinement.pressure", "kind = \"biaxial\" needs this key"},
                                   KindKey{"confinement.side"}};
 
 }  // namespace

@@ -41,7 +41,7 @@ double steps_per_second(World& world, std::vector<std::string>& notices) {
             look_at_clock();
         }
     } catch (const UnstableRun& error) {
-        notices.push_back(fmt::format("while steps were timed, {}", error.what()));
+        notices.push_back(fmt::format("while the speed of stepping was measured, {}", error.what()));
         look_at_clock();
     }
     return static_cast<double>(steps) / seconds;
@@ -185,8 +185,8 @@ void warn_of_strength(TestCheck& check) {
             "strengths are {}",
             check.strength->strain,
             test.area_units() ? "in Pa, and so is contact_modulus; check their orders of magnitude"
-                              : "in N per point here; in Pa they need units = \"area\" with contact_modulus and "
-                                "stiffness_ratio"));
+                              : "in N per contact point here; to give them in Pa, set units = \"area\" with "
+                                "contact_modulus and stiffness_ratio"));
     } else if (check.strength && check.strength->strain > test.loading.max_axial_strain) {
         check.warnings.push_back(fmt::format(
             "{} = {:.3g} is less than the strain of the estimated strength, {:.3g}: the test may end before "
@@ -202,21 +202,21 @@ void warn(TestCheck& check) {
     warn_of_disc(check);
     if (test.confined()) {
         check.warnings.emplace_back(
-            "first slip and break are estimated without the confining pressure; no strength is "
-            "estimated under pressure");
+            "the first slip and the first break are estimated without the confining pressure, and the strength of "
+            "confined tests is not estimated");
     }
     if (setup.specimen.polygons && setup.bonds.mean_overlap > deep_overlap_share * setup.bonds.thick) {
         check.warnings.push_back(
-            fmt::format("bonds overlap by {:.3g} m on average, {:.2g} of the thickness {:.3g} m: corners lie close to "
-                        "their neighbours' faces, and a small load may push them through; increase mesh.thick, or "
-                        "reduce the excess of bond.thick over it",
+            fmt::format("bonds overlap by {:.3g} m on average, which is {:.2g} of bond.thick = {:.3g} m: corners lie "
+                        "close to their neighbours' faces, and a small load may push them through; increase "
+                        "mesh.thick, or reduce the difference between bond.thick and mesh.thick",
                         setup.bonds.mean_overlap, setup.bonds.mean_overlap / setup.bonds.thick, setup.bonds.thick));
     }
     if (!out_of_proportion(check) && check.corner_distance > 0.0 &&
         check.corner_closing > noticed_closing_share * check.corner_distance) {
         check.warnings.push_back(fmt::format(
-            "at the estimated strength a platen presses a corner in by {:.3g} m, {:.2g} of its distance from the "
-            "platen's face, {:.3g} m: corners may pass through the platen; increase mesh.thick or the stiffness",
+            "at the estimated strength, a platen presses a corner in by {:.3g} m, {:.2g} of the distance from corner "
+            "to platen face, {:.3g} m: corners may pass through the platen; increase mesh.thick or the stiffness",
             check.corner_closing, check.corner_closing / check.corner_distance, check.corner_distance));
     }
     if (check.grains_across < fewest_grains_across) {
@@ -234,8 +234,8 @@ void warn(TestCheck& check) {
     }
     if (check.to_end.steps < fewest_steps) {
         check.warnings.push_back(
-            fmt::format("{} = {:g} is only {:.2g} steps away, so the test overshoots it; use a larger "
-                        "strain or a lower rate",
+            fmt::format("{} = {:g} is reached after only {:.2g} steps, so the test overshoots it; use a larger strain "
+                        "or a lower rate",
                         test.at(CaseKey::loading_max_axial_strain), test.loading.max_axial_strain, check.to_end.steps));
     }
     warn_of_strength(check);
@@ -293,7 +293,7 @@ TestCheck check_test(const ResolvedCase& description, const TestHooks& hooks) {
     const TestSetup& setup = check.test.setup;
     check.grains_across = setup.specimen.width / std::sqrt(setup.specimen.width * setup.specimen.height /
                                                            static_cast<double>(setup.specimen.particles));
-    hooks.report_work("measuring steps per second");
+    hooks.report_work("measuring the number of steps per second");
     check.steps_per_second = steps_per_second(check.test.world, check.test.setup.origin.notices);
     estimate_run(check);
     check.memory = largest_memory();

@@ -174,7 +174,7 @@ ErrorFigures error_of(double asked, double resolution, const Table<CompanionFigu
 std::optional<NumericalErrors> run_companions(const VirtualTest& test, const TestHooks& hooks) {
     if (test.state.failure.peak_row < 0) return std::nullopt;
     const std::vector<CompanionPlan> plans = plans_for(test.description, test.world.workers.threads);
-    if (hooks.stage) hooks.stage(fmt::format("verifying: {} companions of the test", plans.size()));
+    if (hooks.stage) hooks.stage(fmt::format("verifying the test with {} companion runs", plans.size()));
     std::vector<std::optional<CompanionFigures>> done(plans.size());
     const int threads = std::max(1, test.world.workers.threads);
     // The calling thread only waits for companions, so its processor is free for one of them.

@@ -4,9 +4,9 @@
 //
 // A specimen that breaks follows one of many branches, and round-off decides which one. The peaks of the companions
 // therefore differ not only because of time step and rate, but also by chance. The stated error is the larger of
-//   - chance, t·sqrt(2)·s, where s is the sample standard deviation of x itself, x at half the step and x at half the
-//     rate, and t = 2.920 is the 95 % point of Student's distribution with two degrees of freedom. If the runs were
-//     independent draws, 90 of 100 further runs would lie within;
+//   - chance, t·sqrt(2)·s, where s is the sample standard deviation of a result x of the test and of its runs at half
+//     the step and at half the rate, and t = 2.920 is the 95 % point of Student's distribution with two degrees of
+//     freedom. If the runs were independent draws, 90 of 100 further runs would differ from the test by less;
 //   - rate, 3 |x - x at half the rate|, the grid convergence index of two grids at first order (Roache, J. Fluids Eng.
 //     116, 1994): effects of inertia and dashpots are proportional to the rate; the error of the time step is of second
 //     order;

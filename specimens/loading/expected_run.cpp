@@ -57,8 +57,8 @@ std::string small_particle(const VirtualTest& test) {
     if (!(times > noticed_steps)) return "";
     const BodyState& body = world.bodies.state[smallest];
     return fmt::format(
-        "; particle {} at ({:.4g}, {:.4g}) m has {:.2g} of the mean mass, which makes the time step about {:.2g} times "
-        "shorter",
+        "; particle {} at ({:.4g}, {:.4g}) m has only {:.2g} of the mean particle mass, which makes the time step "
+        "about {:.2g} times shorter",
         world.bodies.info(smallest).id, body.x, body.y, 1.0 / (times * times), times);
 }
 

@@ -14,7 +14,7 @@
 namespace crackle {
 namespace {
 
-constexpr const char* own_speed = "the calling program has set the speed of the driving part since a strain of ";
+constexpr const char* own_speed = "the calling program has controlled the speed of the driving part since a strain of ";
 
 }  // namespace
 

@@ -32,11 +32,11 @@ void report_bonded(const TestHooks& hooks, const World& world, const TestSetup& 
                              world.bodies.size(), setup.origin.segments, setup.bonds.contacts_initial,
                              world.bonds.initial, world.workers.threads));
     hooks.detail(fmt::format(
-        "time step {:.4g} s, {}; exact stable step {:.4g} s{}, guaranteed bound {:.4g} s", world.stepping.time_step,
+        "time step {:.4g} s, {}; stability limit {:.4g} s{}, guaranteed bound {:.4g} s", world.stepping.time_step,
         test.numerics.time_step ? std::string("given by the case")
                                 : fmt::format("{:.3g} of the bound, updated as contacts open and close",
                                               world.stepping.time_step / world.stepping.step_bound),
-        setup.stable_time_step, setup.stable_time_step_proved ? "" : " (from below)", setup.time_step_bound));
+        setup.stable_time_step, setup.stable_time_step_proved ? "" : " (a lower bound)", setup.time_step_bound));
 }
 
 // A loading rate controlled by a tolerance is derived from the strain at which this fraction of the bonded points has

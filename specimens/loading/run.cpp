@@ -91,7 +91,8 @@ class SpecimenFiles {
 /// @param made  the same test after its specimen was made
 std::string case_text(const ResolvedCase& test, const ResolvedCase& made, const fs::path& folder) {
     std::ostringstream text;
-    text << resolved_case_mark << project_version << ": all values written out. Its input files, with their SHA-256:\n";
+    text << resolved_case_mark << project_version
+         << ": the case with all values written out. Its input files and their SHA-256 hashes:\n";
     for (const fs::path& input : files_read(test)) {
         text << "#   " << sha256(read_file(input)) << "  " << input.filename().string() << '\n';
     }
@@ -125,7 +126,7 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
         files.flush();
         write_peak();
         write_summary();
-        throw UnstableRun(error, fmt::format("output so far in {}{}", folder.path().string(),
+        throw UnstableRun(error, fmt::format("the output so far is in {}{}", folder.path().string(),
                                              folder.staged() ? "; " + folder.fate_of_earlier_results() : ""));
     }
     outcome.interrupted = test.state.ended_by.empty();

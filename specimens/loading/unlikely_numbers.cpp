@@ -36,7 +36,7 @@ class Look {
                        "is softer than any rock or soil: is it meant in GPa? Values must be in Pa");
             else if (m.tensile_strength && *m.tensile_strength < least_strength_over_modulus * *modulus)
                 notice("tensile_strength", *m.tensile_strength, " Pa",
-                       fmt::format("is {:.1g} of the contact modulus: is it meant in MPa? Values must be in Pa",
+                       fmt::format("is only {:.1g} of the contact modulus: is it meant in MPa? Values must be in Pa",
                                    *m.tensile_strength / *modulus));
         }
         if (m.friction_angle && *m.friction_angle == 0.0)
@@ -66,7 +66,7 @@ class Look {
         if (!test_.area_units() || !test_.joints.empty() || stiffness < stiff_as_rock || grain < largest_grain) return;
         notices_.push_back(
             fmt::format("the specimen is {:.3g} m by {:.3g} m, with grains of {:.2g} m that are as stiff as rock: are "
-                        "its lengths meant in mm? Values must be in m",
+                        "its lengths given in mm? Values must be in m",
                         specimen.width, specimen.height, grain));
     }
 

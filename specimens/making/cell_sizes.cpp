@@ -81,8 +81,8 @@ std::string small_cell_text(const Mesh& mesh) {
     if (!(times > noticed_steps)) return "";
     const Point at = mesh.outline(*smallest).front();
     return fmt::format(
-        "the smallest cell, at ({:.6g}, {:.6g}), has {:.2g} of the mean cell's area: it makes the time step about "
-        "{:.2g} times smaller, and a test correspondingly longer",
+        "the smallest cell, at ({:.6g}, {:.6g}), has {:.2g} of the mean cell area, which makes the time step about "
+        "{:.2g} times smaller and a test correspondingly longer",
         at.x, at.y, smallest->area / mean, times);
 }
 
@@ -93,12 +93,12 @@ SizeDistribution radii_for_cells(MeshKind kind, RadiusLaw sizes, const CellSizes
     const double least = measured.front().*cells, most = measured.back().*cells;
     if (asked.spread < least || asked.spread > most) {
         const double reached = widest.back().*cells;
-        throw InputError(fmt::format("found {}, expected {} to {} for {} cells of {} circles; {}", asked.spread, least,
-                                     most, kind == MeshKind::voronoi ? "Voronoi" : "Delaunay", name_of(sizes),
-                                     asked.spread < least ? "cells of equal circles already vary by more"
-                                     : asked.spread <= reached
-                                         ? fmt::format("sizes = \"lognormal\" reaches {}", reached)
-                                         : fmt::format("{} is the most that packed circles reach", reached)));
+        throw InputError(
+            fmt::format("found {}, expected {} to {} for {} cells made from circles of {} sizes; {}", asked.spread,
+                        least, most, kind == MeshKind::voronoi ? "Voronoi" : "Delaunay", name_of(sizes),
+                        asked.spread < least      ? "cells made from equal circles already vary more than this"
+                        : asked.spread <= reached ? fmt::format("sizes = \"lognormal\" reaches {}", reached)
+                                                  : fmt::format("{} is the most that packed circles reach", reached)));
     }
     const double spread = circle_spread(measured, cells, std::clamp(asked.spread + correction, least, most));
     // A mesh has one Voronoi cell, or about two triangles, per circle.

@@ -31,8 +31,8 @@ double derived_gap(double area, double cells);
 /// Sizes of the cells of a mesh, including gaps.
 CellSizes measure_cells(const Mesh& mesh);
 
-/// A sentence on the smallest cell if its mass makes the stable time step more than ten times shorter than the mean
-/// cell would; otherwise empty. The stable step is proportional to sqrt(mass), since the springs are similar.
+/// A sentence on the smallest cell if its mass makes the stable time step more than ten times shorter than the step for
+/// the mean cell; otherwise empty. The stable step is proportional to sqrt(mass), since the springs are similar.
 std::string small_cell_text(const Mesh& mesh);
 
 /// Radii of circles whose mesh cells have the requested diameters, up to a common factor close to 1.

@@ -33,8 +33,8 @@ std::vector<Vec2> inset(const std::vector<Vec2>& corners, double depth, int id) 
     for (std::size_t k = 0; k < n; ++k) {
         if (dot(moved[(k + 1) % n] - moved[k], direction(k)) <= 0.0) {
             throw InputError(
-                fmt::format("shaken cell {}: found an edge that disappears with an inset of {} m, expected a "
-                            "smaller gap or less shaking",
+                fmt::format("shaken cell {}: found an edge that disappears with an inset of {} m, expected every edge "
+                            "to remain; use a smaller gap or less shaking",
                             id, depth));
         }
     }

@@ -119,19 +119,19 @@ std::string flaw_of_png(std::string_view bytes) {
     bool interlaced = false, needs_palette = false, has_palette = false;
     std::string packed;
     for (std::size_t at = signature.size();;) {
-        if (bytes.size() - at < frame) return fmt::format("an end at byte {} before the chunk IEND", bytes.size());
+        if (bytes.size() - at < frame) return fmt::format("an end at byte {}, before the IEND chunk", bytes.size());
         const std::uint64_t length = number_at(bytes, at);
         const std::string_view name = bytes.substr(at + 4, 4);
         if (length > bytes.size() - at - frame)
-            return fmt::format("a chunk of {} bytes at byte {}, beyond the end of the file", length, at);
+            return fmt::format("a chunk of {} bytes at byte {} that extends beyond the end of the file", length, at);
         const std::string_view data = bytes.substr(at + 8, length);
         const uLong sum = crc32(0, reinterpret_cast<const Bytef*>(name.data()), static_cast<uInt>(4 + length));
         if (sum != number_at(bytes, at + 8 + length))
-            return fmt::format("the chunk {} at byte {} with a wrong checksum", name, at);
+            return fmt::format("a wrong checksum in the {} chunk at byte {}", name, at);
         const bool first = at == signature.size();
-        if (first != (name == "IHDR")) return first ? "no chunk IHDR at its beginning" : "a second chunk IHDR";
+        if (first != (name == "IHDR")) return first ? "no IHDR chunk at the start" : "a second IHDR chunk";
         if (first) {
-            if (length != 13) return fmt::format("a chunk IHDR of {} bytes instead of 13", length);
+            if (length != 13) return fmt::format("an IHDR chunk of {} bytes instead of 13", length);
             const std::uint64_t width = number_at(data, 0);
             rows = number_at(data, 4);
             if (width == 0 || rows == 0 || width > most_pixels_across || rows > most_pixels_across)
@@ -151,8 +151,8 @@ std::string flaw_of_png(std::string_view bytes) {
         if (name == "IEND") break;
         at += frame + length;
     }
-    if (packed.empty()) return "no chunk IDAT, hence no pixels";
-    if (needs_palette && !has_palette) return "palette colours without a chunk PLTE";
+    if (packed.empty()) return "no IDAT chunk and therefore no pixels";
+    if (needs_palette && !has_palette) return "palette colours without a PLTE chunk";
     const std::optional<std::uint64_t> unpacked = unpacked_bytes(packed);
     if (!unpacked) return "IDAT chunks that cannot be decompressed";
     if (!interlaced && *unpacked < rows * row_bytes)

@@ -151,9 +151,11 @@ void joint_circles(Specimen& specimen, const JointRequest& asked, const Places& 
     name_traces(specimen, joints);
     double length = 0.0;
     for (const JointTrace& trace : joints.traces) length += trace.length();
-    hooks.report_stage(fmt::format("joints: {} traces of {:.6g} m among the circles", joints.traces.size(), length));
+    hooks.report_stage(fmt::format("joints: {} traces with a total length of {:.6g} m among the circles",
+                                   joints.traces.size(), length));
     if (const std::string as_rock = sources_as_rock(joints); !as_rock.empty())
-        specimen.notices.push_back("joints without mechanics (" + as_rock + ") change nothing among circles");
+        specimen.notices.push_back("joints without mechanical properties (" + as_rock +
+                                   ") have no effect among circles");
 }
 
 void measure_polygons(Specimen& specimen) {

@@ -76,7 +76,7 @@ double derived_mesh_thick(const Specimen& specimen, const parts::Mesh& asked, co
                                   : bare_cells(circles, asked, places, specimen.shape, hooks).cells.size();
     const double thick = derived_gap(specimen.shape.area(circles.domain), static_cast<double>(cells));
     hooks.report_stage(
-        fmt::format("mesh.thick = {:.4g} m by default: {} of the mean cell size", thick, derived_gap_share));
+        fmt::format("mesh.thick = {:.4g} m by default: {} times the mean cell size", thick, derived_gap_share));
     return thick;
 }
 
@@ -93,9 +93,9 @@ Mesh mesh_along_joints(Specimen& specimen, const MeshRequest& request, const Joi
                 hooks.report_stage(line);
             if (const std::string as_rock = sources_as_rock(joints); !as_rock.empty())
                 specimen.notices.push_back(
-                    "joints without mechanics (" + as_rock +
-                    ") are faces of the mesh with the rock's own properties: they still affect it, because they are "
-                    "straight and because Voronoi cells along them form even rows");
+                    "joints without mechanical properties (" + as_rock +
+                    ") are faces of the mesh with the rock's own properties. They still affect the specimen, because "
+                    "they are straight and because Voronoi cells form even rows along them");
         }
         return mesh;
     } catch (const MeshInterrupted&) {

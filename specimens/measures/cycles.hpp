@@ -35,8 +35,8 @@ struct LoadingCycle {
     double permanent_strain = 0.0;
     double loop = 0.0;           ///< area of the hysteresis loop, N/m; NaN if the curve ends within the cycle
     double modulus_error = 0.0;  ///< relative error, from the difference between the stresses of the two platens
-    bool unbroken = false;       ///< whether no bond has broken by the end of the cycle
-    bool linear = false;         ///< whether, in addition, nothing has slid or come into contact
+    bool unbroken = false;       ///< whether no bond had broken by the end of the cycle
+    bool linear = false;         ///< whether, up to then, no contact had slid or formed either
 };
 
 /// The cycles in order; strains and stresses are positive in the direction of loading.

@@ -34,8 +34,8 @@ struct Claim {
 };
 constexpr Claim wide_enough{"the specimen is at least 20 particles wide",
                             "the specimen is {} wide; at least 20 are needed"};
-constexpr Claim away_from_platens{"the largest crack is not along a platen",
-                                  "the largest crack is along a platen, not within the specimen: {}"};
+constexpr Claim away_from_platens{"the largest crack does not run along a platen",
+                                  "the largest crack runs along a platen, not within the specimen: {}"};
 constexpr Claim between_grips{"the specimen broke between its grips",
                               "the specimen did not break between its grips: {}"};
 constexpr Claim from_the_middle{
@@ -49,9 +49,9 @@ constexpr Claim not_at_the_jaws{
     "before the stress first drops by 1 %, bond breaks beyond 0.8 R from the centre, near the jaws, release {} of the "
     "energy of all breaks; less than a quarter is needed"};
 constexpr Claim split_disc{
-    "the largest crack is at most 20 degrees from the load axis and spans at least half the diameter",
-    "the largest crack does not split the disc: {}; it must be at most 20 degrees from the load axis and span at least "
-    "half the diameter"};
+    "the largest crack deviates by at most 20 degrees from the load axis and spans at least half the diameter",
+    "the largest crack does not split the disc: {}; it must deviate by at most 20 degrees from the load axis and span "
+    "at least half the diameter"};
 constexpr Claim crack_at_midspan{
     "the largest crack lies within a quarter of the height, or two particles, of midspan and spans at least half of "
     "the height above any notch",

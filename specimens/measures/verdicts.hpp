@@ -2,7 +2,8 @@
 // Judges from where and when bonds broke whether a test is valid for its purpose. The results of an invalid test are
 // still reported, together with the verdict.
 //
-//   compression, biaxial   the largest crack is not along a platen; the specimen is at least twenty particles wide
+//   compression, biaxial   the largest crack does not run along a platen; the specimen is at least twenty
+//                          particles wide
 //   tension                the specimen broke between its grips
 //   brazilian              before the stress first drops by 1 %, the mean distance of bond breaks from the centre along
 //                          the load axis, weighted by energy, is less than 0.5 R, and breaks beyond 0.8 R release less

@@ -111,7 +111,7 @@ const std::vector<CurveColumn>& curve_columns() {
          [](Row r) { return static_cast<double>(r.bonds_broken); },
          true},
         {{"kinetic_energy", "J", "kinetic energy of all bodies",
-          "from the mean of the velocities half a step before and half a step after"},
+          "computed from the mean of the velocities half a time step before and half a time step after the row"},
          [](Row r) { return r.kinetic_energy; },
          false},
         {{"strain_energy", "J", "strain energy of all contact points, relative to the bonded state"},
@@ -124,7 +124,7 @@ const std::vector<CurveColumn>& curve_columns() {
         {{"interfaces_lost", "", "number of bonded pairs of bodies whose last bond has broken"},
          [](Row r) { return static_cast<double>(r.interfaces_lost); },
          true},
-        {{"points_sliding", "", "number of contact points at the Coulomb limit in this step",
+        {{"points_sliding", "", "number of contact points at the Coulomb limit in the time step of the row",
           "points whose shear force is at most 1e-9 of the mean back-tension (mean tensile strength for coulomb bonds) "
           "are not counted, because their surfaces barely touch"},
          [](Row r) { return static_cast<double>(r.points_sliding); },

@@ -163,16 +163,15 @@ class Compressor {
     [[noreturn]] void refuse_void_ratio(double lowest, double highest) {
         const auto reached = [&](double pressure) {
             set_pressure(pressure);
-            relax_to(working_imbalance, "looking for the reachable void ratios");
+            relax_to(working_imbalance, "determining the possible void ratios");
             return void_ratio();
         };
         const double loosest = reached(lowest), densest = reached(highest);
-        throw PackingError(
-            PackingInput::void_ratio, "void_ratio",
-            fmt::format(": found {}, expected {:.4f} to {:.4f}, the range that these sizes reach with this seed. "
-                        "Looser packings carry no load without friction; denser ones overlap by more than a tenth of "
-                        "the mean radius",
-                        *target_.void_ratio, densest, loosest));
+        throw PackingError(PackingInput::void_ratio, "void_ratio",
+                           fmt::format(": found {}, expected {:.4f} to {:.4f}, the range that these sizes reach with "
+                                       "this seed. Looser packings carry no load without friction; in denser ones, "
+                                       "circles overlap by more than a tenth of the mean radius",
+                                       *target_.void_ratio, densest, loosest));
     }
 
     void make_isotropic() {

@@ -74,7 +74,8 @@ class DiscAssembly {
     AssemblySums compute_forces(const DiscMotion* motion = nullptr, std::optional<double> moved_square = {});
 
     /// Moves the discs in a box that already has its new size.
-    /// @param place  sets the positions of discs begin..end, one block per call; called from several threads
+    /// @param place  sets the positions of the discs from `begin` up to, but not including, `end`; called once for each
+    /// block of discs, from several threads
     /// @return square of the largest displacement since the list was built, m², relative to a uniform strain of the
     /// box; infinite if there is no list
     double move(const std::function<void(std::size_t begin, std::size_t end)>& place);

@@ -60,11 +60,12 @@ void check(const PackingRequest& request) {
     }
     if (!request.count && request.height_to_width) {
         throw InputError(
-            "height_to_width: found with width and height, but it has an effect only with a count; remove it");
+            "height_to_width: found this key together with width and height, but it has an effect only with a count; "
+            "remove it");
     }
     if (request.mean_overlap.has_value() == request.void_ratio.has_value()) {
         throw InputError(fmt::format("target of the packing: found {}, expected either mean_overlap or void_ratio",
-                                     request.mean_overlap ? "both" : "none"));
+                                     request.mean_overlap ? "both" : "neither"));
     }
     if (request.count && (*request.count < min_packing_circles || *request.count > max_packing_circles)) {
         throw PackingError(PackingInput::count, "count",
@@ -84,11 +85,11 @@ void check(const PackingRequest& request) {
     if (!request.count) {
         const double shorter = std::min(*request.width, *request.height);
         if (shorter < 4.0 * size.largest) {
-            throw PackingError(PackingInput::box, "width",
-                               fmt::format(", height: found {} x {} m, expected at least two of the largest circles "
-                                           "(radius {:.3g} m) in each direction; make the box larger or the circles "
-                                           "smaller",
-                                           *request.width, *request.height, size.largest));
+            throw PackingError(
+                PackingInput::box, "width",
+                fmt::format(", height: found {} x {} m, expected room for at least two of the largest circles (radius "
+                            "{:.3g} m) in each direction; make the box larger or the circles smaller",
+                            *request.width, *request.height, size.largest));
         }
     }
 }
@@ -106,9 +107,9 @@ std::size_t count_for_box(const PackingRequest& request, double mean_square, dou
     if (count < static_cast<double>(min_packing_circles) || count > static_cast<double>(max_packing_circles)) {
         throw PackingError(
             PackingInput::box, "width",
-            fmt::format(", height: found {} x {} m, which needs about {:.0f} circles of these sizes, "
-                        "expected {} to {}",
-                        *request.width, *request.height, count, min_packing_circles, max_packing_circles));
+            fmt::format(
+                ", height: found {} x {} m, which needs about {:.0f} circles of these sizes, expected {} to {} circles",
+                *request.width, *request.height, count, min_packing_circles, max_packing_circles));
     }
     return static_cast<std::size_t>(count);
 }

@@ -73,10 +73,10 @@ struct PackingReport {
     double anisotropy = 0.0;                ///< |σx - σy| / (σx + σy)
     double mean_contact_force = 0.0;        ///< mean over all contacts, N
     double residual = 0.0;                  ///< largest unbalanced force on a circle divided by the mean contact force
-    double aspect_error = 0.0;              ///< height/width/requested aspect - 1
+    double aspect_error = 0.0;              ///< (height/width)/(requested height/width) - 1
     int attempts = 1;                       ///< number of packings drawn
     bool isotropic = true;                  ///< whether anisotropy is within max_anisotropy
-    bool box_met = true;                    ///< whether aspect and radius scaling are within their limits
+    bool box_met = true;                    ///< whether aspect_error and the radius scaling are within their limits
 };
 
 /// A packing of circles.

@@ -96,8 +96,8 @@ std::vector<std::string> packing_notices(const PackingReport& r) {
     std::vector<std::string> notices;
     if (!r.isotropic) {
         notices.push_back(
-            fmt::format("the stresses of the packing differ: |sx - sy|/(sx + sy) = {:.2g}, above {}; use more circles, "
-                        "or a box that is more than a few circles wide",
+            fmt::format("the horizontal and vertical stresses in the packing differ: |sx - sy|/(sx + sy) is {:.2g}, "
+                        "which is above {}; use more circles, or a box that is more than a few circles wide",
                         r.anisotropy, max_anisotropy));
     }
     if (std::abs(r.aspect_error) > max_aspect_error) {

@@ -103,7 +103,8 @@ constexpr double least_sieve = 1e-30, largest_sieve = 1e30, least_growth = 1e-9;
 void validate_sieve(const SieveCurve& curve) {
     if (curve.points.size() < 2)
         throw InputError(
-            "sieve curve: found fewer than two points, expected at least the sizes with fractions 0 and 1");
+            "sieve curve: found fewer than two points, expected at least the sizes at which the passing fraction is 0 "
+            "and 1");
     for (std::size_t k = 0; k < curve.points.size(); ++k) {
         const SievePoint& point = curve.points[k];
         const std::string where = fmt::format("sieve curve: point {}", k + 1);
@@ -122,11 +123,11 @@ void validate_sieve(const SieveCurve& curve) {
     }
     if (curve.points.front().passing_by_mass != 0.0) {
         refuse("sieve curve: first passing_by_mass", curve.points.front().passing_by_mass,
-               "0: the curve begins at the size below which there are no circles");
+               "0, because the curve begins at the size below which there are no circles");
     }
     if (curve.points.back().passing_by_mass != 1.0) {
         refuse("sieve curve: last passing_by_mass", curve.points.back().passing_by_mass,
-               "1: the curve ends at a sieve size that all circles pass");
+               "1, because the curve ends at a sieve size that all circles pass");
     }
 }
 
@@ -147,7 +148,7 @@ void validate(const SizeDistribution& sizes) {
                            refuse(PackingInput::radius_median, "lognormal median radius", lognormal.median,
                                   "a length > 0 in m");
                        if (!positive(lognormal.log_deviation) || lognormal.log_deviation > 2.0) {
-                           refuse(PackingInput::radius_log_deviation, "lognormal deviation of ln(radius)",
+                           refuse(PackingInput::radius_log_deviation, "lognormal standard deviation of ln(radius)",
                                   lognormal.log_deviation,
                                   "a number > 0 and at most 2 (radii from a 2000th to 2000 times the median)");
                        }
@@ -161,9 +162,10 @@ void validate(const SizeDistribution& sizes) {
                        if (cut.below_max - cut.below_min < 1e-3) {
                            throw PackingError(
                                PackingInput::radius_min, "radius_min",
-                               fmt::format(" to radius_max: fraction of the lognormal distribution: found {}, expected "
-                                           "at least 0.001; choose cut-offs that contain more of the distribution",
-                                           cut.below_max - cut.below_min));
+                               fmt::format(
+                                   " to radius_max: found a fraction {} of the lognormal distribution in this range, "
+                                   "expected at least 0.001; choose cut-offs that contain more of the distribution",
+                                   cut.below_max - cut.below_min));
                        }
                    },
                    [](const SieveCurve& curve) { validate_sieve(curve); }},

@@ -173,10 +173,10 @@ class DeckMotion {
         }
         if (ids != ids_) {
             const DeckFrameFile::Head& head = frames_.heads()[output];
-            throw InputError(fmt::format(
-                "output.dat:{}: found other bodies in the frame of step {} than in the first frame; the output of "
-                "different runs cannot be shown as one",
-                head.line, head.step));
+            throw InputError(
+                fmt::format("output.dat:{}: found bodies in the frame of step {} that differ from those in the first "
+                            "frame; outputs of different runs cannot be shown as one run",
+                            head.line, head.step));
         }
         return all;
     }

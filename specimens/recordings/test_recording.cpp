@@ -123,12 +123,13 @@ class TestFrames {
     }
     std::int32_t cell_of(const fs::path& file, double id, Vec2 place) const {
         const std::int32_t cell = finder_->find(body_number(file, id), place);
-        if (cell < 0) refuse_frame(file, fmt::format("found a contact of body {}, which is not drawn", id));
+        if (cell < 0)
+            refuse_frame(file, fmt::format("found a contact of body {}, which is not in the first frame", id));
         return cell;
     }
     Vec2 place_at(const fs::path& file, const PolyData& data, std::size_t line, double i, double j) const {
         if (data.cells[line].points.size() < 2)
-            refuse_frame(file, fmt::format("contact {}: found fewer than two points", line));
+            refuse_frame(file, fmt::format("contact {}: found fewer than two points, expected at least two", line));
         const bool circles_i = finder_->is_circle(body_number(file, i)),
                    circles_j = finder_->is_circle(body_number(file, j));
         return place_of(data, data.cells[line], circles_i, circles_j);
@@ -169,8 +170,9 @@ class TestFrames {
         const auto& normal = cell_values(file, data, "normal_force");
         const auto& shear = cell_values(file, data, "shear_force");
         if (data.cells.size() < bonds_)
-            refuse_frame(file, fmt::format("found {} contacts, expected the {} bonds of the first frame",
-                                           data.cells.size(), bonds_));
+            refuse_frame(file,
+                         fmt::format("found {} contacts, expected at least {}, the number of bonds in the first frame",
+                                     data.cells.size(), bonds_));
         const auto bonds = static_cast<std::ptrdiff_t>(bonds_);
         frame.normal_force.assign(normal.begin(), normal.begin() + bonds);
         frame.shear_force.assign(shear.begin(), shear.begin() + bonds);

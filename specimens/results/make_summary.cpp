@@ -40,8 +40,9 @@ Description describe(const ResolvedCase& test, const TestedSpecimen& specimen, c
                   running ? std::nullopt : std::optional(state.ended_by)};
     if (!failed)
         d.note = fmt::format(
-            "the specimen has not failed (ended by {}); the peak and the moduli refer to the largest stress reached",
-            running ? "nothing yet" : state.ended_by);
+            "the specimen has not failed (reason for the end of the test: {}); the peak and the moduli refer to the "
+            "largest stress reached",
+            running ? "not ended yet" : state.ended_by);
     return d;
 }
 

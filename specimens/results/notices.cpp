@@ -34,12 +34,12 @@ void note_curve(Notices& notices, const parts::Loading& loading, const char* str
             f.peak_row, loading.max_axial_strain, 10.0 * f.peak_strain));
     }
     if (f.failed && f.larger_after_peak()) {
-        notices.push_back(
-            fmt::format("the largest stress, {:.4g} {} at a strain of {:.4g}, occurs after the peak of {:.4g} {} at a "
-                        "strain of {:.4g}. Between them the stress stayed below the peak by more than the fraction "
-                        "loading.strength_drop = {}. The broken specimen carries load again; its strength is the peak",
-                        f.largest_stress, stress_unit, f.strain_at_largest, f.peak_stress, stress_unit, f.peak_strain,
-                        loading.strength_drop));
+        notices.push_back(fmt::format(
+            "the largest stress, {:.4g} {} at a strain of {:.4g}, occurs after the peak of {:.4g} {} at a strain of "
+            "{:.4g}. Between them, the stress fell and stayed below the peak by more than the fraction "
+            "loading.strength_drop = {}. The broken specimen carries load again; its strength is the peak",
+            f.largest_stress, stress_unit, f.strain_at_largest, f.peak_stress, stress_unit, f.peak_strain,
+            loading.strength_drop));
     }
     if (const double most = loading.max_axial_strain;
         state.ended_by == ended_by_strain && setup.apparatus.axial_strain(world) > (1.0 + excess_to_mention) * most) {
@@ -55,8 +55,8 @@ void note_curve(Notices& notices, const parts::Loading& loading, const char* str
 void note_numerics(Notices& notices, const TestSetup& setup, const TestState& state, const World& world) {
     if (world.stepping.time_step > setup.stable_time_step) {
         notices.push_back(
-            fmt::format("the time step of {:.3g} s exceeds the stable limit of {:.3g} s; this run can only demonstrate "
-                        "the limit, and its values are not valid results",
+            fmt::format("the time step of {:.3g} s exceeds the stability limit of {:.3g} s; this run can only "
+                        "demonstrate the limit, and its values are not valid results",
                         world.stepping.time_step, setup.stable_time_step));
     }
     const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
@@ -144,8 +144,8 @@ std::string notice_of_companions(const FailureTracker& failure, const NumericalE
                            100.0 * e.rate.or_nan());
     };
     return fmt::format(
-        "a run with another time step or rate fails in another way (on another branch): the peak stress changes by {}, "
-        "the peak strain by {}; report the peak with its stated error, or the mean of several packings",
+        "a run with another time step or rate fails in a different way (on another branch): the peak stress changes by "
+        "{}, the peak strain by {}; report the peak with its stated error, or the mean of several packings",
         changes(*errors.figures.peak_stress), changes(*errors.figures.peak_strain));
 }
 

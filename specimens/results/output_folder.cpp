@@ -236,8 +236,8 @@ OutputFolder OutputFolder::create(const fs::path& wanted, Earlier earlier, std::
                                                       target.string()));
         if (earlier == Earlier::replaced && is_there(working / "checkpoint")) {
             throw InputError(
-                fmt::format("{0}: found a test that is not finished, expected none beside {1}; go on with "
-                            "`crackle test --resume {0}`, or remove {0} to begin again",
+                fmt::format("{0}: found an unfinished test that was to replace {1}, expected no such test; resume it "
+                            "with `crackle test --resume {0}`, or remove {0} to start again",
                             working.string(), target.string()));
         }
     }

@@ -27,7 +27,8 @@ struct SetupPart {
 /// stress and strain.
 struct PlacedApparatus {
     LoadingKind kind = LoadingKind::compression;
-    bool uniaxial = true;                ///< whether stress and strain are those of the rock, as in TestKind
+    /// Whether stress and strain are those of the rock, as in TestKind; false for tests such as the Brazilian one.
+    bool uniaxial = true;
     bool compression = true;             ///< whether the driving part moves in the negative direction of its axis
     int axis = 1;                        ///< axis along which the driving part moves: 0 x, 1 y
     double section = 0.0, length = 0.0;  // divisors for nominal stress and strain, m, as in Apparatus

@@ -69,16 +69,16 @@ void check_part_hold(const World& world, const TestSetup& setup, const Places& p
         const std::string found =
             hold.bonds == 0 ? "found no particle that reaches"
                             : fmt::format("found {} bonded points over {:.3g} m of", hold.bonds, hold.length());
-        throw InputError(fmt::format(
-            "{}: {} the {}, {:.3g} m wide, expected bonds over half of that; make it wider, or the particles smaller, "
-            "or {}",
-            places.at(CaseKey::loading_kind), found, part.body == setup.apparatus.top ? kind.driver : kind.support,
-            width,
-            setup.bonds.facts().by_faces ? "hold the specimen by loading.platens = \"frictional\""
-            : setup.bonds.facts().bonds_across_gaps
-                ? "let the bonds bridge a larger gap (bond.range, bond.gap)"
-                : fmt::format("use bond.law = {}, whose bonds can bridge gaps (bond.range, bond.gap)",
-                              laws_with(&BondLawFacts::bonds_across_gaps))));
+        throw InputError(
+            fmt::format("{}: {} the {}, {:.3g} m wide, expected bonds over half of this width; make this part wider or "
+                        "the particles smaller, or {}",
+                        places.at(CaseKey::loading_kind), found,
+                        part.body == setup.apparatus.top ? kind.driver : kind.support, width,
+                        setup.bonds.facts().by_faces ? "hold the specimen with loading.platens = \"frictional\""
+                        : setup.bonds.facts().bonds_across_gaps
+                            ? "let the bonds bridge a larger gap (bond.range, bond.gap)"
+                            : fmt::format("use bond.law = {}, whose bonds can bridge gaps (bond.range, bond.gap)",
+                                          laws_with(&BondLawFacts::bonds_across_gaps))));
     }
 }
 

@@ -64,7 +64,8 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     const bool has_sides = uniaxial || !specimen.left_ids.empty() || !specimen.right_ids.empty();
     if (has_sides && (setup.gauges.left.empty() || setup.gauges.right.empty()))
         setup.origin.notices.push_back(
-            "no particles at both side faces in the middle half of the height: no lateral strain");
+            "the lateral strain is not measured, because one or both side faces have no particles in the middle half "
+            "of the height");
     if (uniaxial) find_axial_gauge(setup, world, grip > 0.0 ? grip : outer_share);
     return setup;
 }

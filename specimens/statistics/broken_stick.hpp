@@ -38,9 +38,9 @@ struct BurstBreak {
 inline constexpr std::size_t fewest_bursts = 10;
 
 /// Finds the value between 0 and `end` at which the slope of the cumulative count changes. The count is evaluated at
-/// 200 equally spaced values. The 95 % interval consists of percentiles of 1,000 bootstrap fits, each to a sample of
-/// the bursts, of the same number and drawn with replacement. The same bursts give the same interval. The result is NaN
-/// if there are too few bursts.
+/// 200 equally spaced values. The ends of the 95 % interval are percentiles of 1,000 bootstrap fits. Each of these is
+/// fitted to a sample of as many bursts, drawn with replacement. The same bursts always give the same interval. The
+/// result is NaN if there are too few bursts.
 /// @param bursts  bursts in any range; those beyond `end` are ignored
 BurstBreak find_burst_break(std::span<const Burst> bursts, double end);
 

@@ -31,7 +31,7 @@ struct MeanFigure {
 MeanFigure mean_of(std::span<const double> values);
 
 /// Half-width of the 95 % interval of the difference between two means of independent values, from Student's t with
-/// Welch's degrees of freedom (Biometrika 34, 1947). NaN if either mean is that of fewer than two values.
+/// Welch's degrees of freedom (Biometrika 34, 1947). NaN if either mean is taken over fewer than 2 values.
 double difference_half_width(const MeanFigure& a, const MeanFigure& b);
 
 /// Errors of a mean due to the time step and the loading rate, in the unit of the mean; positive if the mean is too

@@ -62,7 +62,7 @@ CRACKLE_FIGURES(
      "D50: half of the particles' area belongs to fragments with an equivalent diameter sqrt(4 area/pi) of at most "
      "this size"),
     (Stated<FragmentLaw>, fragment_rosin_rammler, "",
-     "Rosin-Rammler distribution, in which fragments larger than x have the fraction exp(-(x/size)^exponent) of the "
+     "Rosin-Rammler distribution, in which fragments larger than x make up the fraction exp(-(x/size)^exponent) of the "
      "area. It is fitted by maximum likelihood to the fragments with at least twice the mean particle area"),
     (Word, failed_at, "",
      "location of the largest crack: `platen` if at least half of its bonds joined particles to a platen, `grip` if it "
@@ -107,7 +107,7 @@ CRACKLE_FIGURES(JointMotion,
                  "mean slip along the faces since loading began, weighted by face length; positive if an observer "
                  "looking across the face sees the far side move to the left"),
                 (Number, largest_opening, "m", "largest opening of any single face"),
-                (Number, largest_slip, "m", "signed slip of the face with the largest slip in magnitude"));
+                (Number, largest_slip, "m", "signed slip of the face whose slip is largest in magnitude"));
 
 /// State of a single trace, or of all traces of one [[joint_set]] or [[trace]].
 CRACKLE_FIGURES(JointFigures, (Word, source, "", "name of the joint set or trace"),
@@ -137,29 +137,30 @@ CRACKLE_FIGURES(
      "list with one entry for each [[joint_set]] and [[trace]]: the combined state of its traces"),
     (Aside<std::vector<JointFigures>>, traces, unlisted,
      "list with one entry for each trace, in the order of the trace indices (from 0), with the same keys as in "
-     "joints"));
+     "`joints`"));
 
 /// Acoustic events.
 CRACKLE_FIGURES(
     EmissionFigures, (Count, events, "", "number of acoustic events, equal to the number of rows of ae.csv"),
     (Number, opening, "-",
-     "fraction of events whose source opened (R of ae.csv above 30), among the events that have a moment"),
+     "fraction of events with an opening source (R of ae.csv above 30) among those that have a moment"),
     (Number, shear, "-",
-     "fraction of events whose source slid (R of ae.csv from -30 to 30), among the events that have a moment"),
+     "fraction of events with a shear source (R of ae.csv from -30 to 30) among those that have a moment"),
     (Number, closing, "-",
-     "fraction of events whose source closed (R of ae.csv below -30), among the events that have a moment"),
+     "fraction of events with a closing (implosive) source (R of ae.csv below -30) among those that have a moment"),
     (Count, without_moment, "",
      "number of events that have no moment or magnitude because no force around the source changed"),
     (Number, largest_magnitude, "-", "largest moment magnitude Mw of all events"),
     (Number, radius, "m", "radius of the source region of a single break, equal to the mean particle diameter"),
     (Number, window, "s",
-     "time after a single break within which another break may join its event: `radius` divided by half the shear wave "
-     "speed"),
+     "time after a single break within which another break may join the same event: `radius` divided by half the shear "
+     "wave speed"),
     (Number, shear_wave_speed, "m/s",
      "shear wave speed sqrt(G/density), with G = E/(2 (1 + nu)) from youngs_modulus and poissons_ratio, or with G from "
      "a mean-field estimate if these are unknown"),
     (Word, speed_from, "",
-     "origin of the shear modulus: `moduli` for youngs_modulus and poissons_ratio, `mean field` if these are unknown",
+     "how the shear modulus is obtained: `moduli` if it follows from youngs_modulus and poissons_ratio, `mean field` "
+     "if these are unknown",
      "the mean-field estimate assumes that all bonds deform in one uniform pure shear, and omits bonds to platens; it "
      "is an upper bound on G of the specimen without these bonds"),
     (Number, density, "kg/m2", "mass per area of the specimen, including its pores"),

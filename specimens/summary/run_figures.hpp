@@ -19,7 +19,8 @@ CRACKLE_FIGURES(
     (Count, seeds, "", "number of circles from which the polygons were meshed",
      "only if the polygons were meshed for the test"),
     (Count, segments, "", "total number of polygon edges", "only for specimens of polygons"),
-    (Number, bond_thick, "m", "segment thickness at which bonds were made (`bond.thick`)"),
+    (Number, bond_thick, "m",
+     "thickness of the polygons' edges (segments) when bonds were made, equal to `bond.thick`"),
     (Count, contacts_initial, "", "number of contact points that touched when loading began"),
     (Count, bonds_initial, "", "number of bonded contact points when loading began"),
     (Count, interfaces_initial, "", "number of bonded pairs of bodies when loading began"),
@@ -29,7 +30,7 @@ CRACKLE_FIGURES(
     (Number, mean_bond_overlap, "m", "initial overlap of a bonded contact point, averaged over all of them"),
     (Number, mean_tensile_strength, "N",
      "tensile strength averaged over the bonded contact points that can break, including random factors",
-     "only for coulomb bonds, as is mean_cohesion"),
+     "only for coulomb bonds; this also applies to mean_cohesion"),
     (Number, mean_cohesion, "N",
      "cohesion averaged over the bonded contact points that can break, including random factors"),
     (Count, bonds_unbreakable, "",
@@ -44,14 +45,16 @@ CRACKLE_FIGURES(
     (Number, rate_tolerance, "-",
      "tolerance of the inertia error, which is the out-of-balance of the platens or the ratio of kinetic to strain "
      "energy. The largest loading rate is derived from the tolerance, and loading slows down when the error exceeds it",
-     "only if the loading rate is controlled by a tolerance, as are all keys up to `wave_transit_time`"),
-    (NumberBySense, axial_strain_rate, "1/s", "mean axial strain rate of the test: travelled strain divided by time",
+     "only if the loading rate is controlled by a tolerance; this also applies to the following keys up to "
+     "`wave_transit_time`"),
+    (NumberBySense, axial_strain_rate, "1/s",
+     "mean axial strain rate of the test: cumulative axial strain (loading and unloading together) divided by time",
      "if the loading rate is controlled by a tolerance",
      {{"axial strain rate given in the case; the mean rate if a callback took control of the platen speed",
        "if the case gives the loading rate"}}),
     (List<double>, axial_strain_rate_range, "1/s", "smallest and largest axial strain rate during the test"),
     (Number, strain_share_above_tolerance, "-",
-     "fraction of the travelled strain during which the inertia error exceeded rate_tolerance",
+     "fraction of the cumulative axial strain over which the inertia error exceeded rate_tolerance",
      "if a callback took control of the platen speed, only the strain before that moment counts"),
     (Number, wave_transit_time, "s", "time that a wave takes to cross the specimen: height/sqrt(E/density)"),
     (Number, viscous_stress_share, "-",
@@ -71,15 +74,15 @@ CRACKLE_FIGURES(
      "time step at the end of the test; shorter than the initial one if new contacts required it"),
     (Number, time_step_mean, "s", "mean time step of the test"),
     (NumberBySense, stable_time_step, "s",
-     "exact limit of stable time steps when the bonds were made. Below it, 4M - 2dt C - dt^2 K is positive definite, "
-     "as a Cholesky factorisation shows; M, C and K are the mass, damping and stiffness matrices",
+     "exact stability limit of the time step when the bonds were made. Below it, 4M - 2dt C - dt^2 K is positive "
+     "definite, as a Cholesky factorisation shows; M, C and K are the mass, damping and stiffness matrices",
      "",
-     {{"bound on stable time steps when the bonds were made. It is exact for the symmetric matrix that bounds the "
+     {{"bound on the stable time step when the bonds were made. It is exact for the symmetric matrix that bounds the "
        "contact law's unsymmetric stiffness",
        "if `numerics.contact_law` is `demseg` or `demseg_mean`"},
-      {"lower bound on the exact limit of stable time steps when the bonds were made. It is within 2 % of that limit; "
-       "the matrix is too large to factorise",
-       "with more than 100,000 free bodies"}}),
+      {"lower bound on the exact stability limit of the time step when the bonds were made. It is within 2 % of that "
+       "limit; the matrix is too large to factorise",
+       "for specimens with more than 100,000 free bodies"}}),
     (Number, time_step_over_stable, "-",
      "time_step divided by stable_time_step. Unless numerics.time_step is given, it is at most "
      "numerics.safety_factor, and smaller if time_step_bound requires a shorter step"),
@@ -150,7 +153,7 @@ CRACKLE_FIGURES(PackingFigures,
                  "number of circles"),
                 (Number, cell_diameter, "m",
                  "equivalent diameter sqrt(4 area/pi) of the meshed cells, including gaps, averaged over the cells",
-                 "only for specimens meshed for the test, as is cell_spread"),
+                 "only for specimens meshed for the test; this also applies to cell_spread"),
                 (Number, cell_spread, "-", "coefficient of variation of the cells' equivalent diameters"));
 
 /// Area fraction and number of grains of one mineral.
@@ -176,16 +179,16 @@ CRACKLE_FIGURES(PhaseFigures, (Word, phase, "", "name of the phase"),
                 (Word, meaning, "", "description of the phase"));
 
 /// Time of the stepping loop, by phase.
-CRACKLE_FIGURES(
-    ProfileFigures,
-    (Number, step_seconds, "s",
-     "wall-clock time of the stepping loop, without the time that the profile spends on its timing samples"),
-    (Count, steps, "", "number of time steps"),
-    (Count, force_passes, "", "number of times the forces at all contact points were computed"),
-    (Number, points_per_particle, "-", "number of listed contact points per particle, averaged over the steps"),
-    (Number, force_ns_per_point, "ns",
-     "wall-clock time of a computation of all forces, divided by the number of listed contact points"),
-    (List<PhaseFigures>, phases));
+CRACKLE_FIGURES(ProfileFigures,
+                (Number, step_seconds, "s",
+                 "wall-clock time of the stepping loop, without the time spent on the timing samples of the profile"),
+                (Count, steps, "", "number of time steps"),
+                (Count, force_passes, "", "number of times the forces at all contact points were computed"),
+                (Number, points_per_particle, "-",
+                 "number of listed contact points per particle, averaged over the steps"),
+                (Number, force_ns_per_point, "ns",
+                 "wall-clock time of a computation of all forces, divided by the number of listed contact points"),
+                (List<PhaseFigures>, phases));
 
 /// The program and its speed.
 CRACKLE_FIGURES(

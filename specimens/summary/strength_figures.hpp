@@ -24,9 +24,9 @@ CRACKLE_FIGURES(
      "what the material's stiffness and strengths refer to: `point` (a contact point) or `area` (the area "
      "of a face); with `area`, stresses are already in Pa"),
     (Flag, failed, unlisted,
-     "whether the specimen has failed, so that its peak is final: after the peak, the stress stayed lower "
-     "than the peak by more than the fraction `loading.strength_drop`. It did so over a tenth of the "
-     "strain at the peak and over at least ten rows (of at least 2000), or the test ended by failure"),
+     "whether the specimen has failed, so that its peak is final: after the peak, the stress stayed lower than the "
+     "peak by more than the fraction `loading.strength_drop`. The drop lasted for a tenth of the strain at the peak "
+     "and for at least ten rows (of at least 2000), or the test ended by failure"),
     (Flag, interrupted, unlisted, "whether the test was interrupted before its end and can be resumed"),
     (Word, ended_by, unlisted,
      "reason why the test ended: `failure`, `max_axial_strain`, `caller` (a callback in Python), `interrupt` or "
@@ -57,7 +57,7 @@ CRACKLE_FIGURES(
      "axial strain at the largest axial stress, positive in the direction of loading; replaces `peak_strain` if the "
      "specimen has not failed"),
     (Stress, largest_stress, "N/m", "largest axial stress of the whole test, positive in the direction of loading",
-     "a notice reports if this stress occurs after the peak"),
+     "a notice is given if this stress occurs after the peak"),
     (Number, strain_at_largest_stress, "-",
      "axial strain at the largest axial stress of the whole test, positive in the direction of loading"),
     (Stress, youngs_modulus, "N/m",
@@ -102,7 +102,7 @@ CRACKLE_FIGURES(
 CRACKLE_FIGURES(
     NominalFigures,
     (Number, stress_section, "m", "length by which the force on the driving part is divided to obtain the axial stress",
-     "only for kinds of test without platens, as are all keys up to `dilation_end`"),
+     "only for kinds of test without platens; this also applies to the following keys up to `dilation_end`"),
     (Number, strain_length, "m",
      "length by which the displacement of the driving part is divided to obtain the axial strain"),
     (Number, peak_force, "N", "force on the driving part at the peak, for a thickness of 1 m"),
@@ -113,7 +113,7 @@ CRACKLE_FIGURES(
      "solution (sparse solve)"),
     (Number, span, "m", "distance between the supports"),
     (Number, notch, "m", "length of the notch",
-     "only for notched specimens, as are all keys up to `fracture_toughness`"),
+     "only for notched specimens; this also applies to the following keys up to `fracture_toughness`"),
     (Number, notch_over_particle, "-", "length of the notch divided by the square root of the mean particle area"),
     (Number, fracture_toughness, "N/m sqrt(m)",
      "stress intensity factor K_I at the peak, by the linear elastic formula for this shape of specimen"),
@@ -121,9 +121,9 @@ CRACKLE_FIGURES(
      "stress intensity factor K_I at the largest stress; replaces `fracture_toughness` if the specimen has not failed"),
     (Stress, normal_stress, "N/m",
      "normal stress on the upper half of the shear box when shearing began, positive in compression",
-     "only for direct shear tests, as are all keys up to `dilation_end`"),
+     "only for direct shear tests; this also applies to the following keys up to `dilation_end`"),
     (Stress, normal_stress_at_peak, "N/m",
-     "normal stress on the upper half of the shear box at the peak, including the increase due to the rise of this "
+     "normal stress on the upper half of the shear box at the peak, including the increase caused by the rise of this "
      "half",
      "only for tests with `loading.normal_stiffness`"),
     (Stress, normal_stress_at_peak_so_far, "N/m",
@@ -154,8 +154,8 @@ CRACKLE_FIGURES(MembraneFigures,
                 (Count, points, "",
                  "number of points of the membrane at the end of the test, including those on platens"),
                 (Count, wrapped, "",
-                 "number of times the membrane was wrapped around the specimen: when a piece became too long, and when "
-                 "the neighbour list was rebuilt"),
+                 "number of times the membrane was wrapped around the specimen, which happens when a piece becomes too "
+                 "long and when the neighbour list is rebuilt"),
                 (Number, area_jumps, "m2",
                  "sum of the changes of the enclosed area caused by wrapping the membrane; these changes do no work"),
                 (Count, open, "",
@@ -168,13 +168,13 @@ CRACKLE_FIGURES(MembraneFigures,
 CRACKLE_FIGURES(
     ConfinementFigures,
     (Stress, confining_pressure, "N/m", "pressure on the sides of the specimen",
-     "only for biaxial tests, as are all keys up to `membrane`"),
+     "only for biaxial tests; this also applies to the following keys up to `membrane`"),
     (Stress, deviator_stress, "N/m", "deviator stress at the peak: peak_stress minus confining_pressure"),
     (Stress, deviator_stress_so_far, "N/m",
      "largest axial stress minus confining_pressure; replaces `deviator_stress` if the specimen has not failed"),
     (Stated<ConfiningSide>, confining_side, "",
-     "what presses on the sides: `membrane`, or `walls` (rigid plates, each pressed with a force equal to the pressure "
-     "times the initial height)"),
+     "how the pressure is applied to the sides: by a `membrane`, or by `walls` (rigid plates, each pressed with a "
+     "force equal to the pressure times the initial height)"),
     (Stated<MembraneFigures>, membrane, "",
      "membrane around the specimen: chains of points on its particles, with pressure on the straight pieces between "
      "them"));
@@ -183,8 +183,8 @@ CRACKLE_FIGURES(
 CRACKLE_FIGURES(
     OtherInitiation,
     (Number, lateral_compliance, "N/m",
-     "axial stress beyond which the lateral strain grows at more than 1.2 times its elastic rate nu/E. It is the "
-     "stress, up to the largest area strain, at which the lateral strain is farthest below a line of that slope"),
+     "axial stress beyond which the lateral strain grows at more than 1.2 times its elastic rate nu/E. Up to the "
+     "largest area strain, it is the stress at which the lateral strain is farthest below a line of that slope"),
     (Number, first_percent, "N/m",
      "axial stress at which the number of broken bonds reaches 1 % of its value at the peak"),
     (Number, count_break, "N/m",
@@ -209,7 +209,7 @@ CRACKLE_FIGURES(
     (Stress, crack_initiation_stress, "N/m",
      "crack initiation stress: axial stress beyond which the lateral strain exceeds the elastic one, nu stress/E. The "
      "excess is fitted by a parabola that begins at this stress, up to the largest area strain",
-     "only for compression tests, as are all keys of `crack_initiation` and `crack_damage`. Null if the "
+     "only for compression tests; this also applies to all keys of `crack_initiation` and `crack_damage`. Null if the "
      "specimen has no side particles, or if its area strain is largest among the first ten rows"),
     (Number, crack_initiation_error, "N/m",
      "error of crack_initiation_stress: its distance from crack_initiation.lateral_compliance"),

@@ -52,8 +52,8 @@ CRACKLE_FIGURES(
      "It is null if these runs are missing or the specimen did not fail",
      "if the peaks are on the same branch, the peak stress changes by at most 3 % and the peak strain by at most 10 %"),
     (Stated<PackingFigures>, packing, "",
-     "state of the packing before bonding. Its stresses assume that every contact has the stiffness of [material], or "
-     "its contact_modulus in area units",
+     "state of the packing before bonding. The stresses of the packing assume that every contact has the normal "
+     "stiffness of [material], or its contact_modulus if units = \"area\"",
      "only for packings made for the test"),
     (Aside<std::vector<MineralFigures>>, minerals, "",
      "area fraction and number of grains of each mineral, in case order", "only for rocks of several minerals"),
@@ -67,6 +67,6 @@ CRACKLE_FIGURES(
     (Aside<Table<std::string>>, units, unlisted, "unit and meaning of each key above"),
     (Aside<Table<FileFigures>>, files, unlisted,
      "length and hash of each of `curve.csv`, `events.csv`, `slips.csv` and `ae.csv` that exists, and of `checkpoint`, "
-     "as the test left them"));
+     "as they were when the test ended"));
 
 }  // namespace crackle

@@ -131,7 +131,7 @@ Summary read_summary(const std::string& file, std::string_view text) {
     try {
         json = Json::parse(without_byte_order_mark(text), bound_depth);
     } catch (const nlohmann::json::parse_error& error) {
-        refuse(fmt::format("broken JSON at byte {}", error.byte));
+        refuse(fmt::format("malformed JSON at byte {}", error.byte));
     } catch (const nlohmann::json::out_of_range&) {
         refuse("a number beyond 1.8e308");
     }

@@ -121,7 +121,7 @@ class Comparison(unittest.TestCase):
         keys = summary("delaunay", "tension")
         for text, expected in [
                 (None, "file not found"),
-                ("{", "broken JSON"),
+                ("{", "malformed JSON"),
                 ("[]", "failed: found no object, expected true or false"),
                 (json.dumps({**keys, "failed": "yes"}), "failed: found yes, expected true or false"),
                 (json.dumps({**keys, "initial_tangent_modulus": None}), "initial_tangent_modulus: found null, expected a number"),

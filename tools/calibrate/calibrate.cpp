@@ -74,7 +74,7 @@ CommandLine describe_calibrate() {
         ("workers", po::value<int>()->value_name("N"),
          "number of processes that run tests (default: one per available processor)")                               //
         ("retry", "repeat tests that ended without a result because of their case (refused, unstable, timed out)")  //
-        ("dry-run", "check the file and all corners of its bounds; run nothing, write nothing")                     //
+        ("dry-run", "check the rock file, with all combinations of its bounds; run and write nothing")              //
         ("long", "run the tests even if they take more than a day, or 1e10 steps")                                  //
         ("keys", "list all keys of a rock file");
     return {
@@ -85,9 +85,9 @@ CommandLine describe_calibrate() {
             "strengths by fitting a response surface to tests on the same packings. Writes the cases "
             "(DIR/cases/TEST.toml), the keys with their intervals (DIR/rock.toml), and a table of the results on fresh "
             "packings. Reports which targets cannot be reached, with the best compromises, and which keys the targets "
-            "do not determine. A calibration can be stopped at any moment; the same command resumes it. Exit code 1: a "
-            "target was not reached. Exit code 4: a test ended with a system error (out of memory, too many open "
-            "files, a killed worker), so the calibration stopped; the same command resumes it.",
+            "do not determine. A calibration can be stopped at any moment; run the same command again to resume it. "
+            "Exit code 1: a target was not reached. Exit code 4: a test ended with a system error (out of memory, too "
+            "many open files, a killed worker), so the calibration stopped; run the same command again to resume it.",
         .options = {{"options", options}},
         .operand = "ROCK.toml",
         .examples = {{"crackle calibrate specimens/targets/granite.toml --dry-run"},
@@ -107,7 +107,7 @@ int calibrate_rock(const Invocation& given) {
         throw InputError("crackle calibrate: found no ROCK.toml, expected one (see crackle calibrate --help)");
     const bool dry = values.contains("dry-run");
     if (!dry && !values.contains("output"))
-        throw InputError("crackle calibrate: found no -o, expected -o DIR, a folder for the calibration");
+        throw InputError("crackle calibrate: found no -o, expected -o DIR, the folder for the calibration");
     const auto asked = values.contains("workers") ? std::optional(values["workers"].as<int>()) : std::nullopt;
     const int workers = workers_of_machine(asked, "crackle calibrate");
     const Rock rock = read_rock(given_or_shipped(given.operands.front()));

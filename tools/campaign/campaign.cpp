@@ -119,18 +119,19 @@ CommandLine describe_campaign() {
          "standard error")                                                                                          //
         ("retry", "repeat tests that ended without a result because of their case (refused, unstable, timed out)")  //
         ("shard", po::value<std::string>()->value_name("I/N"),
-         "run share I of N, with results in DIR/shards/I.sqlite; `crackle campaign gather` merges shares")  //
-        ("dry-run", "check the plan and estimate its hours; run nothing, write nothing")                    //
-        ("long", "run the tests even if they take more than a day, or 1e10 steps")                          //
+         "run only share I of N of the tests, and write the results to DIR/shards/I.sqlite; `crackle campaign gather` "
+         "merges the shares")                                                           //
+        ("dry-run", "check the plan and estimate its run time; run and write nothing")  //
+        ("long", "run the tests even if they take more than a day, or 1e10 steps")      //
         ("keys", "list all keys of a plan");
     return {.synopses = {"crackle campaign PLAN.toml -o DIR [OPTIONS]", "crackle campaign show|gather|submit ..."},
             .description =
                 "Runs a table of tests: the cases that PLAN.toml names, at all combinations of its axes, on several "
                 "packings each. All results are written to one SQLite file, DIR/campaign.sqlite. A campaign can be "
-                "stopped at any moment; the same command resumes it. If values or packings are added to the plan, "
-                "finished tests are reused. Exit code 1: some tests ended without a result because of their case. Exit "
-                "code 4: some tests ended with a system error (out of memory, too many open files, a killed worker); "
-                "the same command repeats them.",
+                "stopped at any moment; run the same command again to resume it. If values or packings are added to "
+                "the plan, finished tests are reused. Exit code 1: some tests ended without a result because of their "
+                "case. Exit code 4: some tests ended with a system error (out of memory, too many open files, a killed "
+                "worker); run the same command again to repeat them.",
             .options = {{"options", options}},
             .operand = "PLAN.toml",
             .verbose = "estimated duration of each kind of test",
@@ -153,7 +154,7 @@ int campaign(const Invocation& given) {
         throw InputError("crackle campaign: found no PLAN.toml, expected one (see crackle campaign --help)");
     const bool dry = values.contains("dry-run");
     if (!dry && !values.contains("output"))
-        throw InputError("crackle campaign: found no -o, expected -o DIR, a folder for the campaign");
+        throw InputError("crackle campaign: found no -o, expected -o DIR, the folder for the campaign");
     const auto asked = values.contains("workers") ? std::optional(values["workers"].as<int>()) : std::nullopt;
     const int workers = workers_of_machine(asked, "crackle campaign");
     watch_interrupts();
@@ -187,8 +188,8 @@ int campaign(const Invocation& given) {
 
 const std::vector<Command>& campaign_studies() {
     static const std::vector<Command> all{
-        {"show", "statistics over the packings of each point: mean, scatter, interval", describe_campaign_show,
-         campaign_show},
+        {"show", "prints statistics over the packings of each point: mean, scatter and interval",
+         describe_campaign_show, campaign_show},
         {"gather", "merges the shares of a campaign", describe_campaign_gather, campaign_gather},
         {"submit", "runs a campaign in shares with Slurm", describe_campaign_submit, campaign_submit},
     };

@@ -58,8 +58,8 @@ CommandLine describe_campaign_submit() {
          "number of shares (default: shares of about five minutes of work)")  //
         ("workers", po::value<int>()->value_name("N")->default_value(1),
          "worker processes per share, all on one node")  //
-        ("verify", "as for crackle campaign")            //
-        ("retry", "as for crackle campaign")             //
+        ("verify", "the same as for crackle campaign")   //
+        ("retry", "the same as for crackle campaign")    //
         ("dry-run", "print the script; write and submit nothing");
     return {.synopses = {"crackle campaign submit PLAN.toml -o DIR [--shards N] [OPTIONS]"},
             .description =
@@ -78,7 +78,7 @@ int campaign_submit(const Invocation& given) {
     const po::variables_map& values = given.values;
     if (given.operands.empty()) throw InputError("crackle campaign submit: found no PLAN.toml, expected one");
     if (!values.contains("output"))
-        throw InputError("crackle campaign submit: found no -o, expected -o DIR, a folder for the campaign");
+        throw InputError("crackle campaign submit: found no -o, expected -o DIR, the folder for the campaign");
     const fs::path plan_file = given_or_shipped(given.operands.front());
     const Plan plan = read_plan(plan_file, values.contains("verify"));
     BatchRequest request;

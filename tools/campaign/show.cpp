@@ -53,7 +53,7 @@ CommandLine describe_campaign_show() {
         ("all", "print all numeric keys")                                                                  //
         ("csv", "print the statistics as CSV")                                                             //
         ("tests", "print CSV with one row per test: axes, seed, variant, state and all results")           //
-        ("wrong", "print the tests that ended without a result, with the reason");
+        ("wrong", "print the tests that ended without a result, and the reason for each");
     return {.synopses = {"crackle campaign show DIR [OPTIONS]"},
             .description =
                 "Prints statistics over the packings of each point of a campaign's plan: mean, standard deviation, "

@@ -253,7 +253,7 @@ ParsedWords parse_words(const std::string& name, const CommandLine& line, const 
     const bool quiet = parsed.values.contains("quiet"), verbose = parsed.values.contains("verbose");
     if (parsed.help) return parsed;
     expect_companions(name, line, parsed.values);
-    if (quiet && verbose) throw InputError(name + ": found --quiet and --verbose, expected one of them");
+    if (quiet && verbose) throw InputError(name + ": found --quiet and --verbose, expected only one of them");
     parsed.loudness = quiet ? Loudness::quiet : verbose ? Loudness::verbose : Loudness::usual;
     if (parsed.values.contains(operand_name)) parsed.operands = parsed.values[operand_name].as<Arguments>();
     const std::size_t most = line.operand.empty() ? 0 : line.several_operands ? parsed.operands.size() : 1;

@@ -147,8 +147,9 @@ void refuse_small_stack() {
     constexpr rlim_t least = rlim_t{1} << 20;  // bytes; readers, solvers and fonts use between a tenth and a half of it
     rlimit stack{};
     if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur == RLIM_INFINITY || stack.rlim_cur >= least) return;
-    throw SystemFailure(fmt::format("found a stack of {} KiB, expected at least {}; raise the limit (ulimit -s {})",
-                                    stack.rlim_cur >> 10, least >> 10, least >> 10));
+    throw SystemFailure(
+        fmt::format("found a stack limit of {} KiB, expected at least {}; raise the limit (ulimit -s {})",
+                    stack.rlim_cur >> 10, least >> 10, least >> 10));
 }
 
 }  // namespace
@@ -157,8 +158,8 @@ const std::vector<ExitCode>& exit_codes() {
     static const std::vector<ExitCode> all{
         {exit_done, "done"},
         {exit_claim_fails,
-         "a row of crackle-bench fails, a target of crackle calibrate is not reached, or tests of crackle campaign end "
-         "without a result"},
+         "a check of crackle-bench fails, a target of crackle calibrate is not reached, or tests of crackle campaign "
+         "end without a result"},
         {exit_bad_input, "bad input"},
         {exit_unstable, "the run became unstable (the output so far is kept)"},
         {exit_system_fails, "the operating system or a library failed (the output so far is kept)"},
@@ -207,7 +208,7 @@ int report_failure(const char* called) {
                                  error.path1().string(), error.code().message()));
         return is_about_the_path(error.code().value()) ? exit_bad_input : exit_system_fails;
     } catch (const std::bad_alloc&) {
-        report_error("found too little memory for this input; make the specimen smaller");
+        report_error("ran out of memory for this input; make the specimen smaller");
         return exit_system_fails;
     } catch (const UnstableRun& error) {
         report_error(error.what());

@@ -39,7 +39,7 @@ int bench(const Invocation& given) {
     if (program.empty()) {
         throw InputError(
             "crackle bench: found no crackle-bench, expected this program in the folder of crackle or on the PATH; "
-            "install Debian's package crackle-bench, or build it in the sources: cmake --build --preset release "
+            "install Debian's package crackle-bench, or build it from the sources: cmake --build --preset release "
             "--target crackle-bench");
     }
     Arguments words = given.words;

@@ -92,12 +92,13 @@ std::string bonds_table(const ElasticAnalysis& a) {
 
 ResolvedCase elastic_case(ResolvedCase description, std::vector<std::string>& notices) {
     if (description.loading.platens == PlatenKind::frictional) {
-        notices.push_back(fmt::format("the linear solution supports only bonded platens, which are used in place of {}",
-                                      name_of(description.loading.platens)));
+        notices.push_back(
+            fmt::format("the linear solution supports only bonded platens, which are used in place of {} platens",
+                        name_of(description.loading.platens)));
         description.loading.platens = PlatenKind::bonded;
     }
     if (description.confined()) {
-        notices.push_back("the linear solution is for the specimen without confining pressure");
+        notices.push_back("the linear solution is computed without confining pressure");
         description.loading.kind = LoadingKind::compression;
         description.confinement.reset();
     }
@@ -169,15 +170,18 @@ std::string elastic_as_json(const VirtualTest& test, const ElasticAnalysis& a,
     const std::string stress = test.description.stress_unit();
     json["units"] = {
         {"youngs_modulus",
-         stress + ", small strain, all bonds intact and sticking; replaced by nominal_modulus if the test is not "
-                  "between platens: stress divided by strain as the kind of test defines them"},
+         stress + ", at small strain, with all bonds intact and no slip; replaced by nominal_modulus for tests without "
+                  "platens, which is stress divided by strain as the kind of test defines them"},
         {"poissons_ratio", "-, from the lateral strain as defined for the curve"},
-        {"stable_time_step", "s, exact: 4M - 2dt C - dt^2 K positive definite below it, checked by Cholesky if proved"},
-        {"time_step_bound", "s, guaranteed stable below this value, found without an eigenvalue solve"},
+        {"stable_time_step",
+         "s, exact stability limit: 4M - 2dt C - dt^2 K is positive definite below it, as a Cholesky factorisation "
+         "shows if stable_time_step_proved is true"},
+        {"time_step_bound", "s, time step below which stability is guaranteed, found without an eigenvalue solve"},
         {"time_step", "s, time step that crackle test uses"},
-        {"first_break_stress", stress + ", axial, when the first bond fails (linear, no slip); null if none fails"},
+        {"first_break_stress",
+         stress + ", axial stress at which the first bond fails (linear solution without slip); null if no bond fails"},
         {"first_slip_stress",
-         stress + ", axial, when the first contact point reaches its Coulomb limit; null if none does"},
+         stress + ", axial stress at which the first contact point reaches its Coulomb limit; null if no point does"},
         {"bond_strength", "N"},
         {"x", "m"},
         {"y", "m"},
@@ -185,14 +189,16 @@ std::string elastic_as_json(const VirtualTest& test, const ElasticAnalysis& a,
          "motions that store no energy: floating particles, and particles held by a single circle contact"},
         {"zero_energy_bodies", "ids of the bodies that move in these modes"},
         {"residual", "|f - Ku| / |f|, the numerical error of the solve"},
-        {"angular_frequencies", "rad/s, of the lowest modes that store energy, with the platens held"},
-        {"seconds", "s, for bonding, exact time step, assembly, solves and eigenvalues, without making the specimen"}};
+        {"angular_frequencies",
+         "rad/s, angular frequencies of the lowest modes that store energy, with the platens held"},
+        {"seconds",
+         "s, time for bonding, exact time step, assembly, solves and eigenvalues, without making the specimen"}};
     if (compliance)
         json["units"]["compliance"] = fmt::format(
-            "1/({0}), of the jointed rock without platens; rows: strain x, strain y, shear strain; columns: stress x, "
-            "stress y, shear stress; tension positive; welded: with the rock's properties on the traces; expected: "
-            "welded plus the compliance of persistent traces (Amadei and Goodman); moduli: {0}, along x, along y, in "
-            "shear",
+            "1/({0}), compliance matrices of the jointed rock without platens; rows: strain x, strain y, shear strain; "
+            "columns: stress x, stress y, shear stress; tension positive; welded: with the rock's properties on the "
+            "traces; expected: welded plus the compliance of persistent traces (Amadei and Goodman); moduli: {0}, "
+            "along x, along y, in shear",
             stress);
     return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
@@ -207,7 +213,7 @@ CommandLine describe_elastic() {
          "normal from i to j turned by +90 degrees. Strains at break and slip are inf if these never occur; the "
          "strength of an unbreakable bond is inf")      //
         ("force", "replace an existing file of bonds")  //
-        ("modes", po::value<int>()->value_name("N")->default_value(0), "lowest vibration modes to find");
+        ("modes", po::value<int>()->value_name("N")->default_value(0), "number of lowest vibration modes to find");
     return {.synopses = {"crackle elastic CASE.toml [OPTIONS]"},
             .description =
                 "Makes and bonds the specimen of CASE.toml with its platens, and solves the linear equations of its "
@@ -219,7 +225,7 @@ CommandLine describe_elastic() {
             .options = {{"options", options}},
             .operand = "CASE.toml",
             .companions = {{"strain", {"bonds"}}, {"force", {"bonds"}}},
-            .verbose = "seconds of each stage, bodies and contacts, unknowns",
+            .verbose = "time taken by each stage in seconds, and numbers of bodies, contacts and unknowns",
             .examples = {{"crackle elastic specimens/guide_rock/circles_tension.toml"},
                          {"crackle elastic case.toml --json --modes 5"},
                          {"crackle elastic case.toml --strain 1e-4 --bonds bonds.csv"}}};
@@ -250,7 +256,7 @@ int elastic(const Invocation& given) {
     const Clock::time_point start = Clock::now();
     const VirtualTest test = bond_test(description, hooks);
     messages.progress().begin("solving the linear system", 2.0, "");
-    if (modes > 0) messages.progress().step(0.0, fmt::format("solving the linear system, {} modes", modes));
+    if (modes > 0) messages.progress().step(0.0, fmt::format("solving the linear system and finding {} modes", modes));
     const ElasticAnalysis analysis = analyse_elastic(test.world, test.setup, moduli_of(test), strain, modes);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count() - test.specimen_seconds;
     TestHooks quietly = hooks;  // hooks for making the same specimen again without messages

@@ -60,11 +60,13 @@ std::vector<std::string> notices_on(const EnvelopeFigure& e) {
     const bool has_unconfined = laws.strengths.front().confinement == 0.0;
     const double strength = has_unconfined ? laws.strengths.front().mean : unconfined;
     if (last > largest_share * strength * (1.0 + 1e-9)) {
-        all.push_back(fmt::format(
-            "the largest pressure is {:.2g} of the unconfined strength; Hoek-Brown applies only up to half of it",
-            last / strength));
+        all.push_back(
+            fmt::format("the largest confining pressure is {:.2g} times the unconfined strength; the Hoek-Brown law "
+                        "applies only up to half of it",
+                        last / strength));
     }
-    if (!has_unconfined) all.emplace_back("no unconfined compression tests; the unconfined strength is extrapolated");
+    if (!has_unconfined)
+        all.emplace_back("there are no unconfined compression tests, so the unconfined strength is extrapolated");
     if (laws.strengths.size() < enough_confinements) {
         all.push_back(fmt::format("{}; Hoek and Brown require at least {}, including 0",
                                   counted(laws.strengths.size(), "confinement"), enough_confinements));
@@ -73,10 +75,11 @@ std::vector<std::string> notices_on(const EnvelopeFigure& e) {
         all.emplace_back("the strength increases less than the confinement, so the friction angle is not positive");
     const double m = laws.hoek_brown_m.value;
     if (m < smallest_m || m > largest_m) {
-        all.push_back(fmt::format("m = {:.3g}; for intact rocks it is {:g} to {:g}", m, smallest_m, largest_m));
+        all.push_back(
+            fmt::format("m = {:.3g}, while it lies between {:g} and {:g} for intact rocks", m, smallest_m, largest_m));
     }
     if (e.tension.count == 0) {
-        all.emplace_back("no tension tests; m is not checked against the tensile strength");
+        all.emplace_back("there are no tension tests, so m is not checked against the tensile strength");
     } else {
         const double factor = unconfined / e.tension.mean / hoek_martin(m);
         if (factor > trusted_factor || factor < 1.0 / trusted_factor) {
@@ -150,14 +153,14 @@ Json as_json(const EnvelopeFigure& e, const std::vector<std::string>& notices) {
     const std::string stress = e.tests.unit;
     json["units"] = {
         {"measure", "quantity used as the strength: a key of summary.json, or the stress at an axial strain"},
-        {"strengths", stress + ", means of tests; low and high: their 95 % interval; mohr_coulomb, hoek_brown: "
-                               "strengths by the fitted laws"},
-        {"variation", "-, pooled coefficient of variation of the packings"},
+        {"strengths", stress + ", mean over the tests at each confining pressure; low and high: its 95 % interval; "
+                               "mohr_coulomb, hoek_brown: strengths according to the fitted laws"},
+        {"variation", "-, coefficient of variation between packings, pooled over the pressures"},
         {"mohr_coulomb", stress + ", friction_angle in degrees: strength + slope * confining_pressure"},
         {"hoek_brown", stress + ": confining_pressure + sqrt(m strength confining_pressure + strength^2)"},
         {"low, high",
          "95 % intervals of the fitted parameters, by resampling the packings, or by Student's t if there are fewer "
-         "than 8"},
+         "than 8 packings"},
         {"misfit", "-, root mean square of the law's deviations from the means, relative to the means"},
         {"strength_ratio", "-, ratio of Hoek-Brown's unconfined strength to the mean tensile strength"},
         {"strength_ratio_by_m", "-, 8.62 + 0.7 m, Hoek & Martin 2014"}};

@@ -62,12 +62,12 @@ Domain parse_domain(const std::string& text) {
     return domain;
 }
 
-/// Centres to be meshed, and their origin.
+/// Centres to be meshed, and a description of where each comes from.
 struct Source {
     Scene scene;  ///< contains materials and domain of the result, but no bodies
     std::vector<CellCentre> centres;
     std::vector<int> materials;       ///< by centre: index of its material
-    std::vector<std::string> origin;  ///< by centre: its description in messages
+    std::vector<std::string> origin;  ///< by centre: where it comes from, for messages
     std::optional<double> thick;      ///< m, gap between facing edges as given in the deck
 };
 
@@ -84,7 +84,7 @@ Source centres_of_list(const std::string& name, const std::string& text, const p
     Domain& domain = source.scene.domain;
     if (values.contains("domain") == values.contains("bounding-box")) {
         throw InputError(
-            fmt::format("crackle mesh: found {}, expected one of --domain x1 x2 y1 y2 and --bounding-box for "
+            fmt::format("crackle mesh: found {} of --domain x1 x2 y1 y2 and --bounding-box, expected one of them for "
                         "the list of centres {}",
                         values.contains("domain") ? "both" : "neither", name));
     }
@@ -116,8 +116,8 @@ Source centres_of_deck(const std::string& name, const std::string& text, const p
          {"domain", "bounding-box", "density", "normal-stiffness", "shear-stiffness", "friction-angle"}) {
         if (values.contains(option) && !values[option].defaulted()) {
             throw InputError(
-                fmt::format("crackle mesh: --{}: found with {}, a particle file, which states this value itself; leave "
-                            "the option out, or give a list of centres with x y on each line",
+                fmt::format("crackle mesh: --{}: found together with {}, a particle file that contains this value "
+                            "itself; leave the option out, or give a list of centres with x y on each line",
                             option, name));
         }
     }
@@ -195,7 +195,7 @@ MeshRequest request_of(const po::variables_map& values, MeshKind kind, const Sou
     if (!values.contains("thick") && !source.thick) {
         throw InputError(
             "--thick: found nothing, expected the gap between facing edges in m, which a list of centres does not "
-            "state");
+            "contain");
     }
     request.mesh_gap = values.contains("thick") ? values["thick"].as<double>() : *source.thick;
     if (values.contains("inset")) request.inset = values["inset"].as<double>();
@@ -319,11 +319,13 @@ CommandLine describe_mesh() {
         ("thick", number(), "gap between facing edges (default: the value of thick in in_gm.dat)")          //
         ("inset", number(), "depth by which edges move inwards, m (default: half the gap)")                 //
         ("boundary", word("WHICH")->default_value("domain"),
-         "outer edge of triangles. domain: flat faces for platens, made by projecting the outer centres; centres: the "
-         "outermost centres, as volonoi.f made the 537 triangles from 304 circles in DEMseg's guide")          //
+         "outer edge of the triangles. domain: flat faces for platens, made by projecting the outer centres; centres: "
+         "the outermost centres, as volonoi.f made the 537 triangles from 304 circles in DEMseg's guide")      //
         ("merge", "merge cells that the inset destroys into their neighbours, instead of reporting an error")  //
-        ("joints", word("FILE"), "file of joints, whose traces become edges (see crackle joints)")             //
-        ("output,o", word("FILE"), "file to write, or folder (default: in_gm_tri.dat or in_gm_volo.dat)")      //
+        ("joints", word("FILE"),
+         "file that defines joints, whose traces become edges of cells (see crackle joints)")  //
+        ("output,o", word("FILE"),
+         "file to write, or folder for the files (default: in_gm_tri.dat or in_gm_volo.dat)")  //
         ("force", "replace an existing output");
     plain.add_options()("domain", word("X1 X2 Y1 Y2"), "the domain, m")               //
         ("bounding-box", "use the bounding box of the centres as the domain")         //
@@ -341,7 +343,7 @@ CommandLine describe_mesh() {
         .options = {{"options", options}, {"options for a list of centres", plain}},
         .operand = "IN",
         .choices = {{"kind", {"delaunay", "voronoi"}}, {"boundary", {"domain", "centres"}}},
-        .verbose = "seconds of each stage, counts",
+        .verbose = "time taken by each stage in seconds, and numbers of centres, cells and segments",
         .examples = {{"crackle mesh in_gm.dat", "cells of both kinds, as volonoi.f makes them"},
                      {"crackle mesh in_gm.dat --kind voronoi --thick 1e-3", "the cells of a packing"},
                      {"crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --boundary centres",

@@ -33,7 +33,7 @@ SizeDistribution sizes_of(const po::variables_map& values) {
     const auto deviation = optional_value<double>(values, "lognormal-deviation");
     if (values.contains("sieve")) {
         if (low || high || median || deviation)
-            throw InputError("--sieve: found with other options for sizes, expected --sieve alone");
+            throw InputError("--sieve: found together with other options for sizes, expected --sieve alone");
         return read_sieve_curve(values["sieve"].as<std::string>());
     }
     if (median || deviation) {
@@ -96,8 +96,8 @@ CommandLine describe_pack() {
     options.add_options()("count", po::value<std::int64_t>()->value_name("N"),
                           "number of circles, which determines the size of the box")                               //
         ("height-to-width", number(), "ratio of height to width of the box, with --count (default: 2)")            //
-        ("width", number(), "width of the box, m; met exactly by scaling the radii by at most 0.5 %")              //
-        ("height", number(), "height of the box, m; met exactly, as for --width")                                  //
+        ("width", number(), "width of the box, m; to obtain it exactly, the radii are scaled by at most 0.5 %")    //
+        ("height", number(), "height of the box, m; obtained exactly, as for --width")                             //
         ("radius-min", number(), "smallest radius, m (uniform distribution, unless lognormal options are given)")  //
         ("radius-max", number(), "largest radius, m")                                                              //
         ("lognormal-median", number(), "median radius, m")                                                         //
@@ -120,10 +120,9 @@ CommandLine describe_pack() {
         .synopses = {"crackle pack (--count N | --width W --height H) SIZES (--mean-overlap D | --void-ratio E) "
                      "[OPTIONS]"},
         .description =
-            "Packs random circles between four smooth walls to mechanical equilibrium and writes them as an "
-            "in_gm.dat.",
-        .options = {{"options", options}, {"material stated in the file", material}},
-        .verbose = "seconds of each stage, packing attempts",
+            "Packs random circles between four smooth walls to mechanical equilibrium and writes them to an in_gm.dat.",
+        .options = {{"options", options}, {"material written to the file", material}},
+        .verbose = "time taken by each stage in seconds, and the packing attempts",
         .examples = {
             {"crackle pack --count 304 --radius-min 1.333e-2 --radius-max 2.667e-2 --mean-overlap 7.74e-5 -o "
              "in_gm.dat"},

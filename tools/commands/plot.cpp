@@ -64,7 +64,7 @@ std::string capitalised(std::string word) {
     return word;
 }
 
-/// Labels such as «Circles, tension» if these distinguish the tests; otherwise those of distinct_names().
+/// Labels such as «Circles, tension» if they are different for all tests; otherwise the names from distinct_names().
 Words default_labels(const std::vector<Recording>& tests) {
     Words labels;
     for (const Recording& test : tests)
@@ -420,14 +420,14 @@ po::options_description plot_options() {
          "names of the tests in legends and above specimens, one per test (default: what distinguishes them, or the "
          "title of a single test)")  //
         ("units", po::value<std::string>()->value_name("UNITS"),
-         "units to name in the labels of a deck run, because decks state no units: si, cgs (cm, dyn, erg) or mm-g-s "
-         "(mm, uN, nJ)")  //
+         "names of the units in the labels of a deck run, because decks do not contain units: si, cgs (cm, dyn, erg) "
+         "or mm-g-s (mm, uN, nJ)")  //
         ("bodies", po::value<std::vector<int>>()->multitoken()->value_name("NUMBER"),
          "ids of the bodies to draw for the run of a deck; in_bc.dat must list them (default: the first eight)")  //
         ("guide", po::value<std::string>()->value_name("FOLDER"),
          "folder with the six tests of tools/quickstart, from which figures 26 to 29 of DEMseg's guide are drawn")  //
         ("format", po::value<std::string>()->value_name("FORMAT")->default_value("pdf"),
-         "format of the guide's figures: svg, pdf or png")  //
+         "file format of the guide's figures: svg, pdf or png")  //
         ("figure", po::value<Words>()->multitoken()->value_name("NAME"),
          "keys of summary.json to draw for a campaign (default: moduli and strength)")  //
         ("test", po::value<Words>()->multitoken()->value_name("NAME"),
@@ -461,7 +461,7 @@ CommandLine describe_plot() {
                     {"units", unit_sets()},
                     {"at", {"start", "peak", "end"}},
                     {"format", crackle::names_of<Format>()}},
-        .verbose = "cells, bonds and frames read",
+        .verbose = "numbers of cells, bonds and frames read",
         .examples = {
             {"crackle plot out/pulled out/squeezed -o curves.pdf --what curve"},
             {"crackle plot out/seed-1 out/seed-2 -o emission.pdf --what emission"},

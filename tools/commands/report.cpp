@@ -25,8 +25,9 @@ namespace {
 int report_campaign(const Invocation& given) {
     const std::filesystem::path folder = given.operands.front();
     if (given.operands.size() > 1)
-        throw InputError(fmt::format("report: found {} folders, expected only one if it is a campaign's: {}",
-                                     given.operands.size(), folder.string()));
+        throw InputError(
+            fmt::format("report: found {} folders, expected only one, since this is the folder of a campaign: {}",
+                        given.operands.size(), folder.string()));
     const std::filesystem::path output =
         output_page(given.values.contains("output") ? std::filesystem::path(given.values["output"].as<std::string>())
                                                     : folder / "report.html");
@@ -70,7 +71,7 @@ CommandLine describe_report() {
             .options = {{"options", options}},
             .operand = "OUT",
             .several_operands = true,
-            .verbose = "cells, bonds and frames read, bytes written",
+            .verbose = "numbers of cells, bonds and frames read, and of bytes written",
             .examples = {{"crackle report out/voronoi-compression"},
                          {"crackle report out/*-tension out/*-compression -o report.html --title \"Six tests\""},
                          {"crackle report out/granite --measured laboratory.csv"}}};

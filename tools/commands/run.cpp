@@ -59,8 +59,8 @@ CommandLine describe_run() {
          "discs; or demseg_mean, which takes their mean; default: rounded, or for a continued run its earlier law")  //
         ("integrator", po::value<std::string>()->value_name("NAME"),
          "treatment of contacts that open and close: leapfrog, as in DEMseg's guide, or consistent, which conserves "
-         "energy; default: leapfrog, or for a continued run its earlier choice")                            //
-        ("allow-unstable", "accept a time step above the stable bound, and an unbounded growth of energy")  //
+         "energy; default: leapfrog, or for a continued run its earlier choice")                                 //
+        ("allow-unstable", "accept a time step above the stability limit, and energy that grows without bound")  //
         ("threads", po::value<int>()->value_name("N")->default_value(1),
          "number of threads; does not affect the results");
     return {.synopses = {"crackle run DIR [OPTIONS]"},
@@ -72,13 +72,13 @@ CommandLine describe_run() {
             .options = {{"options", options}},
             .operand = "DIR",
             .choices = {{"law", names_of<SegmentLaw>()}, {"integrator", names_of<Integrator>()}},
-            .verbose = "bodies, time step and its bound, contacts",
+            .verbose = "numbers of bodies and contacts, and the time step with its stability limit",
             .examples = {
                 {"crackle run specimens/demseg/circle -o out/circle", "the bouncing circle of DEMseg's guide"},
                 {"crackle run specimens/demseg/circle -o out/half --steps 10000", "the first half of its steps"},
                 {"crackle run specimens/demseg/triangle -o out/t --law demseg",
                  "a polygon with the contact law of DEMseg's guide"},
-                {"crackle run out/half --continue", "runs the rest and appends its outputs"},
+                {"crackle run out/half --continue", "runs the remaining steps and appends their outputs"},
                 {"crackle run out/half --continue --steps 5000 -o out/more", "5000 more steps with separate outputs"}}};
 }
 

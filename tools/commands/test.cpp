@@ -54,7 +54,7 @@ void print_stated_errors(const ErrorsByFigure& errors, bool converged) {
                   ? fmt::format(", crack initiation {}, damage {}", of(errors.crack_initiation_stress),
                                 of(errors.crack_damage_stress))
                   : "",
-              converged ? "the peak is converged" : "the peak jumps between branches");
+              converged ? "the peak is converged" : "the peak differs between runs (branches)");
 }
 
 void print_figures(const TestOutcome& outcome) {
@@ -63,7 +63,8 @@ void print_figures(const TestOutcome& outcome) {
     const bool failed = s.about.failed.value_or(false);
     print_out("{}, {}: {}\n", s.about.specimen.name(), s.about.kind.name(),
               failed ? "the specimen failed"
-                     : "the specimen has not failed (ended by " + s.about.ended_by.value_or("nothing") + ")");
+                     : "the specimen has not failed (reason for the end of the test: " +
+                           s.about.ended_by.value_or("nothing") + ")");
     print_out("  {} {} at strain {}\n", failed ? "strength" : "largest stress so far",
               shown(failed ? known.peak_stress : known.peak_stress_so_far, s),
               shown(failed ? known.peak_strain : known.peak_strain_so_far));
@@ -180,22 +181,22 @@ Json disc_as_json(const DiscOutlook& disc) {
 /// Units and meanings of the keys of a check. @param stress unit of stress
 Json units_of_check(const std::string& stress, bool of_disc) {
     Json units{
-        {"grains_across", "width over sqrt(width height / particles)"},
-        {"youngs_modulus", stress + ", small strain, all bonds intact and sticking; replaced by nominal_modulus if the "
-                                    "test is not between platens"},
-        {"gauge_modulus", stress + ", with the strain over the axial gauge length"},
-        {"first_slip", "strain; stress in " + stress + "; null if none in the linear solution"},
+        {"grains_across", "width of the specimen divided by the mean grain size sqrt(width height / particles)"},
+        {"youngs_modulus", stress + ", at small strain, with all bonds intact and no slip; replaced by nominal_modulus "
+                                    "for tests without platens"},
+        {"gauge_modulus", stress + ", stress divided by the strain of the axial gauge length"},
+        {"first_slip", "strain; stress in " + stress + "; null if it does not occur in the linear solution"},
         {"first_break", "as first_slip"},
         {"strength_estimate",
          "rough estimate: modulus times the strain at which a fraction share_broken of the breakable points has broken "
          "in the linear solution. within_factor: its largest error, as a factor, in the cases used to calibrate it"},
         {"time_step", "s"},
-        {"axial_strain_rate", "1/s, at the start"},
-        {"slowest_axial_strain_rate", "1/s, while many bonds break"},
+        {"axial_strain_rate", "1/s, at the start of loading"},
+        {"slowest_axial_strain_rate", "1/s, lowest axial strain rate, used while many bonds break"},
         {"steps_per_second", "1/s, measured on this machine during the check"},
         {"run_to_strength",
          "steps and seconds at the initial rate; null if the estimated strength is not reached below max_axial_strain"},
-        {"run_to_max_axial_strain", "steps and seconds if the specimen does not fail before"},
+        {"run_to_max_axial_strain", "steps and seconds if the specimen does not fail earlier"},
         {"specimen_seconds", "s, time to make the specimen"},
         {"memory", "bytes, peak memory of this check"}};
     if (of_disc)
@@ -207,7 +208,7 @@ Json units_of_check(const std::string& stress, bool of_disc) {
 }
 
 std::string loss_text(const std::optional<FirstLoss>& loss, const char* unit) {
-    if (!loss) return "none in the linear solution";
+    if (!loss) return "does not occur in the linear solution";
     return fmt::format("{} at strain {:.3e}, bodies {} and {}", spoken_stress(loss->stress, unit), loss->strain,
                        loss->body_i, loss->body_j);
 }
@@ -363,28 +364,31 @@ CommandLine describe_test() {
         ("resume", po::value<std::string>()->value_name("OUT"),
          "resume the test in this folder from its last checkpoint")  //
         ("verify",
-         "also run companion tests (half the time step, half the rate, half and double the damping) to state errors")  //
+         "also run companion tests (half the time step, half the rate, half and double the damping) to estimate "
+         "numerical errors")                                                                                     //
         ("profile", "time the phases of a step, print a table of the times, and add `profile` to summary.json")  //
         ("threads", po::value<int>()->value_name("N"),
          "number of threads (default: as in the case); does not affect the results")  //
         ("long", "run the test even if it takes more than a day, or 1e10 steps")      //
         ("check",
          "make and bond the specimen, and print what to expect: moduli, first slip and break, a rough strength, steps, "
-         "seconds, memory, warnings. Nothing is loaded or written")                                         //
-        ("json", "with --check: print one JSON object")                                                     //
-        ("allow-unstable", "accept a time step above the stable bound, and an unbounded growth of energy")  //
-        ("keys", "list all keys of a case")                                                                 //
+         "seconds, memory, warnings. Nothing is loaded or written")                                              //
+        ("json", "with --check: print one JSON object")                                                          //
+        ("allow-unstable", "accept a time step above the stability limit, and energy that grows without bound")  //
+        ("keys", "list all keys of a case")                                                                      //
         ("files", "list the files of a test: every column, key and array, with its unit");
     return {.synopses = {"crackle test CASE.toml -o OUT [OPTIONS]", "crackle test --resume OUT [OPTIONS]",
                          "crackle test --check CASE.toml [--json]"},
             .description =
                 "Makes the specimen that CASE.toml describes, bonds it with its platens, and loads it until it fails. "
                 "Writes into OUT: curve.csv, events.csv, summary.json, frames/ (ParaView), checkpoint, and case.toml "
-                "with every value stated.",
+                "with all values written out.",
             .options = {{"options", options}},
             .operand = "CASE.toml",
             .companions = {{"json", {"check"}}},
-            .verbose = "seconds of each stage, bodies and contacts, the time step and how it was chosen, bytes written",
+            .verbose =
+                "time taken by each stage in seconds, numbers of bodies, contacts and bytes written, and the time step "
+                "and how it was chosen",
             .examples = {{"crackle test specimens/guide_rock/circles_tension.toml -o out/circles-tension"},
                          {"crackle test case.toml -o out/case --threads 2 -q"},
                          {"crackle test --check case.toml"},

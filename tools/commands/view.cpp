@@ -37,10 +37,10 @@ CommandLine describe_view() {
         ("frames", po::value<std::size_t>()->value_name("N")->default_value(default_page_frames),
          "maximum number of frames shown per input, spaced evenly from the first to the last")  //
         ("seed", po::value<std::uint64_t>()->value_name("N")->default_value(1),
-         "seed of the circles that a particle file of mode 0 draws")  //
+         "seed of the random circles of a particle file of mode 0")  //
         ("units", po::value<std::string>()->value_name("UNITS"),
-         "names of the units of particle files and decks, which state none: si, cgs (cm, dyn, erg) or mm-g-s (mm, uN, "
-         "nJ)");
+         "names of the units of particle files and decks, which do not contain units: si, cgs (cm, dyn, erg) or mm-g-s "
+         "(mm, uN, nJ)");
     return {.synopses = {"crackle view IN... [-o view.html]"},
             .description =
                 "Writes a page that shows particles at rest or in motion. IN is a particle file (in_gm.dat, "
@@ -51,7 +51,7 @@ CommandLine describe_view() {
             .operand = "IN",
             .several_operands = true,
             .choices = {{"units", unit_sets()}},
-            .verbose = "cells, bonds and frames read, bytes written",
+            .verbose = "numbers of cells, bonds and frames read, and of bytes written",
             .examples = {{"crackle view out/in_gm_volo.dat -o out/cells.html"},
                          {"crackle view out/slope -o out/slope.html --units cgs"},
                          {"crackle view out/pulled out/squeezed -o out/both.html"}}};

@@ -58,8 +58,8 @@ std::size_t grains_in(const Domain& box, const po::variables_map& values) {
     const double count = (box.x2 - box.x1) * (box.y2 - box.y1) / (grain * grain);
     if (!(grain > 0.0 && count >= 1.0 && count <= most_grains))
         throw InputError(
-            fmt::format("--grain: found {}, expected a length > 0 in m, below the size of the box and with "
-                        "at most {:.0e} grains in it",
+            fmt::format("--grain: found {}, expected a length > 0 in m that is smaller than the box, with at most "
+                        "{:.0e} grains in the box",
                         grain, most_grains));
     return static_cast<std::size_t>(std::lround(count));
 }
@@ -92,31 +92,34 @@ Json json_of(const SourceReport& r) {
 Json as_json(const JointNetwork& network, const JointReport& report) {
     Json sources = Json::array();
     for (const SourceReport& r : report.sources) sources.push_back(json_of(r));
-    return {{"width", network.box.x2 - network.box.x1},
-            {"height", network.box.y2 - network.box.y1},
-            {"sources", sources},
-            {"all", json_of(report.all)},
-            {"blocks", report.blocks ? Json(*report.blocks) : Json()},
-            {"largest_block", report.largest_block},
-            {"median_block", report.median_block},
-            {"snap", network.cleaning.snap},
-            {"points_left_out", network.cleaning.points_left_out},
-            {"brought_together", network.cleaning.brought_together},
-            {"largest_displacement", network.cleaning.largest_displacement},
-            {"notices", report.notices},
-            {"units",
-             {{"p10", "1/m, crossings per length of all lines along scan_line"},
-              {"p20", "1/m2, midpoints per area"},
-              {"p21", "m/m2, length per area"},
-              {"scan_line, direction", "degrees from +x, counter-clockwise; direction: mean, by length"},
-              {"mean_length", "m, of traces with their midpoint in the box, before they are cut by the box"},
-              {"longest", "m, of the part in the box"},
-              {"kappa", "-, concentration of an axial von Mises distribution fitted to the traces, each counted once"},
-              {"snap", "m, distance within which nodes and points were merged; 0 if traces were left unchanged"},
-              {"largest_displacement", "m, largest displacement caused by merging nodes and leaving out points"},
-              {"rose", "m, total length of traces within 5 degrees of 0, 10, ..., 170 degrees"},
-              {"largest_block, median_block",
-               "-, block areas as fractions of the box's area, as if all traces were open"}}}};
+    return {
+        {"width", network.box.x2 - network.box.x1},
+        {"height", network.box.y2 - network.box.y1},
+        {"sources", sources},
+        {"all", json_of(report.all)},
+        {"blocks", report.blocks ? Json(*report.blocks) : Json()},
+        {"largest_block", report.largest_block},
+        {"median_block", report.median_block},
+        {"snap", network.cleaning.snap},
+        {"points_left_out", network.cleaning.points_left_out},
+        {"brought_together", network.cleaning.brought_together},
+        {"largest_displacement", network.cleaning.largest_displacement},
+        {"notices", report.notices},
+        {"units",
+         {{"p10",
+           "1/m, number of traces crossed per unit length, averaged over all scan lines in the direction scan_line"},
+          {"p20", "1/m2, number of midpoints of traces per unit area"},
+          {"p21", "m/m2, length of traces per unit area"},
+          {"scan_line, direction", "degrees from +x, counter-clockwise; direction is the mean, weighted by length"},
+          {"mean_length",
+           "m, mean length of the traces whose midpoint is in the box, before they are cut off at its sides"},
+          {"longest", "m, length of the longest trace; only the part in the box counts"},
+          {"kappa", "-, concentration of an axial von Mises distribution fitted to the traces, each counted once"},
+          {"snap", "m, distance within which nodes and points were merged; 0 if traces were left unchanged"},
+          {"largest_displacement", "m, largest displacement caused by merging nodes and leaving out points"},
+          {"rose", "m, total length of traces within 5 degrees of 0, 10, ..., 170 degrees"},
+          {"largest_block, median_block",
+           "-, block areas as fractions of the box's area, as if all traces were open"}}}};
 }
 
 std::string beside(double reached, double asked) {
@@ -180,9 +183,10 @@ CommandLine describe_joints() {
         ("box-width", number(), "width of the box, m, if the case has no packing.width")      //
         ("box-height", number(), "height of the box, m, if the case has no packing.height")   //
         ("grain", number(),
-         "mean spacing of the grains, m: prepares traces as for a mesh of such grains (joints.snap, shortest)")  //
+         "mean spacing of the grains, m; traces are prepared as for a mesh of such grains (see joints.snap and "
+         "joints.shortest)")  //
         ("traces", po::value<std::string>()->value_name("FILE"),
-         "file for the traces in the box, one line x1 y1 x2 y2 ... per trace")  //
+         "file to write: the traces in the box, with one line x1 y1 x2 y2 ... per trace")  //
         ("output,o", po::value<std::string>()->value_name("FIGURE"),
          "figure to write: .svg, .pdf or .png; it shows the traces in the box and a rose of their directions");
     plot::add_figure_options(options, 2);
@@ -192,15 +196,15 @@ CommandLine describe_joints() {
     return {.synopses = {"crackle joints CASE.toml [OPTIONS]"},
             .description =
                 "Generates or reads traces of joints in the box of a specimen. They are defined by [[joint_set]] and "
-                "[[trace]] of a case, or of a file with only these tables that cases include. Prints requested and "
-                "reached amounts (P10, P20, P21, lengths, directions), and the blocks that the traces would cut out if "
-                "all of them were open. The same seed gives the same traces. With joints.snap in the file, or with "
-                "--grain, traces are prepared as for a mesh. Segments of one fault are then joined, and nodes that "
-                "nearly coincide are merged; the changes are printed.",
+                "[[trace]] of a case, or of a file with only these tables that cases include. Prints the requested and "
+                "the obtained amounts (P10, P20, P21, lengths, directions), and the blocks that the traces would cut "
+                "out if all of them were open. The same seed gives the same traces. With joints.snap in the file, or "
+                "with --grain, traces are prepared as for a mesh. Segments of one fault are then joined, and nodes "
+                "that nearly coincide are merged; the changes are printed.",
             .options = {{"options", options}},
             .operand = "CASE.toml",
             .companions = companions,
-            .examples = {{"crackle joints specimens/jointed/two_sets.toml", "amounts, directions, blocks"},
+            .examples = {{"crackle joints specimens/jointed/two_sets.toml", "prints amounts, directions and blocks"},
                          {"crackle joints specimens/jointed/two_sets.toml -o traces.svg"},
                          {"crackle joints specimens/jointed/two_sets.toml --seed 7 --traces traces.txt"},
                          {"crackle joints specimens/jointed/survey.toml --grain 0.05", "for cells of 5 cm"}}};

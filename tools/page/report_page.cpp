@@ -66,9 +66,8 @@ std::string filled_page(std::string_view page, const PageHead& head, const std::
                         Messages& messages) {
     if (page.empty()) {
         throw InputError(
-            "this build of crackle contains no report page; configure with -DCRACKLE_VIEWER=ON (needs Node 18 or later "
-            "and "
-            "npm)");
+            "this build of crackle contains no report page; configure with -DCRACKLE_VIEWER=ON (this needs Node 18 or "
+            "later, and npm)");
     }
     Json manifest{{"format", "crackle-report 2"},
                   {"title", head.title.empty() ? default_title(recordings) : head.title},

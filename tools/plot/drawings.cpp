@@ -148,7 +148,7 @@ std::vector<FaceLine> faces_of(const fs::path& folder, const FrameHead& head, co
     return lines;
 }
 
-/// A moment prepared for drawing.
+/// The state at one instant, prepared for drawing.
 struct Moment {
     std::vector<std::vector<Vec2>> outlines;  // outlines of the cells; a single point for a circle
     std::vector<bool> shown;                  // by cell: whether it is drawn

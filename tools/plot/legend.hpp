@@ -39,8 +39,8 @@ std::string titled(const std::string& title, const std::string& unit);
 /// Draws a mean, and its interval if that is finite. @param across whether the interval is along the x axis
 void draw_mean(Canvas& canvas, Point mean, Point low, Point high, const Colour& colour, bool across);
 
-/// Width to which the height of a diagram is proportional. It is limited, so that a page-wide diagram does not take
-/// half a page in height.
+/// The width from which the height of a diagram is computed, pt. It is limited, so that a diagram as wide as a page is
+/// not half a page high.
 inline double proportional(double width) { return std::min(width, 340.0); }
 
 /// Legend of line samples with names, in as many equally wide columns as fit. Empty if there is only one entry.

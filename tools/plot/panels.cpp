@@ -41,8 +41,8 @@ void refuse_without_threads() {
     static const bool had = threads_to_be_had(needed) == needed;  // once started, these threads remain
     if (had) return;
     throw SystemFailure(
-        "plot: cannot start a further thread (Resource temporarily unavailable), expected two that search for fonts; "
-        "end other programs of this user, or raise the user's limit (ulimit -u)");
+        "plot: cannot start another thread (Resource temporarily unavailable), expected two threads that search for "
+        "fonts; end other programs of this user, or raise the user's limit (ulimit -u)");
 }
 
 /// Refuses to draw if memory is short, since GLib and fontconfig end the process by a signal if they run out of it.

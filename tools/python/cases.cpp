@@ -62,7 +62,7 @@ void bind_cases(py::module_& module) {
                 all.push_back(file.string());
             return all;
         },
-        py::arg("path"), "All files that are read for the joints of a file, including itself.");
+        py::arg("path"), "All files that are read for the joints of a file, including that file.");
     module.def("case_keys", [] {
         std::ostringstream text;
         describe_case_keys(text);

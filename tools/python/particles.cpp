@@ -171,18 +171,18 @@ void bind_particles(py::module_& module) {
             [](const Shared& p) {
                 return view_of(body_dtype(), p->scene.bodies.size(), sizeof(Body), p->scene.bodies.data(), keep(p));
             },
-            "View, shape (bodies,): id, material (index), velocity (x, y in m/s), spin (rad/s), first_circle and "
-            "circle_count into `circles`, first_vertex and vertex_count into `vertices`, closed.")
+            "Array view of shape (bodies,) with the fields id, material (index), velocity (x, y in m/s), spin (rad/s), "
+            "first_circle and circle_count into `circles`, first_vertex and vertex_count into `vertices`, closed.")
         .def_property_readonly(
             "circles",
             [](const Shared& p) {
                 return view_of(circle_dtype(), p->scene.circles.size(), sizeof(CircleElement), p->scene.circles.data(),
                                keep(p));
             },
-            "View, shape (circles,): centre (x, y in m), radius (m), angle (rad).")
+            "Array view of shape (circles,) with the fields centre (x, y in m), radius (m) and angle (rad).")
         .def_property_readonly(
             "vertices", [](const Shared& p) { return view_of(p->scene.vertices, p); },
-            "View, shape (vertices,): x, y in m, the corners of all polygons and chains.")
+            "Array view of shape (vertices,) with x and y in m: the corners of all polygons and chains.")
         .def_property_readonly(
             "domain",
             [](const Particles& p) {

@@ -166,32 +166,33 @@ void bind_state(py::module_& module) {
              "lateral_strain, bonds_broken, energies in J, ... as crackle test --files lists them.")
         .def_property_readonly(
             "bodies", [](State& s) { return s.lend(s.world().bodies.state); },
-            "View, one record per body: x, y (m), vx, vy (m/s, half a step before x, y), omega (rad/s), shape (radius "
-            "and 0 for a circle; otherwise cosine and sine of the body's rotation), angle (rad).")
+            "Array view with one record per body: x, y (m), vx, vy (m/s, half a step before x, y), omega (rad/s), "
+            "shape (radius and 0 for a circle; otherwise cosine and sine of the body's rotation), angle (rad).")
         .def_property_readonly(
             "names", [](State& s) { return s.lend(s.world().bodies.names); },
-            "View, one record per body: id, material (index), closed, and shape (index of the body's outline in the "
-            "engine; 2**32 - 1 for a single circle).")
+            "Array view with one record per body: id, material (index), closed, and shape (index of the body's outline "
+            "in the engine; 2**32 - 1 for a single circle).")
         .def_property_readonly(
             "masses", [](State& s) { return s.lend(s.world().bodies.inertia); },
-            "View, one record per body: mass (kg), and the inverse mass and inverse moment of inertia used in a time "
-            "step; these are 0 for driven motions.")
+            "Array view with one record per body: mass (kg), and the inverse mass and inverse moment of inertia used "
+            "in a time step; these are 0 for driven motions.")
         .def_property_readonly(
             "forces", [](State& s) { return s.lend(s.world_with_forces().bodies.force); },
-            "View, one record per body: fx, fy (N) and torque (N m), the resultants of the body's contact forces.")
+            "Array view with one record per body: fx, fy (N) and torque (N m), the resultants of the body's contact "
+            "forces.")
         .def_property_readonly(
             "bonds", [](State& s) { return s.lend(s.world().points.state); },
-            "View, one record per contact point: law (index into `laws`), flags (bits 1: touching, 2: bonded, 4: "
-            "sliding; further bits are internal).")
+            "Array view with one record per contact point: law (index into `laws`), flags (bits 1: touching, 2: "
+            "bonded, 4: sliding; further bits are internal).")
         .def_property_readonly(
             "pairs", [](State& s) { return s.lend(s.world().points.contact.pairs); },
-            "View, one record per contact point: body_i and body_j, indices into `bodies`.")
+            "Array view with one record per contact point: body_i and body_j, indices into `bodies`.")
         .def_property_readonly(
             "shear_forces", [](State& s) { return s.lend(s.world().points.shear_force); },
-            "View, one value per contact point: elastic shear force, N.")
+            "Array view with one value per contact point: elastic shear force, N.")
         .def_property_readonly(
             "bond_overlaps", [](State& s) { return s.lend(s.world().points.bond_overlap); },
-            "View, one value per contact point: overlap at bonding, m.")
+            "Array view with one value per contact point: overlap at bonding, m.")
         .def(
             "contacts", &contacts,
             "A copy of the contact points that touch or are bonded. Fields: id_i, id_j (-1 to -4 for a wall), body_i, "
@@ -200,13 +201,13 @@ void bind_state(py::module_& module) {
             "bond_overlap (m), bonded, touching, sliding, slid.")
         .def_property_readonly(
             "rows", [](State& s) { return s.lend(s.test().state.rows); },
-            "View, one record per row: the curve so far, including all rows by which peak and failure are judged; "
-            "empty for a World. A record keeps the whole view alive: to keep a single row use row(), or a record's "
-            "copy().")
+            "Array view with one record per row: the curve so far, including all rows by which peak and failure are "
+            "judged; empty for a World. A record keeps the whole view alive: to keep a single row use row(), or a "
+            "record's copy().")
         .def_property_readonly(
             "events", [](State& s) { return s.lend(s.world().bonds.events); },
-            "View, one record per event: bond breaks since the last call of the callback; for a World, all bond breaks "
-            "so far.")
+            "Array view with one record per event: bond breaks since the last call of the callback; for a World, all "
+            "bond breaks so far.")
         .def_property_readonly(
             "bonds_broken", [](const State& s) { return s.world().bonds.broken; },
             "Number of bonds that have broken so far.")
@@ -215,8 +216,8 @@ void bind_state(py::module_& module) {
             "Number of bonds that have been made.")
         .def_property_readonly(
             "laws", [](State& s) { return s.lend(s.world().settings.laws); },
-            "View of the contact laws: for the material pairs (1,1), (1,2), (2,2), (1,3)..., then for these pairs with "
-            "unbreakable bonds, then for materials against walls.")
+            "Array view of the contact laws: for the material pairs (1,1), (1,2), (2,2), (1,3)..., then for these "
+            "pairs with unbreakable bonds, then for materials against walls.")
         .def_property_readonly(
             "notices", [](const State& s) { return s.test().setup.origin.notices; },
             "Notices on the specimen and its loading: a list of texts, as in a summary.")

@@ -27,8 +27,9 @@ std::function<AfterLook(VirtualTest&)> caller_of(const py::object& call, std::in
             call(moment);
             if (every == 0 && !moment->stop_asked() && platen_speed(test) == 0.0)
                 throw InputError(
-                    "platen speed: found 0, set by a callback at rows, expected another value, since no row is reached "
-                    "while the platen is at rest; call at steps instead, for example with every = 1000");
+                    "platen speed: found 0, set by a callback at rows, expected another speed, because no further row "
+                    "is reached while the platen is at rest; run the callback at a fixed interval of steps instead, "
+                    "for example every = 1000");
         } catch (const py::error_already_set& error) {
             interrupts.raised(error);
         } catch (const InputError& error) {

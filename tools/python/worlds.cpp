@@ -121,8 +121,8 @@ void bind_worlds(py::module_& module) {
                                     world.bonds.broken, world.bonds.initial, world.stepping.steps);
              })
         .def("step", &OwnWorld::step, py::arg("count") = 1,
-             "Takes this number of steps. Other Python threads run meanwhile, and Ctrl-C interrupts the run between "
-             "two steps. Raises UnstableRun if the energy grows without bound.")
+             "Takes `count` steps. Other Python threads run meanwhile, and Ctrl-C interrupts the run between two "
+             "steps. Raises UnstableRun if the energy grows without bound.")
         .def("add_bonds", &add_bonds, py::arg("pairs"), py::arg("gap") = 0.0,
              "Bonds unbonded contact points between pairs of ids if their overlap exceeds -gap (m), by the world's "
              "bond law. Returns the number of new bonds. A gap > 0 needs bond.law = \"coulomb\". The energy account "
@@ -131,12 +131,12 @@ void bind_worlds(py::module_& module) {
              py::arg("materials") = std::pair<int, int>(1, 1),
              "Changes normal_stiffness, shear_stiffness (N/m; Pa with material.units = \"area\"), friction_angle, "
              "residual_friction_angle (degrees), tensile_strength or cohesion (N; Pa) of contacts between two "
-             "materials, "
-             "numbers from 1. The stable time step is computed again, and the energy account starts again.")
+             "materials, which are numbered from 1. The stable time step is computed again, and the energy account "
+             "starts again.")
         .def("drive", &drive, py::arg("id"), py::arg("x") = py::none(), py::arg("y") = py::none(),
              py::arg("rotation") = py::none(),
-             "Drives a body from now on. x, y and rotation are each a velocity (m/s, rad/s), ('force', value) (N, N "
-             "m), or None for free motion.")
+             "Drives the body with this id from now on. x, y and rotation are each a velocity (m/s, rad/s), ('force', "
+             "value) (N, N m), or None for free motion.")
         .def_property(
             "threads", [](const OwnWorld& s) { return s.world().workers.threads; },
             [](OwnWorld& s, int threads) { use_threads(s.world(), threads); },

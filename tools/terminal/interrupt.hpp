@@ -18,7 +18,7 @@ void watch_interrupts();
 /// being written
 void end_unheard(const char* last_words);
 /// Value of `last_words` for commands that can be resumed.
-inline constexpr const char* words_of_resumable = "interrupted; the same command resumes";
+inline constexpr const char* words_of_resumable = "interrupted; run the same command again to resume";
 
 /// From now on, writing to a pipe without a reader or beyond a file size limit causes an I/O error, as a full disc
 /// does. By default it would end the program in the middle of a file.

@@ -45,7 +45,8 @@ class ProgressLine {
     /// Reports the number of completed units. Rate and remaining time are estimated from the time since begin(). The
     /// line is drawn at most five times per second.
     void count(double done, const std::string& detail = {});
-    /// Starts the next stage of work that has a few long stages; the line is drawn at once.
+    /// Starts the next stage of work that consists of a few long stages, and draws the line at once.
+    /// @param done number of completed stages
     void step(double done, const std::string& what);
     /// Draws progress whose rate and completed fraction the caller has determined.
     void draw(const Progress& progress);

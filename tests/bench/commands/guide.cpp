@@ -279,7 +279,7 @@ int bench_guide(const Invocation& invocation) {
     replace_file(folder / "guide.md", text);
     std::cout << text;
     if (!interrupted()) return exit_done;
-    report_error("interrupted; the same command resumes");
+    report_error("interrupted; run the same command again to resume");
     return exit_interrupted;
 }
 

@@ -95,7 +95,7 @@ TEST(DeckReader, RefusesWhatIsNoValueWithTheNumberIgnoredBefore) {
     EXPECT_EQ(refused("1 \x95\x9d", {2}), "deck:1: value: found '\\x95\\x9d'" + finite);
     EXPECT_EQ(refused("1 間隙比", {2}), "deck:1: value: found '間隙比'" + finite);
     const std::string before =
-        "; before it '3' in line 1 was ignored, because each READ of DEMseg starts on a new line";
+        "; before that, '3' in line 1 was ignored, because each READ of DEMseg starts on a new line";
     EXPECT_EQ(refused("1 2 3\nx", {2, 1}), "deck:2: value: found 'x'" + finite + before);
     EXPECT_EQ(
         refused("1 2 3\n", {2, 1}),

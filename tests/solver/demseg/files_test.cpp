@@ -193,8 +193,8 @@ TEST(ContactFiles, RefuseWhatCannotBe) {
     for (int id = 3; id <= 20; ++id) rest += std::to_string(id) + " 0\n";
     EXPECT_EQ(tensions("1 1\n2 -2e7\n2 1\n1 -2e7\n" + rest), "accepted");
     EXPECT_EQ(tensions("1 1\n2 2e7\n"),
-              "in_cf0.dat:2: body 1: back-tension 1: value: found '2e7', expected a back-tension, 0 or less (tension "
-              "is negative)");
+              "in_cf0.dat:2: body 1: back-tension 1: value: found '2e7', expected 0 or a negative number, "
+              "because tension is negative");
     EXPECT_EQ(tensions("1 1\n2 -2e7\n2 0\n" + rest),
               "in_cf0.dat:2: bodies 1 and 2: found the back-tension -20000000 in one list and none in the other, "
               "expected the same in both");
@@ -213,11 +213,11 @@ TEST(ContactFiles, TwoColumnsThatLeaveElementsOpenAreRefusedOnTheirOwnLine) {
     for (const char* columns : {"3 -2e3", "3 -2e3 1", "3 -2e3 to the square 1 0"}) {
         World world = build_world(scene);
         DeckReader reader("in_cf0.dat", fmt::format("1 1\n{}\n2 0\n3 1\n1 -2e3 0 1\n4 0\n", columns));
-        EXPECT_EQ(
-            refusal([&] { read_back_tensions(reader, scene, world); }),
-            "in_cf0.dat:2: body 1: back-tension 1: found no element numbers after the value, expected "
-            "other body, value, own_element and other_element, because bodies 1 and 3 are not both single circles; "
-            "remove the file to bond all bodies that overlap");
+        EXPECT_EQ(refusal([&] { read_back_tensions(reader, scene, world); }),
+                  "in_cf0.dat:2: body 1: back-tension 1: found no element numbers after the value, expected "
+                  "the four values other body, value, own_element and other_element, because bodies 1 and 3 are not "
+                  "both single circles; "
+                  "remove the file to bond all bodies that overlap");
     }
 }
 
@@ -272,22 +272,24 @@ TEST(ContactFiles, AContactListedFromItsOtherBodyIsTheSame) {
 }
 
 TEST(ContactFiles, UnknownContactsDuplicatesAndBondedWallsAreRefusedWithTheirLine) {
-    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 1 0 5.5 0 0\n4 0\n"),
-              "in_cf.dat:4: body 3: contact 1: found no contact of its element 1 with element 0 of body 4, expected "
-              "them to touch; check that in_gm.dat and in_cf.dat are from the same run")
+    EXPECT_EQ(
+        contacts_refusal("1 0\n2 0\n3 1\n4 1 0 5.5 0 0\n4 0\n"),
+        "in_cf.dat:4: body 3: contact 1: found no contact between its element 1 and element 0 of body 4, expected "
+        "these elements to touch; check that in_gm.dat and in_cf.dat are from the same run")
         << "corner 1 is on the far side";
-    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 2 1 5.5 0 0\n4 0\n"),
-              "in_cf.dat:4: body 3: contact 1: found no contact of its element 2 with element 1 of body 4, expected "
-              "them to touch; check that in_gm.dat and in_cf.dat are from the same run");
+    EXPECT_EQ(
+        contacts_refusal("1 0\n2 0\n3 1\n4 2 1 5.5 0 0\n4 0\n"),
+        "in_cf.dat:4: body 3: contact 1: found no contact between its element 2 and element 1 of body 4, expected "
+        "these elements to touch; check that in_gm.dat and in_cf.dat are from the same run");
     EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n3 2 0 5.5 0 0\n4 0\n"),
               "in_cf.dat:4: body 3: contact 1: other body: found '3', expected another body of in_gm.dat, or -1 to -4 "
               "for a wall");
     EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 2\n4 2 0 5.5 0 0\n4 2 0 5.5 0 0\n4 0\n"),
-              "in_cf.dat:5: body 3: contact 2: found the contact with body 4 a second time, expected every contact "
-              "point once");
+              "in_cf.dat:5: body 3: contact 2: found the contact with body 4 a second time, expected each contact "
+              "point only once");
     EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 2 0 5.5 0 0\n4 1\n3 0 2 5.5 0 0\n"),
-              "in_cf.dat:6: body 4: contact 1: found the contact with body 3 a second time, expected every contact "
-              "point once");
+              "in_cf.dat:6: body 4: contact 1: found the contact with body 3 a second time, expected each contact "
+              "point only once");
     EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n-3 2 0 5.5 -1e3 0\n4 0\n"),
               "in_cf.dat:4: body 3: contact 1: back-tension: found '-1e3', expected 0; domain walls are never bonded");
 }

@@ -167,7 +167,7 @@ TEST_F(ReplacedDeck, KeepsItsFilesWhereTheNewRunIsUnstable) {
     } catch (const UnstableRun& error) {
         EXPECT_EQ(std::string(error.what()),
                   "unstable at step 50, body 1: as a test has it; earlier outputs in " + folder_.string() +
-                      " are unchanged, the outputs of this run so far are in " + folder_.string() + "/*.dat.new");
+                      " are unchanged, and the outputs of this run so far are in " + folder_.string() + "/*.dat.new");
     }
     EXPECT_TRUE(named() == earlier_);
 }

@@ -94,7 +94,7 @@ TEST(TableReader, RefusesWhatCannotBeMeant) {
               "t.csv:2: found '1' after a value in quotes, expected nothing before the next separator; "
               "values are separated by commas");
     EXPECT_EQ(refused("strain,stress,strain\n0,0,0\n"),
-              "t.csv:1: found two columns strain, expected one; rename or remove the other");
+              "t.csv:1: found two columns named strain, expected only one; rename or remove the other");
     EXPECT_EQ(refused(""), "t.csv:1: found no heading, expected strain and stress");
     // A row whose first value begins with # is not a comment.
     EXPECT_EQ(refused("strain,stress\n#0,0\n"), "t.csv:2: found '#0', expected a number for strain");

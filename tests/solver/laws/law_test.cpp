@@ -129,8 +129,9 @@ TEST(TwoMaterials, DampedInDifferentWaysAreRefused) {
         ADD_FAILURE() << "expected an error: the discs would not be damped";
     } catch (const InputError& error) {
         fmt::print("  {}\n", error.what());
-        EXPECT_NE(std::string(error.what()).find("found a damping ratio in one and dashpot coefficients in another"),
-                  std::string::npos);
+        EXPECT_NE(
+            std::string(error.what()).find("found a damping ratio in one material and dashpot coefficients in another"),
+            std::string::npos);
     }
 }
 

@@ -79,14 +79,14 @@ TEST_F(RockFile, RefusesWithFileLineAndKey) {
     expect_refused(tests_ + target_ + free + "start = 1\n", "a number between");
     expect_refused(
         tests_ + target_ + "[[free]]\nkey = \"material.cohesion\"\nof = \"material.density\"\nfrom = 1\nto = 2\n",
-        "the key of a [[free]] above this one");
+        "the key of an earlier [[free]] table");
     expect_refused(tests_ + target_ + free + "[packings]\nfit = 2\n", "a whole number, 4 to 10000");
     expect_refused(tests_ + target_ + free + "[[curve]]\ntest = \"tension\"\nfile = \"none.csv\"\n", "found no file");
     expect_refused(tests_ + target_ + free + "[speed]\n", "found an unknown key");
     expect_refused(tests_ + target_ + target_ + free, "peak_stress twice");
     expect_refused(tests_ + target_text("tension", "peak_stress.foo", 1) + free, "a figure of summary.json");
     expect_refused(tests_ + target_ + "[[free]]\nkey = \"loading.max_axial_strain\"\nfrom = 1e-3\nto = 1e-2\n",
-                   "a key of the rock, not one that only describes how it is tested");
+                   "a key that describes the rock, not how it is tested");
     expect_refused("[[test]]\nname = \"../evil\"\ncase = \"tension.toml\"\n" + free, "a name without /");
     expect_refused("[[test]]\ncase = \"compression.toml\"\nset = {\"material.cohesion\" = 1e7}\n" + target_ + free,
                    "which `set` of test compression gives a value");

@@ -73,7 +73,7 @@ TEST_F(OutcomesTest, AFolderThatCannotBeWrittenStopsItAndMarksNoTest) {
             ADD_FAILURE() << keep << ": it went on";
         } catch (const OutputError& error) {
             fmt::print("  {}\n", error.what());
-            EXPECT_NE(std::string(error.what()).find("; the same command resumes"), std::string::npos);
+            EXPECT_NE(std::string(error.what()).find("; run the same command again to resume"), std::string::npos);
         }
         const LedgerTable wrong =
             CampaignLedger::read(ledger_file(folder_ / name)).query("SELECT count(*) FROM test WHERE state <> 'done'");
@@ -218,7 +218,8 @@ TEST(RowKinds, TellResultsVerdictsAndFailuresOfTheSystemApart) {
         EXPECT_EQ(kind_of_row(state), RowKind::verdict) << state;
     for (const char* state : {row_failed, row_crashed}) EXPECT_EQ(kind_of_row(state), RowKind::failure) << state;
     EXPECT_EQ(spoken_wrong(3, 0), "3 gone wrong");
-    EXPECT_EQ(spoken_wrong(3, 1), "3 gone wrong, 1 of them because of the system: the same command runs it again");
+    EXPECT_EQ(spoken_wrong(3, 1),
+              "3 gone wrong, 1 of them because of a system error; run the same command again to repeat it");
 }
 
 }  // namespace

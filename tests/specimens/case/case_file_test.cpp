@@ -260,10 +260,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"HalfADashpot", "damping_ratio = 0.2\n", "normal_damping = 10\n",
                 ":6: material.shear_damping: found nothing"},
         Refusal{"TwoSpecimens", "[packing]", "[particles]\nfile = \"x\"\n[packing]",
-                ":3: packing: found a [particles] table, too"},
+                ":3: packing: found both [particles] and [packing]"},
         Refusal{"TwoTargets", "mean_overlap = 1e-4", "mean_overlap = 1e-4\nvoid_ratio = 0.2",
-                ":6: packing.void_ratio cannot be given here: mean_overlap is given as the target of the packing; "
-                "remove the key"},
+                ":6: packing.void_ratio cannot be given here: mean_overlap already determines how far the packing is "
+                "compressed; remove the key"},
         Refusal{"MeshWithoutBond", "[loading]", "[mesh]\nkind = \"voronoi\"\nthick = 1e-3\n[loading]",
                 "bond.thick: found nothing"},
         Refusal{"BondWithinTheGap", "[loading]",
@@ -286,7 +286,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "\"voronoi\"\nthick = 1e-3",
                 "packing.sizes: found \"sieve\", expected \"uniform\" or \"lognormal\""},
         Refusal{"GapOfBackTensionDerived", "[loading]", "[mesh]\nkind = \"voronoi\"\n[bond]\nthick = 1e-3\n[loading]",
-                "mesh.thick: found nothing, expected a number > 0 in m; with back-tension the excess"},
+                "mesh.thick: found nothing, expected a number > 0 in m; with back_tension, the amount"},
         Refusal{"BondThicknessOfADerivedGap", "[loading]",
                 "tensile_strength = 1\ncohesion = 2\n[mesh]\nkind = \"voronoi\"\n[bond]\nlaw = \"coulomb\"\nthick = "
                 "1e-3\n[loading]",

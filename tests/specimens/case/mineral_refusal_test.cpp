@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"OneTable", "[mineral]\nname = \"a\"\n",
                 ":16: mineral: found a table, expected a list of tables; write [[mineral]] above each"},
         Refusal{"Dashpot", "[[mineral]]\nname = \"a\"\nnormal_damping = 3\n",
-                ":18: mineral[1].normal_damping: found a dashpot although [material] has no dashpots"},
+                ":18: mineral[1].normal_damping: found a dashpot, while [material] has no dashpots"},
         Refusal{"NegativeSeed", "[minerals]\nseed = -1\n[[mineral]]\nname = \"a\"\n",
                 ":17: minerals.seed: found -1, expected a whole number >= 0"},
         Refusal{"AssignWord", "[minerals]\nassign = \"best\"\n[[mineral]]\nname = \"a\"\n",
@@ -129,7 +129,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"StrengthBesideAFactor",
                 "[bond]\nlaw = \"coulomb\"\ntensile_factor = 1\ncohesion_factor = 1\n[[mineral]]\nname = \"a\"\n"
                 "cohesion = 20\n",
-                ":22: mineral[1].cohesion cannot be given here: bond.cohesion_factor determines it for all bonds"},
+                ":22: mineral[1].cohesion cannot be given here: bond.cohesion_factor determines this strength for all "
+                "bonds"},
         Refusal{"ModulusOfAPoint", "[[mineral]]\nname = \"a\"\ncontact_modulus = 1e9\n",
                 ":18: mineral[1].contact_modulus needs units = \"area\"; add that, or remove the key"},
         Refusal{"PairOfOne", "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\"]\n",

@@ -179,8 +179,8 @@ TEST(StrengthEnvelope, OfTooLittleIsRefusedWithWhatThereIs) {
     std::vector<StrengthPoint> two_confinements;
     for (const StrengthPoint& test : tests)
         if (test.confinement < 0.07 * unconfined) two_confinements.push_back(test);
-    for (const auto& [few, found] : {std::pair(one_packing, "6 confinements of 1 packing,"),
-                                     std::pair(two_confinements, "2 confinements of 10 packings")}) {
+    for (const auto& [few, found] : {std::pair(one_packing, "6 confinements and 1 packing,"),
+                                     std::pair(two_confinements, "2 confinements and 10 packings")}) {
         try {
             fit_envelope(few);
             ADD_FAILURE() << "fitted";

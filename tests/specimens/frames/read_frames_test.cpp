@@ -86,7 +86,7 @@ TEST_F(Triangles, WhoseOffsetsDoNotRiseAreRefused) {
          {std::vector<double>{nan, 6}, {3, nan}, {4, 3}, {-1, 6}, {3, 7}, {3, infinite}}) {
         Arrays arrays;
         arrays.offsets = offsets;
-        expect_refused(arrays, "cell offsets decrease", [&] { read_polydata(file_); });
+        expect_refused(arrays, "found cell offsets that decrease", [&] { read_polydata(file_); });
     }
 }
 
@@ -94,7 +94,7 @@ TEST_F(Triangles, OfPointsThatAreNotThereAreRefused) {
     for (const double point : {nan, -1.0, 4.0, infinite}) {
         Arrays arrays;
         arrays.connectivity[4] = point;
-        expect_refused(arrays, "a cell refers to point", [&] { read_polydata(file_); });
+        expect_refused(arrays, "found a cell with point", [&] { read_polydata(file_); });
     }
 }
 

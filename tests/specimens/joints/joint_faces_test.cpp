@@ -135,7 +135,7 @@ TEST(JointFaces, OfCirclesLieOnTheTracesThatHaveMechanics) {
     EXPECT_EQ(specimen.scene.trace_joints, (std::vector<std::int32_t>{0, -1}));
     EXPECT_EQ(specimen.scene.trace_pieces.size(), 3u);
     ASSERT_EQ(specimen.traces.size(), 2u);
-    EXPECT_NE(specimen.notices.back().find("joints without mechanics (idle) change nothing among circles"),
+    EXPECT_NE(specimen.notices.back().find("joints without mechanical properties (idle) have no effect among circles"),
               std::string::npos);
     Scene scene = specimen.scene;
     scene.bond_law = BondLaw::coulomb;

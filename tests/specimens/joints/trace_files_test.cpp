@@ -79,7 +79,7 @@ TEST(TraceFiles, OtherKindsOfFileAreNamed) {
                                      {"<svg><path d='M0 0'/></svg>", "an SVG drawing"}})
         EXPECT_EQ(refused("a.csv", text), std::string("a.csv: found ") + kind +
                                               ", expected CSV (trace,x,y or x1,y1,x2,y2), DXF, or x1 y1 x2 y2 ... with "
-                                              "a trace per line; export it as one of them");
+                                              "one trace per line; export the file in one of these formats");
 }
 
 TEST(TraceFiles, ALayerIsReadAlone) {
@@ -115,7 +115,8 @@ TEST(TraceFiles, WhatIsWrongIsNamedWithItsLine) {
     EXPECT_NE(refused("a.txt", "0 0 1 1\n0 0 1\n").find("a.txt:2: found 3 numbers"), std::string::npos);
     EXPECT_NE(refused("a.txt", "0 0 1 x\n").find("a.txt:1: found 'x'"), std::string::npos);
     EXPECT_NE(refused("a.txt", "0 0 1 inf\n").find("a.txt:1: found 'inf'"), std::string::npos);
-    EXPECT_NE(refused("a.txt", "0 0 1 1e200\n").find("found '1e200', expected a number for y, 0 or of magnitude 1e-30"),
+    EXPECT_NE(refused("a.txt", "0 0 1 1e200\n")
+                  .find("found '1e200', expected a number for y that is 0 or has a magnitude from 1e-30"),
               std::string::npos);
     EXPECT_NE(refused("a.txt", "1 2 1 2\n").find("a.txt:1: found only traces whose points coincide"),
               std::string::npos);
@@ -130,7 +131,7 @@ TEST(TraceFiles, WhatIsWrongIsNamedWithItsLine) {
     EXPECT_NE(refused("a.csv", "trace,x,y\n1,0,0\n2,1,1\n").find("a.csv:2: found only traces whose points coincide"),
               std::string::npos);
     EXPECT_NE(refused("a.dxf", "hello\n").find("a.dxf:1: found 'hello', expected a group code"), std::string::npos);
-    EXPECT_NE(refused("a.dxf", "0\nSECTION\n2\nHEADER\n0\nENDSEC\n0\nEOF\n").find("no section ENTITIES"),
+    EXPECT_NE(refused("a.dxf", "0\nSECTION\n2\nHEADER\n0\nENDSEC\n0\nEOF\n").find("no ENTITIES section"),
               std::string::npos);
     EXPECT_NE(refused("a.dxf", std::string(dxf).substr(0, 300)).find("expected"), std::string::npos);
     EXPECT_NE(refused("a.dxf", "0\nSECTION\n2\nENTITIES\n0\nLINE\n10\nabc\n").find("a.dxf:8: found 'abc'"),

@@ -92,12 +92,13 @@ TEST(TestCheck, SaysWhereANumberLooksLikeAnotherUnit) {
     // Loading is faster than its waves, so the test becomes unstable within some tens of steps, however few steps it
     // takes per second.
     const std::string giga = warnings_of(area + "contact_modulus = 60\ntensile_strength = 1e-3\ncohesion = 1e-2", 5.0);
-    EXPECT_NE(giga.find("while steps were timed, unstable at step"), std::string::npos) << giga;
+    EXPECT_NE(giga.find("while the speed of stepping was measured, unstable at step"), std::string::npos) << giga;
     EXPECT_NE(giga.find("material.contact_modulus = 60 Pa is softer than any rock or soil: is it meant in GPa?"),
               std::string::npos)
         << giga;
     const std::string points = warnings_of("tensile_strength = 9e6\ncohesion = 66e6");
-    EXPECT_NE(points.find("strengths are in N per point here; in Pa they need units = \"area\""), std::string::npos)
+    EXPECT_NE(points.find("strengths are in N per contact point here; to give them in Pa, set units = \"area\""),
+              std::string::npos)
         << points;
     EXPECT_EQ(points.find("presses a corner in"), std::string::npos) << points;
     EXPECT_EQ(points.find("may end before"), std::string::npos) << points;

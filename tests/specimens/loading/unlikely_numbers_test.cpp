@@ -73,7 +73,7 @@ TEST(UnlikelyNumbers, MillimetresAreNoMetres) {
     large.height = 100.0;
     large.area = 5000.0;
     EXPECT_EQ(notices_of(granite(), large),
-              "the specimen is 50 m by 100 m, with grains of 2 m that are as stiff as rock: are its lengths meant in "
+              "the specimen is 50 m by 100 m, with grains of 2 m that are as stiff as rock: are its lengths given in "
               "mm? Values must be in m");
     ResolvedCase mass = granite();
     mass.joints.traces.emplace_back();

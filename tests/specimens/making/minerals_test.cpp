@@ -361,7 +361,7 @@ std::vector<FlawedImage> flawed_images() {
     return {
         {text("\000\000\000\004\000\000\000\003\010\002\000\000\000\073\226\071\221\000\000\000\000\111\105\116\104\256"
               "\102\140\202"),
-         "no chunk IDAT, hence no pixels"},
+         "no IDAT chunk and therefore no pixels"},
         {text("\000\000\000\004\000\000\000\003\010\002\000\000\000\073\226\071\221\000\000\000\025\111\104\101\124\147"
               "\141\162\142\141\147\145\147\141\162\142\141\147\145\147\141\162\142\141\147\145\177\366\030\341\000\000"
               "\000\000\111\105\116\104\256\102\140\202"),
@@ -385,7 +385,7 @@ std::vector<FlawedImage> flawed_images() {
         {text("\000\000\000\004\000\000\000\003\010\003\000\000\000\203\052\136\364\000\000\000\020\111\104\101\124\170"
               "\234\143\370\317\300\000\107\014\070\071\000\365\061\013\365\065\173\373\202\000\000\000\000\111\105\116"
               "\104\256\102\140\202"),
-         "palette colours without a chunk PLTE"},
+         "palette colours without a PLTE chunk"},
         {text("\000\000\000\004\000\000\000\003\010\002\000\100\000\313\357\166\224\000\000\000\020\111\104\101"
               "\124\170\234\143\370\317\300\000\107\014\070\071\000\365\061\013\365\065\173\373\202\000\000\000"
               "\000\111\105\116\104\256\102\140\202"),
@@ -418,10 +418,12 @@ TEST_F(MineralRock, ImagesThatAreMalformedAreToldWhy) {
     EXPECT_NE(refusal_of("GIF89a").find("because it has other data"), std::string::npos);
     std::string changed = whole;
     changed[whole.find("IDAT") + 6] ^= 1;
-    EXPECT_NE(refusal_of(changed).find("the chunk IDAT at byte"), std::string::npos) << refusal_of(changed);
+    EXPECT_NE(refusal_of(changed).find("a wrong checksum in the IDAT chunk at byte"), std::string::npos)
+        << refusal_of(changed);
     changed = whole;
     changed[8] = 1;
-    EXPECT_NE(refusal_of(changed).find("a chunk of 16777229 bytes at byte 8, beyond the end"), std::string::npos);
+    EXPECT_NE(refusal_of(changed).find("a chunk of 16777229 bytes at byte 8 that extends beyond the end"),
+              std::string::npos);
     EXPECT_EQ(refusal_of(changed).find("memory"), std::string::npos);
 }
 

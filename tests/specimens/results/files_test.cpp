@@ -359,7 +359,7 @@ TEST_F(TestFolder, KeepsEarlierResultsUntilNewOnesAreComplete) {
 
     EXPECT_NE(refusal([&] {
                   run_test(small_case(wanted), forced);
-              }).find("go on with `crackle test --resume " + (scratch_ / "out.new").string() + "`"),
+              }).find("resume it with `crackle test --resume " + (scratch_ / "out.new").string() + "`"),
               std::string::npos);
     expect_same(contents(scratch_ / "out"), earlier, "beside an unfinished test");
     forced.begins_again = true;
@@ -530,7 +530,7 @@ TEST_F(TestFolder, OfAnUnstableRunIsNamedInItsMessage) {
         ADD_FAILURE() << "ran to the end";
     } catch (const UnstableRun& error) {
         fmt::print("  {}\n", error.what());
-        EXPECT_NE(std::string(error.what()).find("output so far in " + (scratch_ / "out").string()), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("so far is in " + (scratch_ / "out").string()), std::string::npos);
     }
     EXPECT_TRUE(fs::exists(scratch_ / "out/summary.json"));
 }
@@ -542,7 +542,7 @@ TEST_F(TestFolder, SaysWhereItsNumbersAreNoResults) {
     const std::string notices =
         fmt::format("{}", fmt::join(*run_test(small_case(wanted), options("out")).summary.notices, "; "));
     fmt::print("  {}\n", notices);
-    EXPECT_NE(notices.find("exceeds the stable limit"), std::string::npos);
+    EXPECT_NE(notices.find("exceeds the stability limit"), std::string::npos);
     EXPECT_NE(notices.find("energy account does not close"), std::string::npos);
 }
 

@@ -93,7 +93,8 @@ TEST_F(CalibrateCommand, AnInterruptIsGoneOnFrom) {
                testing::strength_keys);
     const auto begun = [&] { return exists("out/search/campaign.sqlite"); };
     ASSERT_EQ(testing::interrupted_call(folder_, {"calibrate", "rock.toml", "-o", "out"}, SIGINT, begun), 130);
-    EXPECT_NE(read("err.txt").find("interrupted; the same command resumes"), std::string::npos) << read("err.txt");
+    EXPECT_NE(read("err.txt").find("interrupted; run the same command again to resume"), std::string::npos)
+        << read("err.txt");
     EXPECT_FALSE(exists("out/calibration.json"));
     EXPECT_NE(call("rock.toml -o out").code, 130);
     EXPECT_TRUE(exists("out/calibration.json"));

@@ -259,7 +259,8 @@ TEST_F(CampaignCommand, AnInterruptLosesAtMostTheTestsAtWork) {
         return exists("out/curves") && std::distance(fs::directory_iterator(folder_ / "out/curves"), {}) >= some;
     };
     ASSERT_EQ(interrupted_call(folder_, {"campaign", "plan.toml", "-o", "out"}, SIGINT, some_are_done), 130);
-    EXPECT_NE(read("err.txt").find("interrupted; the same command resumes"), std::string::npos) << read("err.txt");
+    EXPECT_NE(read("err.txt").find("interrupted; run the same command again to resume"), std::string::npos)
+        << read("err.txt");
     const Answer answer = call("plan.toml -o out");
     EXPECT_NE(answer.out.find(", 0 left; "), std::string::npos) << answer.out;
     EXPECT_EQ(answer.out.find("; 120 run now"), std::string::npos) << "finished tests were repeated: " << answer.out;
@@ -281,7 +282,8 @@ TEST_F(CampaignCommand, ExitCode4SaysThatTheSystemEndedTestsAndTheSameCommandRun
     const pid_t process = testing::started_call(folder_, {"campaign", "plan.toml", "-o", "out", "--workers", "1"});
     testing::kill_workers(process, 5);
     EXPECT_EQ(testing::ended_call(process), 4) << read("err.txt");
-    EXPECT_NE(read("out.txt").find(" of them because of the system: the same command runs "), std::string::npos)
+    EXPECT_NE(read("out.txt").find(" of them because of a system error; run the same command again to repeat "),
+              std::string::npos)
         << read("out.txt");
     EXPECT_NE(read("err.txt").find("crashed: its process was ended by signal 9"), std::string::npos) << read("err.txt");
     for (const char* means : {"show out", "show out --csv"}) EXPECT_EQ(call(means).code, 4) << "no mean without them";

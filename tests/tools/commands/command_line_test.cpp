@@ -181,7 +181,7 @@ TEST_F(CommandLines, ASmallStackIsRefused) {
     const Answer answer = shell("ulimit -s 128; crackle doctor");
     EXPECT_EQ(answer.code, 4);
     EXPECT_EQ(answer.err,
-              "crackle: found a stack of 128 KiB, expected at least 1024; raise the limit (ulimit -s 1024)\n");
+              "crackle: found a stack limit of 128 KiB, expected at least 1024; raise the limit (ulimit -s 1024)\n");
     EXPECT_EQ(shell("ulimit -s 1024; crackle doctor").code, 0);
 }
 
@@ -254,7 +254,7 @@ TEST_F(CommandLines, WordsThatAreNearlyRightAreGuessed) {
     expect_refused("pack --width wide", "the argument ('wide') for option '--width' is invalid, expected a number");
     expect_refused("doctor now", "found 'now', expected options alone");
     expect_refused("run one two", "found 'two', expected one DIR");
-    expect_refused("doctor -q -v", "found --quiet and --verbose, expected one of them");
+    expect_refused("doctor -q -v", "found --quiet and --verbose, expected only one of them");
     expect_refused("mesh rock.dat --kind", "crackle mesh: the required argument");
 }
 

@@ -197,15 +197,15 @@ class Outputs(unittest.TestCase):
         self.assertEqual(code, 0, said)
         self.assertIn("beyond loading.max_axial_strain = 1e-09", (self.work / "short/summary.json").read_text())
         done = subprocess.run([PROGRAM, "test", "--check", "short.toml"], cwd=self.work, capture_output=True, text=True)
-        self.assertIn("steps away, so the test overshoots it", done.stdout)
+        self.assertIn("steps, so the test overshoots it", done.stdout)
         self.assertNotIn("beyond loading.max_axial_strain", (self.work / "out/summary.json").read_text())
 
     def test_an_unfinished_test_is_neither_lost_nor_left_aside(self):
         shutil.copytree(self.work / "out", self.work / "out.new")
         (self.work / "out.new/replaces-older-results").write_text("")
         shutil.rmtree(self.work / "out.new/frames")
-        self.refused("test case.toml -o out -q --force", "out.new: found a test that is not finished, expected none beside out; go on with "
-                                                         "`crackle test --resume out.new`, or remove out.new to begin again")
+        self.refused("test case.toml -o out -q --force", "out.new: found an unfinished test that was to replace out, expected no such test; resume it with "
+                                                         "`crackle test --resume out.new`, or remove out.new to start again")
         code, said = crackle("test --resume out.new -q", self.work)
         self.assertEqual(code, 0, said)
         self.assertFalse((self.work / "out.new").exists())

@@ -70,7 +70,7 @@ TEST_F(CracklePack, RefusesBadInputInOneMessage) {
     const std::string count = "--count 60";
     expect_refused(sizes_ + target_, "expected either width and height or a count");
     expect_refused(count + target_, "sizes: found no option");
-    expect_refused(count + sizes_, "target of the packing: found none");
+    expect_refused(count + sizes_, "target of the packing: found neither");
     expect_refused(count + sizes_ + target_ + " --void-ratio 0.2", "found both");
     expect_refused("--count many" + sizes_ + target_, "many");
     expect_refused("--count -5" + sizes_ + target_, "count: found -5");

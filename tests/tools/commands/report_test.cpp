@@ -199,7 +199,7 @@ TEST_F(Report, NamesABodyThatIsNoWholeNumber) {
 
 TEST_F(Report, NamesBrokenJson) {
     replace_in(root / "test" / "summary.json", "\"kind\":", "\"kind\" ");
-    expect_refused("test -o page.html", {"test/summary.json: found broken JSON at byte"});
+    expect_refused("test -o page.html", {"test/summary.json: found malformed JSON at byte"});
 }
 
 TEST_F(Report, NamesANumberThatNoDoubleHolds) {
@@ -236,7 +236,7 @@ TEST_F(Report, NamesADamagedFrame) {
     const fs::path file = root / "test" / "frames" / "particles_00400.vtp";
     const std::string text = text_of(file);
     std::ofstream(file, std::ios::binary) << text.substr(0, text.size() / 2);
-    expect_refused("test -o page.html", {"particles_00400.vtp: found broken XML"});
+    expect_refused("test -o page.html", {"particles_00400.vtp: found malformed XML"});
 }
 
 TEST_F(Report, LeavesAFileThatIsNotAReportAlone) {

@@ -121,7 +121,7 @@ TEST_F(CrackleTest, CheckWarnsOfWhatWillGoWrong) {
     replace("case.toml", "thick = 1.0e-3", "thick = 1.0e-5");
     replace("case.toml", "thick = 1.08e-3", "thick = 9e-5");
     const std::string squeezed = call("--check case.toml").out;
-    EXPECT_NE(squeezed.find("at the estimated strength a platen presses a corner in by"), std::string::npos)
+    EXPECT_NE(squeezed.find("at the estimated strength, a platen presses a corner in by"), std::string::npos)
         << squeezed;
 }
 
@@ -137,7 +137,7 @@ TEST_F(CrackleTest, ResolvedCaseStatesTheDerivedGap) {
     replace("case.toml", "max_axial_strain = 0.005", "max_axial_strain = 1e-4");
     const Answer first = call("case.toml -o first");
     ASSERT_EQ(first.code, 0) << first.err;
-    EXPECT_NE(first.err.find("by default: 0.02 of the mean cell size"), std::string::npos) << first.err;
+    EXPECT_NE(first.err.find("by default: 0.02 times the mean cell size"), std::string::npos) << first.err;
     EXPECT_NE(read("first/case.toml").find("\nthick = 0.00"), std::string::npos) << read("first/case.toml");
     ASSERT_EQ(call("first/case.toml -o again -q").code, 0);
     EXPECT_EQ(read("first/curve.csv"), read("again/curve.csv"));
@@ -260,7 +260,7 @@ TEST_F(CrackleTest, FolderWithResults) {
 TEST_F(CrackleTest, WrongWords) {
     expect_refused("case.toml", "found no -o OUT");
     expect_refused("-o out", "found no CASE.toml");
-    expect_refused("case.toml --resume out", "expected one of them");
+    expect_refused("case.toml --resume out", "expected only one of the two");
     expect_refused("case.toml -o out --threads 0", "--threads: found 0");
     expect_refused("case.toml -o out --frobnicate", "frobnicate");
 }

@@ -90,7 +90,7 @@ TEST_F(UnusedOptions, OfParticlesThatNothingIsLeftOf) {
     expect_without_effect("view rock.dat -o page.html --seed 2", "--seed", "inputs without random circles");
     expect_without_effect("view rock.dat -o page.html --frames 2", "--frames", "particle files");
     const std::string deck = "'" + shipped_deck("circle").string() + "'";
-    expect_refused("run " + deck + " -o out --seed 2", "seed: found with");
+    expect_refused("run " + deck + " -o out --seed 2", "seed: found a seed");
     expect_without_effect("run " + deck + " --continue --force", "--force", "--continue without -o");
 }
 

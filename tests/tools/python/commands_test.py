@@ -313,7 +313,7 @@ class Tables(InScratch):
             ledger.execute("UPDATE figures SET peak_stress = 2 * peak_stress WHERE rowid = 1")
         campaign = crackle.read("by_python")
         for read in (lambda: campaign.results, campaign.points, campaign.figure):
-            with self.assertRaisesRegex(crackle.InputError, r"row \d \(tension, .*found other values than were recorded"):
+            with self.assertRaisesRegex(crackle.InputError, r"row \d \(tension, .*found values that differ from those recorded"):
                 read()
         self.assertEqual(crackle.campaign("plan.toml", "by_python", workers=2).results.peak_stress, results.peak_stress)
 

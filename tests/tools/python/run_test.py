@@ -175,7 +175,7 @@ class Callbacks(InScratch):
         self.assertEqual(result.summary["ended_by"], "caller")
         top = int(numpy.argmax(strain[:len(strain) // 2]))
         self.assertLess(strain[top:].min(), 0.000025)
-        self.assertTrue(any("has set the speed of the driving part since a strain of" in text for text in result.summary["notices"]))
+        self.assertTrue(any("has controlled the speed of the driving part since a strain of" in text for text in result.summary["notices"]))
         modulus = result.summary["youngs_modulus"]
         # Loading at 0.02 1/s begins from rest: the jump of the platen's speed v sends a wave of stress sqrt(E ρ) v.
         wave = 2.0 * (modulus * CASE["material"]["density"]) ** 0.5 * 0.02 * result.summary["initial_height"]
@@ -194,7 +194,7 @@ class Callbacks(InScratch):
             state.platen_speed = 0.0
         with self.assertRaises(crackle.InputError) as refused:
             crackle.test(CASE, call=halt)
-        self.assertIn("no row is reached while the platen is at rest", str(refused.exception))
+        self.assertIn("no further row is reached while the platen is at rest", str(refused.exception))
 
         def nothing(state):
             state.platen_speed = float("nan")

@@ -110,7 +110,7 @@ void require_like_scale(const LabelledCurve& measured, const std::vector<CurveBu
                                 bundles.front().stress_unit);
 }
 
-/// Stress-strain curves of the points of one test; without panels if no curves are kept.
+/// Stress-strain curves of the points of one test. The figure has no panels if the campaign kept no curves.
 CampaignFigure curve_figure(const CampaignRecord& record, const std::string& test, const Points& points) {
     CampaignFigure figure{"curve", test, "", {}};
     if (!is_folder(record.folder / "curves") && !is_folder(record.folder / "tests")) return figure;
@@ -121,8 +121,9 @@ CampaignFigure curve_figure(const CampaignRecord& record, const std::string& tes
     const auto counts = std::minmax_element(
         bundles.begin(), bundles.end(), [](const auto& a, const auto& b) { return a.curves.size() < b.curves.size(); });
     const std::size_t fewest = counts.first->curves.size(), most = counts.second->curves.size();
-    const std::string some =
-        points.size() > bundles.size() ? fmt::format("; the first {} of {} points", bundles.size(), points.size()) : "";
+    const std::string some = points.size() > bundles.size() ? fmt::format("; only the first {} of {} points are shown",
+                                                                          bundles.size(), points.size())
+                                                            : "";
     figure.caption =
         fmt::format("{}: the median of {}, and the range of the middle 80 %{}", test,
                     fewest == most ? counted(most, "packing") : fmt::format("{} to {} packings", fewest, most), some);

@@ -205,7 +205,7 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
     removed together with the Result, but kept if the test does not run to its end; the exception then names it. force:
     replace existing results. verify: also run companion tests, to state errors of strength and strain. profile: time the
     phases of a step. threads: number of threads; results do not depend on it. long: run the test even if it takes more
-    than a day. allow_unstable: accept a time step above the stable bound.
+    than a day. allow_unstable: accept a time step above the stability limit.
 
     call: a function called with the State of the test. every = "row": at each row by which peak and failure are judged, of
     which curve.csv has output.curve_rows; every = N: at each multiple of N steps. It is not called at the row at which the
