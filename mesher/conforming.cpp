@@ -211,9 +211,8 @@ class Conforming {
     [[noreturn]] void refuse_narrow(int trace, int other, Point at, const std::string& what) const {
         std::vector<int> named{trace};
         if (other >= 0 && other != trace) named.push_back(other);
-        const std::string beside = other < 0        ? "a wall"
-                                   : other == trace ? "another part of it"
-                                                    : fmt::format("trace {}", other);
+        std::string beside = other < 0 ? "a wall" : fmt::format("trace {}", other);
+        if (other == trace) beside = "another part of it";
         throw MeshError(
             fmt::format(
                 "mesh: found trace {} and {} {} at ({:.9g}, {:.9g}), expected at least {:.4g} ({} of the mean spacing) "

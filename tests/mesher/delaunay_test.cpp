@@ -2,9 +2,12 @@
 // Tests Delaunay triangles: empty circumcircles, the guide's number of triangles, flat faces on request, and gaps of
 // exactly `thick`.
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <set>
+#include <tuple>
+#include <vector>
 
 #include "mesher/partition.hpp"
 #include "tests/mesher/centres.hpp"

@@ -126,7 +126,7 @@ TEST_F(OwnLoading, RowsFollowThePlatenBackAndForth) {
     const double down = static_cast<double>(rows.end() - top) / 1e-4;
     EXPECT_NEAR(down / up, 1.0, 0.02);
     EXPECT_TRUE(std::ranges::any_of(test.setup.origin.notices, [](const std::string& text) {
-        return text.find("since strain 0.0002") != std::string::npos;
+        return text.find("since a strain of 0.0002") != std::string::npos;
     }));
 }
 
@@ -154,7 +154,7 @@ TEST_F(OwnLoading, RefusesASpeedOfAPartThatIsNotDrivenAtOne) {
     for (const DofControl& along : {DofControl{}, DofControl{Drive::force, 10.0}}) {
         const DofControl dof[3] = {along, along, still};
         set_control(test.world, test.setup.apparatus.top, dof, 0);
-        EXPECT_NE(testing::refusal([&] { set_platen_speed(test, speed); }).find("driven at a velocity"),
+        EXPECT_NE(testing::refusal([&] { set_platen_speed(test, speed); }).find("driven at a given velocity"),
                   std::string::npos);
     }
     const DofControl dof[3] = {still, still, still};

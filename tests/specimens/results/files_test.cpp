@@ -400,7 +400,7 @@ TEST_F(TestFolder, OfAForcedTestThatOnlyHasToTakeItsPlaceDoesSo) {
     std::ofstream(scratch_ / "out.new/replaces-older-results") << "";
     fs::create_directories(scratch_ / "out");
     std::ofstream(scratch_ / "out/curve.csv") << "mine\n";
-    EXPECT_NE(refusal([&] { resume_test(options("out.new")); }).find("out: found curve.csv, expected results"),
+    EXPECT_NE(refusal([&] { resume_test(options("out.new")); }).find("out: found curve.csv, expected only results"),
               std::string::npos);
     EXPECT_EQ(read_file(scratch_ / "out/curve.csv"), "mine\n");
 }
@@ -496,7 +496,7 @@ TEST_F(TestFolder, IsRefusedWhereAnInputOrForeignFilesWouldBeReplaced) {
     TestOptions forced = options("out");
     forced.force = true;
     EXPECT_NE(
-        refusal([&] { run_test(small_case(), forced); }).find("out.new: found case.toml, expected no other files"),
+        refusal([&] { run_test(small_case(), forced); }).find("out.new: found case.toml, expected only new results"),
         std::string::npos);
     fs::remove_all(scratch_ / "out.new");
     std::ofstream(scratch_ / "out/frames/holiday.png") << "mine\n";

@@ -363,7 +363,7 @@ class Changes(InScratch):
             world.drive(platen, 0.0, drive, 0.0)
             with self.assertRaises(crackle.InputError) as refused:
                 world.platen_speed = speed
-            self.assertIn("driven at a velocity", str(refused.exception))
+            self.assertIn("driven at a given velocity", str(refused.exception))
         world.drive(platen, 0.0, 0.0, 0.0)
         world.platen_speed = speed
         self.assertEqual(world.platen_speed, speed)
