@@ -51,7 +51,8 @@ std::vector<StrengthOfCores> read_measured_strengths(const std::filesystem::path
 /// @param example a heading with a unit, for the message @throws InputError that names the file and the column
 void require_like_scale(const std::string& file, const char* column, double found, double computed,
                         const std::string& unit, const char* example);
-/// Requires like scales on both axes of a curve. @param strain, stress largest values of the computed curves, stress in `unit`
+/// Requires like scales on both axes of a curve. @param strain, stress largest values of the computed curves, stress in
+/// `unit`
 void require_like_scale(const std::string& file, const StrainsAndStresses& measured, double strain, double stress,
                         const std::string& unit);
 

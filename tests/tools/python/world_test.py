@@ -347,7 +347,7 @@ class Changes(InScratch):
         self.assertEqual(len(world.notices), 1)
         self.assertIn("inertia and dashpots carry part of the stress", world.notices[0])
         world.platen_speed = 0.5 * world.platen_speed
-        self.assertIn("since strain 0", world.notices[-1])
+        self.assertIn("since a strain of 0", world.notices[-1])
 
     def test_particles_have_no_platens(self):
         world, *_ = self.unbonded()
