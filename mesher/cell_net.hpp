@@ -56,8 +56,8 @@ class CellNet {
     /// Whether the cell is convex. Flat corners, which lie on the line between their neighbours, are ignored.
     bool convex(const Loop& l) const;
     double area(const Loop& l) const;
-    /// Union of two cells across their common edges, which must be consecutive. Empty if the common edges are not
-    /// consecutive, or if one of them lies on a trace.
+    /// Union of two cells across their common edges; empty if those edges are not consecutive or if one of them lies on
+    /// a trace.
     static Loop together(const Loop& a, const Loop& b);
     /// Part of a cell's outline between the corners at positions `begin` and `end`, closed by a straight edge.
     static Loop part_of(const Loop& l, std::size_t begin, std::size_t end);

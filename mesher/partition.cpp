@@ -310,8 +310,8 @@ void Partition::contract_zero_edges() {
             if (length < zero) parent[root(member(f))] = root(member(g));
         }
     }
-    // All members of a cluster are moved to the member that lies on the largest number of walls; ties are resolved by
-    // coordinates, independent of the numbering of faces.
+    // All members of a cluster are moved to the member that lies on the largest number of walls. Ties are broken by
+    // coordinates, so the result does not depend on how the faces are numbered.
     const auto walls = [this](Point p) {
         return (p.x == domain_.x1 || p.x == domain_.x2 ? 1 : 0) + (p.y == domain_.y1 || p.y == domain_.y2 ? 1 : 0);
     };

@@ -26,8 +26,9 @@ class UnreadableFile : public InputError {
     using InputError::InputError;
 };
 
-/// Whether an error number concerns the given path (missing, a folder, no permission) and persists until the user
-/// changes something. All other errors are system failures.
+/// Whether a value of errno means that the given path is at fault, for example because it is missing, is a folder or
+/// must not be accessed. The error then persists until the user changes something. All other errors are system
+/// failures.
 bool is_about_the_path(int error);
 
 /// Throws the error for a file that cannot be read. @param error errno of the failed call; 0 counts as an input error

@@ -21,10 +21,11 @@ class DeckReader;
 /// positions.
 /// @param scene determines the order of the bodies
 void write_contacts(std::ostream& out, const Scene& scene, const World& world);
-/// Restores the contacts in a newly built world. A point may be listed under either of its bodies. A listed point that
-/// the world lacks is ignored if it can have opened by more than the neighbour-list skin in the last step. @throws
-/// InputError if any other listed point does not exist, if a point is listed twice, or if a contact with a wall is
-/// bonded
+/// Reads in_cf.dat and restores its contacts and bonds in a newly built world. A point may be listed under either of
+/// its bodies. An unbonded point that the world does not contain is ignored if it may have opened by more than the
+/// neighbour-list skin in the last step.
+/// @throws InputError if any other listed point does not exist, if a point is listed twice, or if a contact with a wall
+/// is bonded
 void read_contacts(DeckReader& reader, const Scene& scene, World& world);
 
 /// Writes in_cf0.dat: the back-tensions -k_n δ0, by body. In a world without bonds, writes the back-tensions that

@@ -63,7 +63,7 @@ bool parse_number(std::string_view word, double& value) {
         word.remove_prefix(1);
         if (word.starts_with('-')) return false;
     }
-    // from_chars would accept "inf" and "nan", so letters other than the exponent's are refused.
+    // The only letters accepted are those that begin an exponent, because from_chars would also accept "inf" and "nan".
     std::string plain;
     for (char c : word) {
         if (c == 'd' || c == 'D' || c == 'E' || c == 'q' || c == 'Q') c = 'e';

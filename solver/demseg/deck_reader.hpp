@@ -30,7 +30,8 @@ class DeckReader {
     /// Opens a file. @throws InputError if it cannot be read
     static DeckReader open(const std::filesystem::path& path);
 
-    /// Begins DEMseg's next READ statement on a new line. Ignores the rest of the current line.
+    /// Call this where DEMseg begins a new READ statement. If values were read since the last call, ignores the rest of
+    /// the current line.
     void begin_read();
     /// Whether at least `count` more numbers follow on the current line.
     bool numbers_follow(int count) const;

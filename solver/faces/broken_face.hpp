@@ -193,8 +193,8 @@ inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceL
     face.face = index;
     face.in_shear = in_shear;
     face.taken = taken;
-    // Change of the sum of both pressures with weights a, per unit of q_n or q_t; b are the weights of q_n or q_t in
-    // the dilations of the cells.
+    // L (P_i a_i b_i + P_j a_j b_j), with P = per_area: change of a_i p_i + a_j p_j per unit of q_n or q_t, if A_i e_i
+    // changes by L b_i and A_j e_j by L b_j.
     const auto answer = [&](double a_i, double a_j, double b_i, double b_j) {
         return s.length * (cell_i.per_area * a_i * b_i + cell_j.per_area * a_j * b_j);
     };

@@ -81,8 +81,8 @@ bool face_replaces_points(const World& world, BodyIndex i, BodyIndex j) {
     const FaceSprings s = faces.springs[k];
     const BondFaceMotion m = motion_of(faces.place[k], world.bodies.state[faces.bodies[k].body_i],
                                        world.bodies.state[faces.bodies[k].body_j]);
-    // The margins cause the points to be listed in advance, so that few faces require an additional rebuild of the
-    // neighbour list.
+    // With these margins on sliding and rotation, contact points are listed before they are needed. Few faces then
+    // require an additional rebuild of the neighbour list.
     BondFaceMotion least = m;
     least.sliding = std::abs(m.sliding) + world.list.half_skin_of(i) + world.list.half_skin_of(j);
     least.turn = std::abs(m.turn) + turn_ahead;

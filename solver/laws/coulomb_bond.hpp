@@ -139,8 +139,8 @@ struct CoulombBond {
         return break_bond(law, strength_of(law, p), before, forces_now(law, p), p.overlap, p.bond_overlap);
     }
 
-    /// Limits under proportional loading: the limit in tension or in shear, whichever is reached first. @param law the
-    /// point's law, including its strength factor
+    /// Limits of a bond whose forces grow in proportion to strain. It breaks in tension or in shear, whichever limit is
+    /// reached first, and never slides before. @param law the point's law, including its strength factor
     static ElasticLimits elastic_limits(const ContactLaw& law, double /*bond_overlap*/, bool /*held*/,
                                         const BondGrowth& growth) {
         const double parts = strain_of_loss(law.tensile_strength, growth.normal);

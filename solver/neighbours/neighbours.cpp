@@ -17,8 +17,9 @@ namespace crackle {
 namespace {
 
 /// Number of steps for which a neighbour list should last in a bonded world. Building a list and computing the bound on
-/// the time step cost as much as 30 steps. When lists lasted for 200 steps, this took 8 % of the time of a test with
-/// 300 discs. Lists that last much longer need a wider skin, and would include corners of polygons that never touch.
+/// the time step cost as much as 45 steps (rebuild_steps). When lists lasted for 200 steps, this took 8 % of the time
+/// of a test with 300 discs. Lists that last much longer need a wider skin, and would include corners of polygons that
+/// never touch.
 constexpr double list_lasts = 1000.0;
 /// Number of steps between checks whether a narrower skin would suffice.
 constexpr std::int64_t look_interval = 64;

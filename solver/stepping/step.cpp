@@ -182,7 +182,7 @@ void step(World& world) {
     // Computes and sums forces, and moves free bodies.
     chosen_sweep()(world, {world, features_of(world)}, motion.move, motion.kick);
     world.bodies.forces_clear = motion.clears_forces;
-    account_forces(world);  // records breaks, losses and the work of driven bodies
+    account_forces(world);  // records breaks, energy losses and the work done by driven bodies
     const PhaseTimer timer(world.workers.profile, Phase::integrate);
     const Speeds speeds = move_remaining(world, motion);  // moves driven bodies and those left in place
     end_step(world, speeds);                              // updates time and driven bodies, and checks the run

@@ -15,7 +15,7 @@ namespace crackle {
 struct LossBlock {
     double dashpot = 0.0, friction = 0.0, law = 0.0;  // J
     std::uint32_t broken = 0;
-    // Number of points that have begun to carry load but are not yet counted in StepControl::step_bound.
+    // Number of points that have begun to carry load but are not yet accounted for in StepControl::step_bound.
     std::uint32_t gained = 0;
 
     CRACKLE_FIELDS(dashpot, friction, law, broken, gained);

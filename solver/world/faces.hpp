@@ -169,7 +169,8 @@ struct BrokenFace {
     CRACKLE_FIELDS(face, in_shear, alone, slip, slipped, glued, held, energy, taken, last);
 };
 
-/// Contact of the edges of a broken face, at a given pressure p̄ of its cells.
+/// Pressure, energies and opening where the two edges of a broken face touch, for a given pressure p̄ of its cells. q is
+/// the share of the face in the contact of its bodies; contact points have the rest (faces/hand_over.hpp).
 struct BrokenContact {
     LapPressure lap;
     double stretch;  // q_n, m
@@ -219,7 +220,9 @@ struct Faces {
     bool has_pressure = false;  // whether any cell has a pressure
     std::vector<BrokenFace> broken;
     std::vector<HandOver> hand_over;
-    Array<float> whole_share;  // for each point: its stiffness_share at q = 0; empty if no points replace faces
+    // For each point: its stiffness_share if points have replaced the face entirely (q = 0, with q the share of the
+    // face as in faces/hand_over.hpp). Empty if no points replace faces.
+    Array<float> whole_share;
 
     // 1/s² and 1/s: upper bounds on the eigenvalues of M^-½KM^-½ and M^-½CM^-½, computed as if all faces were intact.
     double stiffness_bound = 0.0, damping_bound = 0.0;

@@ -24,8 +24,8 @@ struct Determination {
 /// Whether an interval fills nearly the whole range between the bounds and therefore adds no information.
 bool fills(double low, double high, double least, double most);
 
-/// Applies the singular value decomposition to the slopes. A singular direction is open, that is undetermined, if a
-/// step along it changes every target by less than half its tolerance.
+/// Finds the open directions and the standard errors from a singular value decomposition of the slopes. A right
+/// singular vector is an open direction if a step along it changes every target by less than half its tolerance.
 /// @param slopes  derivatives of the targets, in tolerances: one row per target, one column per variable
 /// @param covariance  covariance of the targets' errors, in tolerances squared
 Determination determine(const Eigen::MatrixXd& slopes, const Eigen::MatrixXd& covariance, double step);

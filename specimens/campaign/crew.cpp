@@ -64,7 +64,7 @@ void keep_only(int line) {
 
 constexpr int failed_worker = 70;  // sysexits.h: internal software error
 
-/// Main loop of a worker: processes pieces until the parent closes the socket.
+/// Main loop of a worker: processes work items until the parent closes the socket.
 [[noreturn]] void serve(int line, const CrewWork& crew) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     // Signals to the whole process group (Ctrl-C, scancel) are left to the parent, which decides when the workers stop;
@@ -79,7 +79,8 @@ constexpr int failed_worker = 70;  // sysexits.h: internal software error
         }
     } catch (const std::bad_alloc&) {
         std::_Exit(worker_without_memory);
-    } catch (...) {  // frames of the parent must not be unwound here; the piece is reported as one whose process ended
+    } catch (...) {
+        // The parent's stack frames must not be unwound here. The work item is reported as failed, with this exit code.
         std::_Exit(failed_worker);
     }
     std::_Exit(0);
@@ -225,7 +226,7 @@ class Crew {
         crew_.ended(piece, end);
     }
 
-    /// Reports the piece of a worker whose process has ended, and replaces the worker.
+    /// Reports the work item of a worker whose process has ended as failed, and replaces the worker.
     void lose(std::unique_ptr<Worker>& worker) {
         const std::size_t piece = worker->piece();
         PieceEnd end;

@@ -106,8 +106,8 @@ class CampaignLedger {
     void require_whole_plan() const;
     /// @throws InputError if the plan or a test has changed since it was recorded; the message names the first one
     void require_whole() const;
-    /// Results of the present plan, one row per row of the plan: row, test, axes, seed, variant, identity, state,
-    /// processor time, figures by name.
+    /// Results of the present plan, one row for each row of the plan. The columns are row, test, one for each axis,
+    /// seed, variant, identity, state, processor_seconds, and one for each figure, with its name in summary.json.
     /// @throws InputError under the same conditions as require_whole(), and if a row lacks its test, seed, variant or
     /// identity
     LedgerTable results() const;

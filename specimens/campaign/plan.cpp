@@ -93,7 +93,8 @@ ResolvedCase Plan::test_of(const PlanRow& row) const {
                                       .step = row.variant == Variant::half_step ? 0.5 : 1.0});
 }
 
-// Makes the case of every point, so that no test runs before all cases are known to be valid.
+// Resolves the case of every point, so that errors in any case are found before the first test runs. Also stores the
+// keys of the case's random seeds in the point.
 void judge_points(Plan& plan) {
     for (PlanPoint& point : plan.points) {
         const PlannedTest& kind = plan.tests[point.test];

@@ -37,9 +37,9 @@ struct BValue {
     double distance = std::numeric_limits<double>::quiet_NaN();
     bool straight = false;
 
-    /// Whether there are enough magnitudes for a value of b.
+    /// Whether there are enough events to estimate the b-value.
     bool known() const { return events >= fewest_magnitudes; }
-    /// Whether the value is based on few magnitudes.
+    /// Whether the b-value is estimated from few events.
     bool of_few() const { return events < few_magnitudes; }
 };
 

@@ -13,10 +13,10 @@
 // bodies cancel. The tensor with the largest scalar moment during the event is kept. The method follows Hazzard & Young
 // (Int. J. Rock Mech. Min. Sci. 37, 2000; 41, 2004).
 //
-// Forces are taken after every force pass, so no break is missed. In the pass that finds a break, they are still the
-// forces before the break. Only the force of the broken bond is missing; it is stored with the break. The window is
-// meaningful only if masses are physical and damping is light. Otherwise particles do not vibrate, and waves decay
-// within the source.
+// Forces are recorded after every force pass, so no break is missed. In the pass that detects a break, all other forces
+// are still those before the break. The force of the broken bond itself is taken from the record of the break. The
+// window is meaningful only if masses are physical and damping is light. Otherwise particles do not vibrate, and waves
+// are damped out within the source.
 // Tested by tests/specimens/emission/listener_test.cpp.
 #pragma once
 

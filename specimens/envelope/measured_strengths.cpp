@@ -137,8 +137,8 @@ class Collection {
                               : std::string("its curve was not kept; set keep = \"curves\" under [run] in the plan");
         }
         if (!pulled && measure.figure != "peak_stress") return "has no " + measure.figure;
-        return "did not fail before loading.max_axial_strain (for tests that harden, use --figure largest_stress or "
-               "--strain)";
+        return "did not fail before loading.max_axial_strain (for specimens that harden, use --figure largest_stress "
+               "or --strain)";
     }
 
     void require_same(const StrengthTest& test, const std::string& unit) const {

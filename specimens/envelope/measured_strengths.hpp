@@ -19,7 +19,7 @@ namespace crackle {
 
 /// The stress that counts as the strength of a compression test; tensile strengths are always peaks.
 struct StrengthMeasure {
-    /// Name of a stress in summary.json, for example largest_stress for tests that harden.
+    /// Name of a stress in summary.json, for example largest_stress for specimens that harden.
     std::string figure = "peak_stress";
     std::optional<double> strain = {};  ///< if set, the strength is the stress at this axial strain
 

@@ -31,14 +31,14 @@ struct StrengthPoint {
     double confinement = 0.0, strength = 0.0;  // σ3, σ1
 };
 
-/// A fitted number with its interval. Strengths are in the unit of the tests' stresses.
+/// A fitted number with its 95 % interval. Strengths are in the unit of the tests' stresses.
 struct FittedNumber {
     double value = std::numeric_limits<double>::quiet_NaN();
-    double low = std::numeric_limits<double>::quiet_NaN();  ///< ends of the 95 % interval
+    double low = std::numeric_limits<double>::quiet_NaN();  ///< lower end of the interval
     double high = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Strengths at one confinement, in the unit of the tests' stresses.
+/// Mean and scatter of the strengths at one confinement, in the unit of the tests' stresses.
 struct StrengthAt {
     double confinement = 0.0;
     std::size_t tests = 0;

@@ -97,12 +97,13 @@ void take_frame(const World& world, const BondRecord& bonds, const ContactHistor
 /// as thirty steps, and needs 170 bytes of memory per circle.
 std::int64_t default_frames(std::int64_t bodies, std::int64_t curve_rows);
 
-std::string particles_file(std::int64_t row);  ///< name of the file of particles: "particles_00042.vtp"
-/// Name of the file of contacts: "contacts_00042.vtp".
+/// Name of the particle file, e.g. "particles_00042.vtp".
+std::string particles_file(std::int64_t row);
+/// Name of the contact file, e.g. "contacts_00042.vtp".
 std::string contacts_file(std::int64_t row);
-/// Name of the file of cracks: "cracks_00042.vtp".
+/// Name of the crack file, e.g. "cracks_00042.vtp".
 std::string cracks_file(std::int64_t row);
-/// Name of the file of joint faces, "joints_00042.vtp"; jointed specimens only.
+/// Name of the file of joint faces, e.g. "joints_00042.vtp"; jointed specimens only.
 std::string joints_file(std::int64_t row);
 /// Whether a file name in frames/ is that of a frame.
 bool is_picture(const std::string& name);

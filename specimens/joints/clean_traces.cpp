@@ -281,7 +281,8 @@ class TraceCleaner {
         std::sort(pairs.begin(), pairs.end());
         taken_.clear();
         for (const auto& [i, j] : pairs) attract(all[i], all[j]);
-        if (taken_.empty()) {  // there are no edges to route through the ends of others
+        // Edges that cross or run side by side are joined only in a pass that routes no edge through an end of another.
+        if (taken_.empty()) {
             for (const auto& [i, j] : pairs) {
                 if (const auto crossing = crossing_of(all[i], all[j]))
                     cross_at(all[i], all[j], *crossing);

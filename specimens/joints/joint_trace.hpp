@@ -28,7 +28,7 @@ struct JointTrace {
     /// Line of the file where the trace begins (for joined rows, the first row); 0 if it is not from a file.
     int row = 0;
 
-    /// Length along the points, m.
+    /// Length of the polyline, m.
     double length() const { return length_of(points); }
 };
 

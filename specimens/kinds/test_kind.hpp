@@ -8,10 +8,10 @@
 //   scb                             half a disc with a notch on two supports (semi-circular bend)        scb.cpp
 //   direct_shear                    a block in two half boxes; the upper is pressed and moved along    direct_shear.cpp
 //
-// For every kind, stress is the force exerted by the specimen on the driving part in its direction of travel, divided
-// by `section`. Axial strain is the displacement of the driving part divided by `length`. Both are nominal values; the
-// formulas in the file of each kind convert them to the usual strengths. Each kind consists of one file and one row in
-// specimens/case/kinds/test_kind.hpp.
+// For every kind, stress is the force that the driving part exerts on the specimen, divided by `section`; it is
+// positive in the direction of travel of the driving part. Axial strain is the displacement of the driving part divided
+// by `length`. Both are nominal values; the formulas in the file of each kind convert them to the usual strengths. Each
+// kind consists of one file and one row in specimens/case/kinds/test_kind.hpp.
 // Tested by tests/specimens/kinds/test_kind_test.cpp.
 #pragma once
 

@@ -7,7 +7,8 @@
 
 namespace crackle {
 
-/// Number of steps and run time in seconds up to an axial strain, at the initial rate.
+/// Number of steps and run time in seconds up to an axial strain, including unloading, at the strain rate that the case
+/// gives. If a tolerance controls the rate, it is the initial rate.
 struct RunEstimate {
     double strain = 0.0;
     double steps = 0.0, seconds = 0.0;

@@ -308,7 +308,7 @@ class LoadingLoop {
     std::int64_t judged_per_written_;
     UnloadRule unload_rule_;
     LateralRule lateral_rule_;
-    double whole_travel_;  // strain travelled in the whole test, including unloadings
+    double whole_travel_;  // cumulative absolute strain of the whole test, including unloading
     double row_spacing_, frame_spacing_, checkpoint_interval_;
     Clock::time_point begun_, last_checkpoint_, last_progress_;
     std::int64_t steps_between_clock_checks_, first_step_;

@@ -28,10 +28,10 @@ void set_platen_speed(VirtualTest& test, double speed) {
     const parts::Loading& loading = test.description.loading;
     if (!std::isfinite(speed)) throw InputError(fmt::format("platen speed: found {}, expected a number in m/s", speed));
     if (loading.unloads() || loading.by_lateral_strain()) {
-        throw InputError(
-            fmt::format("platen speed: found a speed set by the caller while the case controls loading by {}, expected "
-                        "only one of them; remove the key from the case",
-                        loading.unloads() ? "a list of unloadings" : "lateral strain"));
+        throw InputError(fmt::format(
+            "platen speed: found a speed set by the calling program and a case that controls loading by {}, "
+            "expected only one of them; to set the speed, remove that control from the case",
+            loading.unloads() ? "a list of unloadings" : "lateral strain"));
     }
     TestSetup& setup = test.setup;
     if (!driven_at_velocity(test.world, setup.apparatus.top, setup.apparatus.axis)) {

@@ -61,8 +61,9 @@ void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& 
     if (world.bodies.size() > most_bodies_solved) {
         note_no_small_strain(
             test,
-            fmt::format("found {} bodies, but a test computes this modulus only for at most {}; use `crackle elastic`",
-                        world.bodies.size(), most_bodies_solved));
+            fmt::format(
+                "found {} bodies, expected at most {} for computing this modulus in a test; use `crackle elastic`",
+                world.bodies.size(), most_bodies_solved));
         return;
     }
     try {

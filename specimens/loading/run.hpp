@@ -18,11 +18,11 @@ namespace crackle {
 /// Options for running a test and writing its results.
 struct TestOptions {
     std::filesystem::path folder;  ///< output folder, OUT
-    bool force = false;
-    bool begins_again = false;  ///< whether to discard, with `force`, what an unfinished test left in OUT.new
-    bool verify = false;        ///< whether to carry out the companion runs (specimens/loading/companions.hpp)
-    bool profile = false;       ///< whether to time the phases of a step, for the summary
-    int threads = 0;            ///< number of threads; 0: the number given in the case
+    bool force = false;            ///< whether to replace earlier results in OUT
+    bool begins_again = false;     ///< with `force`: whether to discard the files of an unfinished test in OUT.new
+    bool verify = false;           ///< whether to carry out the companion runs (specimens/loading/companions.hpp)
+    bool profile = false;          ///< whether to time the phases of a step, for the summary
+    int threads = 0;               ///< number of threads; 0: the number given in the case
     // Upper limit on the number of threads. Results do not depend on it.
     int most_threads = 1024;
     std::string most_threads_why;  ///< reason for the limit, used in a notice

@@ -26,7 +26,7 @@ struct VirtualTest {
     /// Contacts that carry load at the start of loading, as used in linear solutions: only bonds, or also contacts that
     /// the normal force of a shear test has closed.
     ClosedPoints closed = ClosedPoints::bonded;
-    double specimen_seconds = 0.0;  ///< wall-clock time spent on making the specimen, s
+    double specimen_seconds = 0.0;  ///< wall-clock time that it took to make the specimen, s
 };
 
 }  // namespace crackle

@@ -3,13 +3,13 @@
 // coalesce (Brace, Paulding & Scholz, J. Geophys. Res. 71, 1966; Martin & Chandler, IJRMMS 31, 1994).
 //
 // Crack damage is where the area strain ε_A = ε_axial - ε_lateral (the 2D counterpart of volumetric strain) is largest
-// up to the peak. Its curve is flat there, so the main value is the middle of the range of stresses in which ε_A is
-// within 2 % of its largest value. The error is half the width of this range. The stress at the largest ε_A is given as
-// a second value.
+// up to the peak. Its curve is flat there, so the preferred estimate is the middle of the range of stresses in which
+// ε_A is within 2 % of its largest value. The error is half the width of this range. The stress at the largest ε_A is
+// given as a second value.
 //
 // Crack initiation has no such distinct feature, so it is determined in six ways:
 //   opening             the stress beyond which the lateral strain exceeds the elastic one, ν(σ-p)/E with the exact E
-//                       and ν, by the parabola c (σ-σ_ci)² that fits best up to the largest ε_A; the main value
+//                       and ν, by the parabola c (σ-σ_ci)² that fits best up to the largest ε_A; preferred
 //   lateral compliance  the stress beyond which the lateral strain grows at more than 1.2 times its elastic rate
 //                       (inverse tangent lateral stiffness: Ghazvinian et al., 46th US Rock Mech. Symp., 2012). It is
 //                       found without a window, as the stress up to the largest ε_A at which the lateral strain is
@@ -52,7 +52,7 @@ struct CrackThresholds {
     double damage_strain = std::numeric_limits<double>::quiet_NaN();  ///< axial strain at crack damage
     double reversal = std::numeric_limits<double>::quiet_NaN();       ///< stress at the largest area strain
 
-    double initiation() const { return opening; }  ///< the main value of crack initiation
+    double initiation() const { return opening; }  ///< the preferred estimate of the crack initiation stress
     double initiation_error() const;               ///< distance between opening and lateral_compliance
     /// Largest minus smallest of the six initiation stresses; NaN if fewer than two are known.
     double spread() const;

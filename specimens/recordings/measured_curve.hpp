@@ -36,7 +36,7 @@ LabelledCurve labelled_curve(const std::filesystem::path& file);
 /// scales differ
 LabelledCurve measured_beside(const std::vector<Recording>& tests, const std::filesystem::path& file);
 
-/// A measured strength of compression.
+/// Compressive strength measured on cores.
 struct StrengthOfCores {
     double confinement = 0.0, strength = 0.0;  // Pa
     double error = 0.0;                        // Pa, as the table states it; 0: not stated

@@ -48,8 +48,8 @@ among breaks: a back-tension bond slides at its limit, and breaks only when its 
               "source; only with `output.emission = true`",
      .section = R"(
 With `output.emission = true`, one row for each acoustic event, in the order in which the events ended. An event is a group of breaks close in
-place and time ([method](../emission/METHODS.md)); its moment is the largest moment of the source during the event. Every break belongs to exactly one event. Energies and
-moments are those of the model, per unit thickness. Magnitudes refer to a specimen of the thickness `output.out_of_plane_thickness`.
+place and time ([method](../emission/METHODS.md)); its moment is the largest moment of the source during the event. Every break belongs to exactly one event.
+Energies and moments are those of the two-dimensional model, per metre of thickness. Magnitudes are those of a specimen whose thickness is `output.out_of_plane_thickness`.
 )",
      .wanted = [](const FileOptions& options) { return options.emission; },
      .header = [](const FileOptions& /*options*/) { return acoustic_header(); },

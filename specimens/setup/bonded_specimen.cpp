@@ -52,7 +52,7 @@ Bonding bonding_of(const Specimen& specimen, const parts::Bonds& bonds, double t
     return bonding;
 }
 
-/// Returns a predicate for pairs on opposite sides of the notch, which are not bonded.
+/// Returns a predicate that is true for pairs of bodies on opposite sides of the notch, which are not bonded.
 std::function<bool(BodyIndex, BodyIndex)> parted_by(const World& world, const Notch& notch) {
     return [&world, notch](BodyIndex i, BodyIndex j) {
         const BodyState &a = world.bodies.state[i], &b = world.bodies.state[j];
@@ -60,7 +60,8 @@ std::function<bool(BodyIndex, BodyIndex)> parted_by(const World& world, const No
     };
 }
 
-/// Returns a predicate for bonds of a glued platen or a grip, which never break.
+/// Returns a predicate that is true for bonds to a glued platen and for bonds in a grip, which never break.
+/// @param grip  depth of the layer held at either end, relative to the height of the specimen
 std::function<bool(Vec2, BodyIndex, BodyIndex)> grips_of(const World& world, const Specimen& specimen,
                                                          const Platens& platens, double grip) {
     const Domain& domain = specimen.scene.domain;

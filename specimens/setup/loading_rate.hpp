@@ -40,7 +40,7 @@ struct RateState {
     double kinetic_share = 0.0;           ///< smoothed
     double next_check = 0.0;              // s
     double slowest = 0.0, fastest = 0.0;  // 1/s
-    double strain_above = 0.0;            ///< strain travelled while the error exceeded the tolerance
+    double strain_above = 0.0;            ///< cumulative strain while the error exceeded the tolerance
 
     CRACKLE_FIELDS(rate, out_of_balance, largest_stress, kinetic_share, next_check, slowest, fastest, strain_above);
 };
@@ -63,7 +63,8 @@ inline void watch_balance(RateState& state, const RateRule& rule, double top, do
     state.out_of_balance += share * ((top - bottom) / scale - state.out_of_balance);
 }
 
-/// Chooses the next rate and stores it in the state. @param moving  1/s, current strain rate of the platen, signed
+/// Chooses the next rate and stores it in the state.
+/// @param moving  strain rate currently imposed by the platen, 1/s, signed
 /// @param kinetic, stored  kinetic and strain energy of the specimen, J
 void choose_rate(RateState& state, const RateRule& rule, double moving, double kinetic, double stored, double time);
 

@@ -21,17 +21,17 @@ struct UnloadRule {
     std::vector<double> at;     ///< strains, or N/m; positive in the direction of loading; empty: no unloading
     double to = 0.0;            ///< fraction of the stress at which unloading started
     double acceleration = 0.0;  // 1/s2, largest acceleration of the strain
-    double modulus = 0.0;       // modulus of the linear solution, N/m
+    double modulus = 0.0;       // modulus from the linear solution, N/m
     /// Least speed, 1/s, so that every reversal is reached; the distance needed to stop from it is negligible.
     double creep = 0.0;
 
     /// Whether the test unloads.
     bool on() const { return !at.empty(); }
-    /// Largest additional strain travelled in the unloading cycles of an elastic specimen. @param strain  largest
-    /// strain of the test
+    /// Largest cumulative absolute strain that the unloading cycles of an elastic specimen add to a test.
+    /// @param strain  largest strain of the test
     double added_travel(double strain) const;
 };
-/// @param modulus N/m, of the linear solution
+/// @param modulus  modulus from the linear solution, N/m
 UnloadRule unload_rule_of(const parts::Unloading& asked, const RateRule& rate, double modulus);
 
 /// Initial speed, 1/s, from which the platen can still stop before the first reversal. @param allowed  1/s, strain rate

@@ -26,7 +26,8 @@ inline constexpr std::size_t fewest_pieces = 5;
 /// @param sizes, areas  sizes and areas of the pieces, in the same order
 RosinRammler fit_rosin_rammler(std::span<const double> sizes, std::span<const double> areas, double least);
 
-/// Size that divides the area in half, interpolated linearly between the sizes of two pieces; NaN without pieces.
+/// Size that divides the area in half, interpolated linearly between the sizes of two pieces; NaN if there are no
+/// pieces.
 double median_size(std::span<const double> sizes, std::span<const double> areas);
 
 }  // namespace crackle

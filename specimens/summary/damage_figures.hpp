@@ -191,8 +191,9 @@ CRACKLE_FIGURES(BValueFigures,
                  "whether the magnitudes are consistent with a straight frequency-magnitude line in the "
                  "Kolmogorov-Smirnov test at the 5 % level; if not, b has little meaning"),
                 (Stated<OtherBValue>, least_distance, "",
-                 "b-value with the magnitude of completeness that minimises the distance of the events from a straight "
-                 "frequency-magnitude line. No error is stated, because the same events determine that magnitude"));
+                 "b-value for another magnitude of completeness, chosen so that the magnitudes of larger events come "
+                 "closest to a straight frequency-magnitude line. No error is stated, because this choice and b depend "
+                 "on the same events"));
 
 /// Parts of the work done on the specimen that were stored or dissipated.
 CRACKLE_FIGURES(EnergyShares,

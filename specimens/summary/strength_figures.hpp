@@ -236,17 +236,17 @@ CRACKLE_FIGURES(
     (Number, low_strain, "-", "smallest axial strain of the cycle, at which unloading ends"),
     (Number, low_stress, "N/m", "axial stress at low_strain, positive in the direction of loading"),
     (Number, modulus, "N/m",
-     "secant modulus of unloading: change of axial stress divided by change of axial strain, from the start to the end "
+     "secant modulus on unloading: change in axial stress divided by change in axial strain, from the start to the end "
      "of unloading",
      "equal to youngs_modulus if nothing has broken, slid or come into contact; modulus_error and permanent_strain are "
      "then 0"),
     (Number, poissons_ratio, "-",
-     "Poisson's ratio of unloading: change of lateral strain divided by change of axial strain; positive if the "
+     "Poisson's ratio on unloading: change in lateral strain divided by change in axial strain; positive if the "
      "specimen widens in compression or narrows in tension",
      "null for kinds of test without platens"),
     (Number, modulus_error, "-",
      "upper bound on the relative error of the modulus due to inertia. It is half the stress difference between the "
-     "two platens, summed over the start and the end of unloading, divided by the change of axial stress"),
+     "two platens, summed over the start and the end of unloading, divided by the change in axial stress"),
     (Number, damage, "-",
      "damage 1 - modulus/youngs_modulus (or 1 - modulus/nominal_modulus for kinds of test without platens)",
      "0 if no bond has broken"),

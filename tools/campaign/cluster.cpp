@@ -45,8 +45,7 @@ void call_sbatch(const fs::path& script) {
     while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
     }
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-        throw InputError(
-            fmt::format("sbatch: refused {}, expected a job number; see the messages of sbatch above", file));
+        throw InputError(fmt::format("sbatch: found no job number for {}, expected one; see its messages above", file));
 }
 
 }  // namespace
@@ -132,7 +131,8 @@ CommandLine describe_campaign_gather() {
 }
 
 int campaign_gather(const Invocation& given) {
-    if (given.operands.empty()) throw InputError("crackle campaign gather: found no DIR, expected a campaign's folder");
+    if (given.operands.empty())
+        throw InputError("crackle campaign gather: argument DIR is missing, expected a campaign's folder");
     const fs::path folder = given.operands.front();
     const Gathered gathered = gather_shards(folder);
     if (!given.messages.quiet())

@@ -70,7 +70,8 @@ CommandLine describe_campaign_show() {
 
 int campaign_show(const Invocation& given) {
     const po::variables_map& values = given.values;
-    if (given.operands.empty()) throw InputError("crackle campaign show: found no DIR, expected a campaign's folder");
+    if (given.operands.empty())
+        throw InputError("crackle campaign show: argument DIR is missing, expected a campaign's folder");
     for (const char* table : {"wrong", "tests"}) {
         if (values.contains(table)) refuse_unused("crackle campaign show", values, std::string("--") + table, {table});
     }

@@ -28,7 +28,7 @@ CommandLine describe_bench() {
         .synopses = {"crackle bench STUDY [OPTIONS]   (crackle-bench --help lists the studies)"},
         .description =
             "Starts crackle-bench with the same arguments. It contains studies of the engine, each of which can write "
-            "a page of results. It is a separate program, searched for in the folder of crackle and on the PATH.",
+            "a page of results. It is a separate program, searched for in the same folder as crackle and on the PATH.",
         .takes_options = false,
         .examples = {{"crackle bench accuracy --quick -o out/accuracy", "run time against error"},
                      {"crackle bench stress --steps 1000", "numerical stability"}}};
@@ -38,9 +38,9 @@ int bench(const Invocation& given) {
     const std::string program = bench_program();
     if (program.empty()) {
         throw InputError(
-            "crackle bench: found no crackle-bench, expected this program in the folder of crackle or on the PATH; "
-            "install Debian's package crackle-bench, or build it from the sources: cmake --build --preset release "
-            "--target crackle-bench");
+            "crackle bench: found no crackle-bench, expected this program in the same folder as crackle or on the "
+            "PATH; install the Debian package crackle-bench, or build it from the sources: cmake --build --preset "
+            "release --target crackle-bench");
     }
     Arguments words = given.words;
     words.insert(words.begin(), bench_name);

@@ -76,7 +76,7 @@ int completion(const Invocation& given);
 CommandLine describe_manual();
 int manual(const Invocation& given);
 
-/// Path of crackle-bench: in the folder of this program, or on the PATH; empty if it was not found.
+/// Path of crackle-bench: in the same folder as this program, or on the PATH; empty if it was not found.
 std::string bench_program();
 
 // Functions that do the work of commands without printing, for callers that need the values (tools/python).

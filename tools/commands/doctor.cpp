@@ -46,9 +46,10 @@ std::vector<std::string> missing_parts(bool page, bool gnuplot_for_bench) {
     }
     if (!gnuplot_for_bench)
         missing.emplace_back("gnuplot: apt-get install gnuplot-nox; crackle-bench draws pictures with it");
-    if (build_info::sanitizers) missing.emplace_back("speed: build the preset `release`; this build has sanitizers");
+    if (build_info::sanitizers)
+        missing.emplace_back("full speed: this build is slow because it has sanitizers; build the preset `release`");
     if (std::string(build_info::build_type) != "Release" && !build_info::sanitizers)
-        missing.emplace_back("speed: build the preset `release`; this build is not optimised");
+        missing.emplace_back("full speed: this build is not optimised; build the preset `release`");
     return missing;
 }
 
@@ -94,9 +95,10 @@ int doctor(const Invocation& given) {
                                     : "specimens/... is also looked for in " + shipped);
     line("crackle-bench",
          studies.empty() ? "not found: `crackle bench` prints where to get it" : studies + ": studies of the engine");
-    line("gnuplot", gnuplot.empty()
-                        ? "not found on the PATH: `crackle-bench` writes tables and scripts, but no pictures"
-                        : gnuplot + ": draws the pictures of `crackle-bench`");
+    line("gnuplot",
+         gnuplot.empty()
+             ? "not found on the PATH: without it, `crackle-bench` writes tables and gnuplot scripts, but no pictures"
+             : gnuplot + ": draws the pictures of `crackle-bench`");
     const bool coloured = !styled("", Style::heading, Stream::out).empty();
     line("terminal", !is_terminal(Stream::out) ? "none: no colours, no progress line"
                      : coloured                ? "colours and a progress line"

@@ -265,8 +265,8 @@ CommandLine describe_envelope() {
     po::options_description options;
     options.add_options()("json", "print one JSON object")  //
         ("figure", po::value<std::string>()->value_name("NAME")->default_value("peak_stress"),
-         "stress in summary.json used as the strength of compression tests, such as largest_stress for tests that "
-         "harden")  //
+         "key of summary.json whose stress is used as the strength of compression tests, for example largest_stress "
+         "for specimens that harden")  //
         ("strain", po::value<double>()->value_name("X"),
          "use the stress at this axial strain as the strength instead, for tests that reach it")  //
         ("measured", po::value<std::string>()->value_name("FILE"),
@@ -286,8 +286,8 @@ CommandLine describe_envelope() {
             "It needs compression tests of one rock without and with confining pressure (kind = \"biaxial\"), at least "
             "two packings and three pressures. Mohr-Coulomb and Hoek-Brown are fitted by least squares; their "
             "parameters have 95 % intervals from resampled packings. The tensile strength is printed if there are "
-            "tension tests. Tests without a strength are left out and listed. For tests that harden, use --figure or "
-            "--strain. Exit code 4: some tests were left out because they ended with a system error.",
+            "tension tests. Tests without a strength are left out and listed. For specimens that harden, use --figure "
+            "or --strain. Exit code 4: some tests were left out because they ended with a system error.",
         .options = {{"options", options}},
         .operand = "OUT",
         .several_operands = true,

@@ -181,7 +181,8 @@ void add_emission_panels(std::vector<Panel>& panels, const std::vector<Recording
     }
 }
 
-/// Checks the values of --what. @param of end of the message, which names the kind of input; may be empty
+/// Checks the values of --what. @param of  end of the error message, which names the kind of input, for example " of a
+/// campaign"; may be empty
 void expect_words(const Words& what, const Words& known, const char* of) {
     for (const std::string& word : what) {
         if (has_word(known, word)) continue;
@@ -420,22 +421,21 @@ po::options_description plot_options() {
          "names of the tests in legends and above specimens, one per test (default: what distinguishes them, or the "
          "title of a single test)")  //
         ("units", po::value<std::string>()->value_name("UNITS"),
-         "names of the units in the labels of a deck run, because decks do not contain units: si, cgs (cm, dyn, erg) "
-         "or mm-g-s (mm, uN, nJ)")  //
+         "when plotting a deck run, names of the units in labels, because decks do not contain units: si, cgs (cm, "
+         "dyn, erg) or mm-g-s (mm, uN, nJ)")  //
         ("bodies", po::value<std::vector<int>>()->multitoken()->value_name("NUMBER"),
-         "ids of the bodies to draw for the run of a deck; in_bc.dat must list them (default: the first eight)")  //
+         "when plotting a deck run, ids of the bodies to draw; in_bc.dat must list them (default: the first eight)")  //
         ("guide", po::value<std::string>()->value_name("FOLDER"),
          "folder with the six tests of tools/quickstart, from which figures 26 to 29 of DEMseg's guide are drawn")  //
         ("format", po::value<std::string>()->value_name("FORMAT")->default_value("pdf"),
          "file format of the guide's figures: svg, pdf or png")  //
         ("figure", po::value<Words>()->multitoken()->value_name("NAME"),
-         "keys of summary.json to draw for a campaign (default: moduli and strength)")  //
+         "when plotting a campaign, keys of summary.json to draw (default: moduli and strength)")  //
         ("test", po::value<Words>()->multitoken()->value_name("NAME"),
-         "tests of a campaign to draw (default: all)")  //
+         "when plotting a campaign, tests to draw (default: all)")  //
         ("measured", po::value<std::string>()->value_name("FILE"),
          "table with the columns axial_strain and axial_stress, with their units as in \"axial_stress (MPa)\", drawn "
-         "over "
-         "the curves")  //
+         "over the curves")  //
         ("force", "replace existing figures");
     return options;
 }

@@ -84,7 +84,8 @@ CommandLine describe_run() {
 
 int run_deck(const Invocation& given) {
     if (given.operands.empty())
-        throw InputError("crackle run: found no DIR, expected the folder of a deck (see crackle run --help)");
+        throw InputError(
+            "crackle run: argument DIR is missing, expected the folder of a deck (see crackle run --help)");
     DeckRun deck(deck_options(given));
     Messages& messages = given.messages;
     for (const std::string& notice : deck.notices()) messages.notice(notice);

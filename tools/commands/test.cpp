@@ -270,7 +270,8 @@ void print_check(const TestCheck& check) {
 int check(const Invocation& given) {
     const po::variables_map& values = given.values;
     refuse_unused("crackle test", values, "--check", {"check", "json", "threads", "allow-unstable"});
-    if (given.operands.empty()) throw InputError("crackle test: found no CASE.toml, expected one with --check");
+    if (given.operands.empty())
+        throw InputError("crackle test: --check: found no CASE.toml, expected one (see crackle test --help)");
     ResolvedCase description = read_case(given_or_shipped(given.operands.front()));
     if (values.contains("allow-unstable")) description.numerics.allow_unstable = true;
     if (values.contains("threads")) description.numerics.threads = values["threads"].as<int>();

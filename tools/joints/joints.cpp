@@ -58,8 +58,7 @@ std::size_t grains_in(const Domain& box, const po::variables_map& values) {
     const double count = (box.x2 - box.x1) * (box.y2 - box.y1) / (grain * grain);
     if (!(grain > 0.0 && count >= 1.0 && count <= most_grains))
         throw InputError(
-            fmt::format("--grain: found {}, expected a length > 0 in m that is smaller than the box, with at most "
-                        "{:.0e} grains in the box",
+            fmt::format("--grain: found {}, expected the size of a grain in m, > 0, with 1 to {:.0e} grains in the box",
                         grain, most_grains));
     return static_cast<std::size_t>(std::lround(count));
 }

@@ -193,7 +193,7 @@ Panel mohr_circles(const EnvelopeFigure& figure) {
         axes.x = scales.x;
         axes.y = scales.y;
         draw_legend_above(canvas, place, legend_of(canvas, circle_entries(figure), place.width), axes);
-        // A row may be higher than this panel needs; more of the τ axis is then shown at the same scale.
+        // A row may be taller than this panel needs; more of the τ axis is then shown at the same scale.
         axes.y.high = axes.frame.height / (axes.frame.width / (axes.x.high - axes.x.low));
         const double factor = scales.unit.factor, last = beyond_last * largest_confinement(figure);
         const double last_deviator = laws.hoek_brown(last) - last;

@@ -14,12 +14,12 @@
 
 namespace crackle::python {
 
-/// Hooks that report and poll for interrupts. An exception raised by `report` ends the work like an interrupt. Both
-/// arguments must outlive the hooks.
+/// Hooks that pass the reports of a test to `report` and poll for interrupts. An exception raised by `report` ends the
+/// work like an interrupt. Both arguments must outlive the hooks.
 TestHooks reporting_hooks(const pybind11::object& report, Interrupts& interrupts);
 
-/// Reports the messages of a command of the program, with notices reported as stages. After an interrupt, the next
-/// progress report throws TestInterrupted.
+/// Listener that passes the messages of a crackle command to `report`; notices have the kind "stage". After an
+/// interrupt, the next progress message throws TestInterrupted.
 tools::Listener reporting_listener(const pybind11::object& report, Interrupts& interrupts);
 
 /// Calls report() with the interpreter lock held. @return false if it raised an exception

@@ -77,7 +77,8 @@ VirtualTest& State::test() const {
             "from it instead");
     if (stepping_)
         throw std::runtime_error(
-            "found a world that another thread is stepping, expected one that no thread is stepping");
+            "found a World that another thread is stepping, expected one that is not in use; wait until that thread's "
+            "step() has returned");
     return *test_;
 }
 

@@ -60,7 +60,8 @@ struct TestKind {
     /// as moduli and crack thresholds are defined.
     bool uniaxial = false;
     bool confined = false;  ///< whether a pressure acts on the sides
-    /// Whether the test is a direct shear test with a normal force, so that dilation and residual stress are defined.
+    /// Whether the test is a direct shear test with a normal force, so that dilation and residual shear stress are
+    /// defined.
     bool shear_box = false;
     bool notched = false;  ///< whether the specimen always has a notch
     std::span<const KindKey> keys = {};

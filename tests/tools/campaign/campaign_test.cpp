@@ -176,7 +176,7 @@ TEST_F(CampaignCommand, RefusesWithOneLine) {
     expect_refused("plan.toml -o out --workers 0", "--workers: found 0");
     for (const char* shard : {"0/2", "3/2", "2", "a/b", "1/2x", "1/0"})
         expect_refused(std::string("plan.toml -o out --shard ") + shard, "expected I/N");
-    expect_refused("show", "found no DIR");
+    expect_refused("show", "argument DIR is missing");
     expect_refused("show nowhere", "found no ledger");
     expect_refused("gather nowhere", "found no shards");
     write("plan.toml",

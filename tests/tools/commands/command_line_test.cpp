@@ -301,7 +301,7 @@ TEST_F(Bench, SaysWhereToGetItWhereItIsNot) {
     EXPECT_EQ(answer.out, "");
     EXPECT_EQ(count_of(answer.err, "\n"), 1U) << answer.err;
     for (const char* part :
-         {"crackle bench: found no crackle-bench, expected this program in the folder of crackle or on the PATH",
+         {"crackle bench: found no crackle-bench, expected this program in the same folder as crackle or on the PATH",
           "package crackle-bench", "cmake --build --preset release --target crackle-bench"})
         EXPECT_NE(answer.err.find(part), std::string::npos) << part << '\n' << answer.err;
     const Answer help = alone("bench --help");

@@ -172,9 +172,9 @@ TEST_F(EnvelopeCommand, TakesTestsThatHardenByAnotherStress) {
             test.further = {{"largest_stress", on_line(pressure) * (1.0 + 0.05 * (seed - 2))}};
             folders += sample(test) + " ";
         }
-    expect_refused(
-        folders,
-        "did not fail before loading.max_axial_strain (for tests that harden, use --figure largest_stress or --strain");
+    expect_refused(folders,
+                   "did not fail before loading.max_axial_strain (for specimens that harden, use --figure "
+                   "largest_stress or --strain");
     const Json largest = fitted(folders + "--figure largest_stress");
     EXPECT_EQ(largest["measure"]["figure"], "largest_stress");
     EXPECT_TRUE(agrees("N", largest["mohr_coulomb"]["slope"]["value"], 4.0, 1e-9));

@@ -97,7 +97,7 @@ TEST_F(CrackleJoints, ASurveyIsCleanedByTheGrainOrSnapThatIsGiven) {
             testing::within("largest displacement", json["largest_displacement"].get<double>(), 3.1622e-6, 1e-9));
     }
     expect_refused("plain.toml --grain 0", "--grain: found 0");
-    expect_refused("plain.toml --grain 50", "smaller than the box");
+    expect_refused("plain.toml --grain 50", "grains in the box");
 }
 
 TEST_F(CrackleJoints, RefusesWhatItCannotUse) {

@@ -309,8 +309,8 @@ def envelope(*folders: _Results, figure: str | None = None, strain: float | None
              force: bool = False) -> dict[str, Any]:
     """Fits Mohr-Coulomb and Hoek-Brown to tests and campaigns at several confinements, like `crackle envelope --json`.
 
-    folders: paths, Results or Campaigns. figure: stress in summary.json used as the strength: "peak_stress", or
-    "largest_stress" for tests that harden. strain: use the stress at this axial strain as the strength instead. output: a figure to
+    folders: paths, Results or Campaigns. figure: key of summary.json whose stress is used as the strength: "peak_stress", or
+    "largest_stress" for specimens that harden. strain: use the stress at this axial strain as the strength instead. output: a figure to
     write, .svg, .pdf or .png. Returns a dict, which states units.
     """
     options = dict(figure=figure, strain=strain, output=output, columns=columns, width=width, font=font,
@@ -332,7 +332,7 @@ def plot(*results: _Results, output: _Path, what: str | Sequence[str] | None = N
     "emission", "strain" and "specimen". A campaign has "curve", "axes" and "scatter"; a deck has "energy", "displacement",
     "height", "velocity", "force" and "curve". at: strains, or "start", "peak", "end". width in mm. magnify:
     magnification of displacements. For the run of a deck, units ("si", "cgs" or "mm-g-s") names its units, and bodies lists the
-    numbers of the bodies to draw.
+    ids of the bodies to draw.
     """
     def many(value):
         return [value] if isinstance(value, (str, float, int)) else value

@@ -182,8 +182,8 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         percent('Error of crack initiation', (test) => ratio(numberOf(test.summary, 'crack_initiation_error'), numberOf(test.summary, 'crack_initiation_stress')), 'difference from a second definition, over σci'),
         percent('Crack initiation over the peak', key('crack_initiation_over_peak')),
         percent('Spread of six definitions of σci', (test) => ratio(numberIn(test, 'crack_initiation', 'spread'), numberOf(test.summary, 'crack_initiation_stress')), '(largest − smallest)/σci'),
-        ...stress('Crack damage σcd', ['crack_damage_stress'], 'middle of the stresses at which the area strain is within 2 % of its largest value'),
-        percent('Error of crack damage', (test) => ratio(numberOf(test.summary, 'crack_damage_error'), numberOf(test.summary, 'crack_damage_stress')), 'half the stretch of these stresses, over σcd'),
+        ...stress('Crack damage σcd', ['crack_damage_stress'], 'middle of the range of stresses up to the peak in which the area strain is within 2 % of its largest value'),
+        percent('Error of crack damage', (test) => ratio(numberOf(test.summary, 'crack_damage_error'), numberOf(test.summary, 'crack_damage_stress')), 'half the width of the range of these stresses, over σcd'),
         percent('Crack damage over the peak', key('crack_damage_over_peak')),
         ...stress('Normal stress', ['normal_stress'], 'on the upper half box'),
         ...stress('Residual shear stress', ['residual_stress'], 'mean over the last tenth of the strain'),
@@ -229,12 +229,12 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         percent('Crack damage: stated', errorOf('crack_damage_stress', 'stated'), 'as for the peak'),
         words('Peak converged', (test) => {
             const value = test.summary['peak_converged'];
-            return typeof value === 'boolean' ? (value ? 'yes' : 'no: jumps between branches') : undefined;
+            return typeof value === 'boolean' ? (value ? 'yes' : 'no: not on the same branch at half the time step or rate') : undefined;
         }),
     ]},
     {title: 'Numerics', rows: [
         measured('Time step', 's', key('time_step')),
-        percent('Time step over the stable one', key('time_step_over_stable'), 'relative to the exact limit at the time of bonding'),
+        percent('Time step over the stable one', key('time_step_over_stable'), 'time step divided by the stability limit when the bonds were made'),
         counts('Steps', key('steps')),
         percent('Energy closing error', key('energy_closing_error')),
         percent('Platens out of balance', key('platen_out_of_balance'), 'difference between the stresses at the two platens, an error due to the loading rate'),
