@@ -55,6 +55,8 @@ def recount_kind(r):
         notch = key("shape", "notch", default_notch * width / 2)
         intensity = half_disc(2 * notch / width, span / width) * math.sqrt(math.pi * notch)
         r.key("notch", notch)
+    elif kind != "direct_shear":
+        raise ValueError(f"found a test of the kind {kind}, which the recount does not know")
     else:
         section = length = width
         normal = key("loading", "normal_stress")

@@ -48,7 +48,7 @@ export function panels(labelled: LabelledTest<CurvedTest>[], view: View): Panel[
             dashed: dashed && one.test.kind === 'tension',
         }))});
         if (!mixed || !hasSlivers(members)) return [panel(title, members, mixed)];
-        return kindOrder.filter((kind) => members.some((one) => one.test.kind === kind))
+        return ordered(members.map((one) => one.test.kind), kindOrder)
             .map((kind) => panel(`${title}, ${kind}`, members.filter((one) => one.test.kind === kind), false));
     });
 }
@@ -60,7 +60,7 @@ function hasSlivers(members: readonly LabelledTest<CurvedTest>[]): boolean {
     const largest = (kind: string, name: 'stress' | 'strain') => members.filter((one) => one.test.kind === kind)
         .reduce((most, {test}) => Math.max(most, largestOf(test.curve[name])), 0);
     const share = (name: 'stress' | 'strain') => {
-        const all = kindOrder.map((kind) => largest(kind, name)).filter((value) => value > 0);
+        const all = unique(members.map((one) => one.test.kind)).map((kind) => largest(kind, name)).filter((value) => value > 0);
         return all.length === 0 ? 1 : Math.min(...all) / Math.max(...all);
     };
     return share('stress') < leastStress || share('strain') < leastStrain;
