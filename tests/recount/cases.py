@@ -98,6 +98,52 @@ def scattered(distribution, cv):
     return f'strength_distribution = "{distribution}"\nstrength_cv = {cv}\nstrength_seed = 7\n'
 
 
+# Faces: a rock with pressures in its cells, a share of bending and a second slope; without pressures; of two minerals.
+faces = """[material]
+units = "area"
+density = 2500.0
+youngs_modulus = 1.0e10
+poissons_ratio = 0.26
+stiffness_ratio = 1.6
+friction_angle = 50.0
+friction_knee = 3e6
+friction_angle_beyond = 15.0
+residual_friction_angle = 15.0
+tensile_strength = 3e6
+cohesion = 5e6
+moment_share = 0.7
+damping_ratio = 0.2
+"""
+faces_without_pressure = """[material]
+units = "area"
+density = 2500.0
+youngs_modulus = 1.0e10
+poissons_ratio = 0.2
+friction_angle = 40.0
+residual_friction_angle = 25.0
+tensile_strength = 3e6
+cohesion = 6e6
+damping_ratio = 0.2
+"""
+faces_of_minerals = """[minerals]
+seed = 5
+[[mineral]]
+name = "quartz"
+area_share = 0.4
+youngs_modulus = 2.0e10
+tensile_strength = 5e6
+cohesion = 2e7
+[[mineral]]
+name = "mica"
+area_share = 0.2
+poissons_ratio = 0.2
+friction_angle = 20.0
+friction_angle_beyond = 10.0
+residual_friction_angle = 10.0
+[[mineral]]
+name = "feldspar"
+"""
+by_faces = '[bond]\nlaw = "face"\n'
 factors = "tensile_factor = 1.0\ncohesion_factor = 3.0\nrange = 0.05\n" + scattered("lognormal", 0.3)
 circles_every_step = rock[len(packing) :] + cohesive + factors + squeezed + "axial_strain_rate = 0.3\n"
 

@@ -248,10 +248,57 @@ def recount_frame(r, model, bonds, frame, first, row):
         sym = np.stack([arm[:, 0] * f[:, 0], arm[:, 1] * f[:, 1],
                         (arm[:, 0] * f[:, 1] + arm[:, 1] * f[:, 0]) / 2], 1)
         np.add.at(sums, body, -sym / model.area[body][:, None])
+    compare_stresses(r, model, label, p, order, sums, tension)
+    recount_pieces(r, model, label, frame, order)
+    if row is None:
+        return
+    c = r.curve
+    r.compare(label + "curve: axial_stress", c["axial_stress"][row], (stress_top + stress_bottom) / 2, fine)
+    r.compare(label + "curve: stress_top", c["stress_top"][row], stress_top, fine)
+    r.compare(label + "curve: stress_bottom", c["stress_bottom"][row], stress_bottom, fine)
+    spring = np.sum(normal**2 / kn / 2 + np.where(ks > 0, shear**2 / np.where(ks > 0, ks, 1) / 2, 0))
+    # Forces and energies of the consistent integrator contain corrections at the points, which are in no file.
+    leapfrog = r.results.key("numerics", "integrator", "leapfrog") == "leapfrog"
+    if leapfrog:
+        r.compare(label + "curve: strain_energy", c["strain_energy"][row], spring,
+                  rounding * (spring + tension**2 / kn.mean()))
+    if leapfrog and (not confined or row == 0):  # the membrane's forces, which are part of a kick, are in no file
+        recount_kinetic(r, model, label, row, velocity, spin, total, moment)
+    if leapfrog:
+        # A bond that breaks in shear in this step drops to the limit; it counts as a break, not as sliding.
+        breaking = int(np.sum(r.events["step"] == c["step"][row])) if model.coulomb and len(r.events["step"]) else 0
+        # The program stores rotations as cosine and sine, but frames contain the angle; the two differ by up to one
+        # rounding per step. At a stiff point this exceeds the rounding of the shear force, so whether it is at its
+        # limit is not certain.
+        arm = np.maximum(np.hypot(*arm_i.T), np.hypot(*arm_j.T))
+        apart = np.finfo(float).eps * c["step"][row] * arm * kn
+        unsure = counted & sticks & (np.abs(shear) >= limit - apart)
+        # Nothing moves or slides before the first step.
+        sliding = int(np.sum(slides & counted)) if row > 0 else 0
+        r.compare(label + "curve: points_sliding", c["points_sliding"][row], sliding, breaking + int(np.sum(unsure)))
+    slid = int(np.sum(state == 1)) + int(np.sum(np.asarray(r.events["slid"])[: events_up_to(r, frame)]))
+    r.compare(label + "curve: bonds_slid", c["bonds_slid"][row], slid, 0)
+    if confined:
+        return
+    recount_gauges(r, model, bonds, label, row, places)
+
+
+def events_up_to(r, frame):
+    """Number of rows of events.csv up to the time of a frame."""
+    return int(np.sum(r.events["time"] <= frame.time * (1 + 1e-12))) if len(r.events["time"]) else 0
+
+
+def compare_stresses(r, model, label, p, order, sums, force, rows=slice(None)):
+    """Mean stresses in particles. @param sums  by body, Pa @param force  N, scale of rounding @param rows  of the frame that are compared"""
     sums[model.count :] = 0.0
-    size = tension / model.reach[: model.count].min()
+    size = force / model.reach[: model.count].min()
     for k, name in enumerate(("stress_xx", "stress_yy", "stress_xy")):
-        r.rows(label + name, p[name], sums[order, k], 10 * rounding * size)
+        r.rows(label + name, p[name][rows], sums[order, k], 10 * rounding * size)
+
+
+def recount_pieces(r, model, label, frame, order):
+    """Fragments, and the broken bonds of a frame against events.csv. @param order  indices in the model of the frame's particles"""
+    state = frame.contacts["state"]
     # Fragments are particles joined by intact bonds, numbered by decreasing area, then by lowest id.
     root = list(range(model.count))
 
@@ -271,16 +318,16 @@ def recount_frame(r, model, bonds, frame, first, row):
         groups.setdefault(find(k), []).append(k)
     all_area = model.area[: model.count].sum()  # areas that differ only by rounding count as equal
     ranked = sorted(groups.values(), key=lambda g: (-round(sum(model.area[k] for k in g) / all_area, 12), min(model.ids[k] for k in g)))
-    number = np.full(len(spin), -1)
+    number = np.full(len(model.mass), -1)
     for n, group in enumerate(ranked):
         number[group] = n
-    r.rows(label + "fragment", p["fragment"], number[order], 0)
+    r.rows(label + "fragment", frame.particles["fragment"], number[order], 0)
     if frame.time == r.curve["time"][-1]:
         r.key("fragments", len(ranked))
         r.key("largest_fragment_share", model.area[ranked[0]].sum() / all_area)
         recount_fragments(r, model, [model.area[group].sum() for group in ranked])
     broken = int(np.sum((state == 2) | (state == 3)))
-    by_events = int(np.sum(r.events["time"] <= frame.time * (1 + 1e-12))) if len(r.events["time"]) else 0
+    by_events = events_up_to(r, frame)
     r.compare(label + "broken bonds of events.csv", broken, by_events, 0)
     for name in ("time", "energy", "strength", "orientation", "body_i", "body_j", *(("trace",) if model.joints.traces else ())):
         drawn = frame.cracks.get("polygon time" if name == "time" else name, [])  # the first array of this name is the time of the frame
@@ -291,18 +338,11 @@ def recount_frame(r, model, bonds, frame, first, row):
                                                       frame.contacts["body_j"][(state == 2) | (state == 3)]))
     rows = [(int(a), int(b)) for a, b in zip(r.events["body_i"], r.events["body_j"])][:by_events]
     r.true(label + "broken pairs are those of events.csv", gone == sorted(tuple(sorted(pair)) for pair in rows))
-    if row is None:
-        return
+
+
+def recount_kinetic(r, model, label, row, velocity, spin, total, moment, unsure=0.0):
+    """Kinetic energy of a row, from the velocities half a step before and all forces. @param unsure  J, by what the files do not say"""
     c = r.curve
-    r.compare(label + "curve: axial_stress", c["axial_stress"][row], (stress_top + stress_bottom) / 2, fine)
-    r.compare(label + "curve: stress_top", c["stress_top"][row], stress_top, fine)
-    r.compare(label + "curve: stress_bottom", c["stress_bottom"][row], stress_bottom, fine)
-    spring = np.sum(normal**2 / kn / 2 + np.where(ks > 0, shear**2 / np.where(ks > 0, ks, 1) / 2, 0))
-    # Forces and energies of the consistent integrator contain corrections at the points, which are in no file.
-    leapfrog = r.results.key("numerics", "integrator", "leapfrog") == "leapfrog"
-    if leapfrog:
-        r.compare(label + "curve: strain_energy", c["strain_energy"][row], spring,
-                  rounding * (spring + tension**2 / kn.mean()))
     free = slice(0, model.count)
 
     def kinetic_after(kick):
@@ -318,24 +358,12 @@ def recount_frame(r, model, bonds, frame, first, row):
     either = abs(kinetic_after(before) - kinetic_after(after)) if row > 0 else 0.0
     if row == len(steps) and np.ptp(steps) > rounding * before:
         either += abs(kinetic_after(1.01 * before) - kinetic)  # the length of the next step is in no file
-    if leapfrog and (not confined or row == 0):  # the membrane's forces, which are part of a kick, are in no file
-        r.compare(label + "curve: kinetic_energy", c["kinetic_energy"][row], kinetic, 1e-6 * kinetic + either)
-    if leapfrog:
-        # A bond that breaks in shear in this step drops to the limit; it counts as a break, not as sliding.
-        breaking = int(np.sum(r.events["step"] == c["step"][row])) if model.coulomb and len(r.events["step"]) else 0
-        # The program stores rotations as cosine and sine, but frames contain the angle; the two differ by up to one
-        # rounding per step. At a stiff point this exceeds the rounding of the shear force, so whether it is at its
-        # limit is not certain.
-        arm = np.maximum(np.hypot(*arm_i.T), np.hypot(*arm_j.T))
-        apart = np.finfo(float).eps * c["step"][row] * arm * kn
-        unsure = counted & sticks & (np.abs(shear) >= limit - apart)
-        # Nothing moves or slides before the first step.
-        sliding = int(np.sum(slides & counted)) if row > 0 else 0
-        r.compare(label + "curve: points_sliding", c["points_sliding"][row], sliding, breaking + int(np.sum(unsure)))
-    slid = int(np.sum(state == 1)) + int(np.sum(np.asarray(r.events["slid"])[:by_events]))
-    r.compare(label + "curve: bonds_slid", c["bonds_slid"][row], slid, 0)
-    if confined:
-        return
+    r.compare(label + "curve: kinetic_energy", c["kinetic_energy"][row], kinetic, 1e-6 * kinetic + either + unsure)
+
+
+def recount_gauges(r, model, bonds, label, row, places):
+    """Lateral and gauge strain of a row."""
+    c = r.curve
     left, right = model.gauge()
     by_seeds = model.polygons and r.results.key("mesh", "kind") == "delaunay" and r.results.key("mesh", "boundary") == "seeds"
     if left and right and not by_seeds:

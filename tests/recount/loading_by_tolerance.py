@@ -20,6 +20,9 @@ def by_tolerance(r):
 
 def yield_strain(r, model, bonds, motion):
     """Axial strain at which one bonded point in fifty has slid or broken; unbreakable ones do not count."""
+    if model.by_faces:
+        each = np.sort(bonds.load_to_failure(*bonds.forces_of(model, motion)))
+        return min(each[len(each) // 50], r.results.key("loading", "max_axial_strain"))
 
     def at(body):
         arm = bonds.position - model.centre[body]

@@ -174,7 +174,8 @@ def recount_measures(r):
 
 
 def recount_rose(r, model, bonds):
-    """Directions of cracks between particles. Their lengths only if all are circles, whose faces are as long as the smaller diameter."""
+    """Directions of cracks between particles. Their lengths only if all are circles, whose faces are as long as the smaller diameter, or have
+    faces."""
     e, s = r.events, r.summary["crack_rose"]
     if r.peak is None:
         return
@@ -183,14 +184,16 @@ def recount_rose(r, model, bonds):
     pairs = [(model.index[int(a)], model.index[int(b)]) for a, b in zip(e["body_i"], e["body_j"])]
     inside = np.array([max(pair) < model.count for pair in pairs], bool)
     laps = {frozenset((i, j)): lap for i, j, lap in zip(bonds.i, bonds.j, bonds.lap) if lap > 0}
+    faces = {frozenset((i, j)): long for i, j, long in zip(bonds.i, bonds.j, bonds.length)} if model.by_faces else {}
     for name, own in (("tension_to_peak", ~shear & ~after), ("shear_to_peak", shear & ~after),
                       ("tension_after", ~shear & after), ("shear_after", shear & after)):
         own = np.flatnonzero(own & inside) if len(pairs) else np.array([], int)
         label = f"crack_rose.{name}."
         r.key(label + "cracks", len(own))
-        if model.polygons:
+        if model.polygons and not model.by_faces:
             continue
-        length = np.array([laps.get(frozenset(pairs[k]), 2 * min(model.circle_radius[list(pairs[k])])) for k in own])
+        length = np.array([faces.get(frozenset(pairs[k]), math.nan) if model.by_faces else
+                           laps.get(frozenset(pairs[k]), 2 * min(model.circle_radius[list(pairs[k])])) for k in own])
         angle = np.asarray(e["orientation"])[own] + math.pi / 2
         r.key(label + "length", float(length.sum()))
         mean = np.sum(length * np.exp(2j * angle)) if len(own) else complex(math.nan, math.nan)

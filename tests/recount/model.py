@@ -15,6 +15,7 @@ from outlines import clump_centre, outset, polygon_moments
 # Relative rounding error of sums of thousands of terms, and of overlaps, which are 1e-4 of the coordinates they are
 # computed from.
 rounding = 1e-9
+shear_correction = {"voronoi": 0.30, "delaunay": 0.79}  # c_κ of faces by the kind of mesh
 platen_width, platen_depth = 2.0, 0.05  # fractions of the specimen's width and height (specimens/setup/METHODS.md)
 
 
@@ -25,6 +26,19 @@ def dot(a, b):
 def turned(v):
     """By +90 degrees."""
     return np.stack([-v[:, 1], v[:, 0]], axis=1)
+
+
+def moduli(youngs_modulus, poissons_ratio, stiffness_ratio, c):
+    """E_c and λ (Pa) of faces, and κ = k_t/k_n (solver/MODEL.md 5.5). @param stiffness_ratio  k_n/k_t; None for cells without pressure
+    @param c  c_κ"""
+    e, nu = youngs_modulus, poissons_ratio
+    if stiffness_ratio is None:  # λ = 0: (1 + ν)(1 - c x²) = (1 - ν)(1 + x) with x = (1 - κ)/(1 + κ)
+        a = (1 + nu) * c
+        x = (math.sqrt((1 - nu) ** 2 + 8 * a * nu) - (1 - nu)) / (2 * a)
+        return e / (1 - nu), 0.0, (1 - x) / (1 + x)
+    kappa = 1 / stiffness_ratio
+    contact = 2 * e / ((1 + nu) * (1 + kappa) * (1 - c * ((1 - kappa) / (1 + kappa)) ** 2))
+    return contact, e / (2 * (1 - nu)) - contact / 2, kappa
 
 
 def single(values):
@@ -80,12 +94,15 @@ class Model:
         self.width, self.height = deck.width, deck.height
         self.materials = [dict(m) for m in deck.materials]
         self.by_area = results.key("material", "units", "point") == "area"
-        self.coulomb = results.key("bond", "law", "back_tension") == "coulomb"
+        law = results.key("bond", "law", "back_tension")
+        self.coulomb, self.by_faces = law == "coulomb", law == "face"
         self.minerals = results.case.get("mineral", [])
         for k, m in enumerate(self.materials):
             own = self.minerals[k] if k < len(self.minerals) else {}
             m["ratio"] = own.get("damping_ratio", results.key("material", "damping_ratio"))
-            if self.by_area:  # Pa
+            if self.by_faces:
+                self._set_face_law(m, own)
+            elif self.by_area:  # Pa
                 modulus, ratio = (own.get(key, results.key("material", key)) for key in ("contact_modulus", "stiffness_ratio"))
                 m["normal_stiffness"], m["shear_stiffness"] = modulus, modulus / ratio
             stated = results.key("material", "residual_friction_angle", m["friction_angle"])
@@ -109,6 +126,20 @@ class Model:
         self.bottom, self.top = self.count, self.count + 1
         self._place_platens()
         self._measure()
+
+    def _set_face_law(self, m, own):
+        """Sets the moduli and constants of faces in a material. @param own  its table in the case, which overrides [material]"""
+        def given(key, otherwise=None):
+            return own.get(key, self.results.key("material", key, otherwise))
+
+        kind = self.results.key("mesh", "kind", "voronoi")
+        m["face_modulus"], m["pressure_modulus"], m["shear_share"] = moduli(
+            given("youngs_modulus"), given("poissons_ratio"), given("stiffness_ratio"), shear_correction[kind])
+        m["normal_stiffness"], m["shear_stiffness"] = m["face_modulus"], m["face_modulus"] * m["shear_share"]
+        for name in ("residual_cohesion", "residual_tensile_strength", "softening_slip"):
+            m[name] = given(name, 0.0)
+        m["friction_knee"] = given("friction_knee", math.inf)
+        m["friction_angle_beyond"], m["moment_share"] = given("friction_angle_beyond", m["friction_angle"]), given("moment_share", 0.0)
 
     def _reach_of_bonds(self):
         """Largest gap that is bonded, m."""
@@ -205,6 +236,10 @@ class Model:
     @staticmethod
     def _series(a, b):
         return np.where(a + b > 0, 2 * a * b / np.where(a + b > 0, a + b, 1), 0.0)
+
+    def series_of(self, name, p):
+        """Value of two materials in series."""
+        return self._series(*self._pair(name, p.i, p.j))
 
     def _overridden(self, name, p, value):
         """Replaces values by those of [[mineral_pair]] tables."""

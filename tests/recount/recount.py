@@ -16,6 +16,7 @@ except ImportError:
 from cycles import first_loading, recount_cycles, travel
 from emission import recount_emission
 from events import recount_events, recount_parting
+from face_frames import recount_face_frame
 from frames import recount_frame, recount_places
 from history import holds_every_step, recount_history
 from joints import Joints, recount_faces, recount_joints
@@ -114,7 +115,11 @@ def recount_curve(r, joints):
                + c["dashpot_loss"] + c["friction_loss"] + c["fracture_loss"] - c["platen_work"]
                - c.get("confinement_work", 0))
     size = np.abs(c["kinetic_energy"]) + c["strain_energy"] + c["dashpot_loss"] + np.abs(c["platen_work"])
-    if joints.have_mechanics() and r.results.polygons is None:
+    if case("bond", "law") == "face":
+        whole = c["bonds_broken"] == 0
+        r.rows("curve: energy_error without breaks", c["energy_error"][whole], closing[whole], (1e-12 * size + 1e-16 * np.max(size))[whole])
+        r.leave("curve: energy_error after breaks", "what broken faces lose to the lag of their pressures is in no column")
+    elif joints.have_mechanics() and r.results.polygons is None:
         r.leave("curve: energy_error", "what the laps of flat faces change is in no column")
     elif case("numerics", "contact_law", "rounded") == "rounded":
         r.rows("curve: energy_error", c["energy_error"], closing, 1e-12 * size + 1e-16 * np.max(size))
@@ -340,6 +345,8 @@ def recount_model(r, joints, faces):
         model.lay_flat_faces(parts)
     if model.minerals:
         recount_minerals(r, model)
+    rows = r.results.frame_rows()
+    r.every_step = holds_every_step(r, rows)
     bonds = recount_specimen(r, model)
     if faces is not None:
         recount_faces(r, model, faces)
@@ -349,18 +356,21 @@ def recount_model(r, joints, faces):
     recount_parting(r, model)
     recount_rose(r, model, bonds)
     recount_emission(r, model)
-    rows = r.results.frame_rows()
     for what, table in (("events", r.events), ("slips", r.results.slips)):
         if table is not None and len(table["time"]):
             recount_places(r, model, bonds, rows, what, table)
-    if holds_every_step(r, rows):
+    if r.every_step and not model.by_faces:
         recount_history(r, model, bonds, rows)
     first = r.results.frame(rows[0])
     picked = sorted({rows[round(k * (len(rows) - 1) / 6)] for k in range(7)})
     for row in picked:
         frame = r.results.frame(row)
         at = np.flatnonzero(np.abs(r.curve["time"] - frame.time) <= 1e-12 * max(frame.time, 1e-300))
-        recount_frame(r, model, bonds, frame, first, int(at[0]) if len(at) else None)
+        at = int(at[0]) if len(at) else None
+        if model.by_faces:
+            recount_face_frame(r, model, bonds, frame, at)
+        else:
+            recount_frame(r, model, bonds, frame, first, at)
 
 
 def shown(value):

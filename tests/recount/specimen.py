@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 
+from bonded_faces import make_faces
 from bonds import make_bonds
 from frames import touching_floor
 from loading_by_tolerance import by_tolerance, recount_start
@@ -122,6 +123,22 @@ def leave_loose(r, name):
             r.leave(name + suffix, "a particle that it is read from moves without a force")
 
 
+def recount_contacts(r, model, bonds):
+    """Contact points when loading begins; those between bodies with a common face are only listed once it has broken."""
+    bonded = set(bonds.keys())
+    points = model.points(model.centre, np.zeros(len(model.mass)))  # with the properties that bonding has set
+    beyond = points.overlap - points.rest
+    unbonded = np.array([key not in bonded for key in points.keys()]) & ~(points.lap <= 0)
+    if model.by_faces:
+        with_face = set(map(frozenset, zip(bonds.i.tolist(), bonds.j.tolist())))
+        unbonded &= np.array([frozenset(pair) not in with_face for pair in zip(points.i.tolist(), points.j.tolist())])
+    # Whether flat faces touch at the start depends on rounding.
+    floor = touching_floor * model.height * (model.frictional | ~np.isnan(points.lap))
+    fewest, most = (len(bonds.i) + np.sum(unbonded & (beyond > side * floor)) for side in (1, -1))
+    r.compare("contacts_initial", r.summary["contacts_initial"], (fewest + most) / 2, (most - fewest) / 2)
+    r.keys.add("contacts_initial")
+
+
 def recount_specimen(r, model):
     """Counts, bonds, modulus and stable step of the specimen between its platens. @return its bonds"""
     s = r.summary
@@ -143,18 +160,9 @@ def recount_specimen(r, model):
         r.key("bond_thick", model.thick)
     else:
         r.key("specimen", "circles")
-    points = model.points(model.centre, np.zeros(len(model.mass)))
-    bonds = make_bonds(model, points)
+    bonds = make_faces(model) if model.by_faces else make_bonds(model, model.points(model.centre, np.zeros(len(model.mass))))
     r.key("bonds_initial", len(bonds.i))
-    bonded = set(bonds.keys())
-    points = model.points(model.centre, np.zeros(len(model.mass)))  # again, with the properties that bonding has set
-    beyond = points.overlap - points.rest
-    unbonded = np.array([key not in bonded for key in points.keys()]) & ~(points.lap <= 0)
-    # Whether flat faces touch at the start depends on rounding.
-    floor = touching_floor * model.height * (model.frictional | ~np.isnan(points.lap))
-    fewest, most = (len(bonds.i) + np.sum(unbonded & (beyond > side * floor)) for side in (1, -1))
-    r.compare("contacts_initial", s["contacts_initial"], (fewest + most) / 2, (most - fewest) / 2)
-    r.keys.add("contacts_initial")
+    recount_contacts(r, model, bonds)
     pairs = {(min(a, b), max(a, b)) for a, b in zip(bonds.i, bonds.j)}
     r.key("interfaces_initial", len(pairs))
     tension = model.normal_stiffness(bonds) * bonds.overlap
@@ -167,7 +175,7 @@ def recount_specimen(r, model):
     r.key("bonds_unbreakable", int(np.sum(bonds.held)))
     glued = r.results.key("loading", "platens") == "glued"
     r.key("grip", r.results.key("loading", "grip", 0.0) * model.height if glued else 0.0)
-    if model.coulomb and not np.all(bonds.held):
+    if (model.coulomb or model.by_faces) and not np.all(bonds.held):
         r.key("mean_tensile_strength", bonds.tensile[~bonds.held].mean())
         r.key("mean_cohesion", bonds.cohesion[~bonds.held].mean())
     if s.get("youngs_modulus"):
@@ -175,7 +183,7 @@ def recount_specimen(r, model):
         r.key("wave_transit_time", model.height / math.sqrt(s["youngs_modulus"] / density))
     if model.frictional or len(model.mass) > 1500:
         return bonds
-    stiffness, damping = model.matrices(together(bonds, model.closed), model.centre)
+    stiffness, damping = bonds.matrices(model) if model.by_faces else model.matrices(together(bonds, model.closed), model.centre)
     free = np.arange(3 * model.count)
     solution = np.zeros(3 * len(model.mass))
     solution[3 * model.top + 1] = -model.sense * model.height  # axial strain 1
@@ -218,7 +226,7 @@ def recount_specimen(r, model):
         r.true("stable_time_step: stable", stable(model, stiffness, damping, step))
         r.true("stable_time_step: unstable two millionths above", not stable(model, stiffness, damping, step * (1 + 2e-6)))
         r.keys.update({"stable_time_step", "time_step_bound"})
-        if len(model.closed.i):  # faces of open joints carry forces only after the first step
+        if not model.by_faces and len(model.closed.i):  # faces of open joints carry forces only after the first step
             stiffness, damping = model.matrices(bonds, model.centre)
         r.true("time_step_bound: stable for what bears when loading begins", stable(model, stiffness, damping, s["time_step_bound"]))
         if r.results.key("numerics", "time_step") is None:

@@ -1,0 +1,267 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Faces between bonded polygons: geometry before the inset, springs, pressures of cells, strengths (solver/MODEL.md 5.5).
+
+Voronoi cells are made again from the seeds of specimen_circles.dat; other polygons are moved outwards by half the gap."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from bonds import Bonds, factors
+from model import dot, turned
+from outlines import outset, polygon_moments
+
+least_distance = 0.2  # least h as a fraction of its mean, and least distance of a reference point from a free side
+free, lower, upper = -1, -2, -3  # in place of a neighbour: nothing, the lower and the upper end of the box
+shortest = 1e-9  # fraction of the square root of a cell's area: shorter faces are rounding
+along_one_line = 1e-7  # fraction of a cell by which two edges of one face may lie apart
+
+
+@dataclass
+class FaceBonds(Bonds):
+    """Faces; `normal` points from i to j, `position` is the middle. Platens are always body j."""
+
+    length: np.ndarray  # m
+    kn: np.ndarray  # N/m
+    kt: np.ndarray  # N/m
+    share_i: np.ndarray  # s_i, s_j: shares of a cell's pressure
+    share_j: np.ndarray
+    skew_i: np.ndarray  # offset of the middle from each reference point along the tangent, over h
+    skew_j: np.ndarray
+    tan_friction: np.ndarray  # tan φ
+    tan_beyond: np.ndarray  # tan φ2
+    knee: np.ndarray  # Pa
+    moment_share: np.ndarray  # β
+    residual_friction: np.ndarray  # tan φ_r
+    left_cohesion: np.ndarray  # N, cohesion after a failure in shear
+    slides_to_soften: np.ndarray  # whether the cohesion falls over a slip instead of at once
+    left_tension: np.ndarray  # N, tensile strength after a failure in shear
+
+    @property
+    def turning(self):
+        """k_φ, N m."""
+        return self.kn * self.length**2 / 12
+
+    @property
+    def softens(self):
+        """Whether faces keep a cohesion after a failure in shear, if only over some slip."""
+        return self.slides_to_soften | (self.left_cohesion > 0)
+
+    def motion(self, model, centre, angle):
+        """δ_n, δ_t (m) and δ_φ (rad) of all faces, their normals, and the places of their middles on both bodies."""
+        ways = []
+        for body in (self.i, self.j):
+            c, s = np.cos(angle[body]), np.sin(angle[body])
+            arm = self.position - model.centre[body]
+            ways.append(centre[body] + np.stack([c * arm[:, 0] - s * arm[:, 1], s * arm[:, 0] + c * arm[:, 1]], 1))
+        mean = (angle[self.i] + angle[self.j]) / 2
+        c, s = np.cos(mean), np.sin(mean)
+        normal = np.stack([c * self.normal[:, 0] - s * self.normal[:, 1], s * self.normal[:, 0] + c * self.normal[:, 1]], 1)
+        apart = ways[1] - ways[0]
+        return dot(apart, normal), dot(apart, turned(normal)), angle[self.j] - angle[self.i], normal, ways
+
+    def dilations(self, model, opening, sliding):
+        """A e of every cell without its free sides, m²; platens have none."""
+        total = np.zeros(len(model.mass))
+        np.add.at(total, self.i, self.length * (self.share_i * opening + self.skew_i * sliding))
+        np.add.at(total, self.j, self.length * (self.share_j * opening - self.skew_j * sliding))
+        return total
+
+    def stretched(self, pressure):
+        """p̄ and τ of all faces, Pa, from the pressures of the bodies."""
+        i, j = pressure[self.i], pressure[self.j]
+        return self.share_i * i + self.share_j * j, self.skew_i * i - self.skew_j * j
+
+    def forces(self, opening, sliding, turn, pressure):
+        """F_n (tension positive), F_t and M of intact faces, N and N m. @param pressure  of the bodies, Pa"""
+        mean, skewing = self.stretched(pressure)
+        return self.kn * opening + self.length * mean, self.kt * sliding + self.length * skewing, self.turning * turn
+
+    def forces_of(self, model, motion):
+        """F_n, F_t and M of intact faces for small motions of the bodies. @param motion  rows x, y, rotation"""
+        rows, _ = self.rows(model)
+        both = np.concatenate([motion[self.i], motion[self.j]], axis=1)
+        opening, sliding, turn = (np.einsum("fk,fk->f", g, both) for g in rows)
+        return self.forces(opening, sliding, turn, model.pressure_per_area * self.dilations(model, opening, sliding))
+
+    def rows(self, model):
+        """Derivatives of δ_n, δ_t and δ_φ with respect to the displacements of both bodies, and where these are."""
+        places = np.concatenate([3 * self.i[:, None] + np.arange(3), 3 * self.j[:, None] + np.arange(3)], axis=1)
+        found = []
+        for direction in (self.normal, turned(self.normal)):
+            found.append(np.concatenate([
+                sign * np.column_stack([direction, dot(turned(self.position - model.centre[body]), direction)])
+                for body, sign in ((self.i, -1.0), (self.j, 1.0))], axis=1))
+        found.append(np.tile([0.0, 0.0, -1.0, 0.0, 0.0, 1.0], (len(self.i), 1)))
+        return found, places
+
+    def dashpots(self, model):
+        """c_n, c_t (N s/m) and c_φ (N m s), by the damping ratio of both materials."""
+        held = self.j >= model.count
+        mass, inertia = (np.where(held, m[self.i], m[self.i] * m[self.j] / (m[self.i] + m[self.j])) for m in (model.mass, model.inertia))
+        ratio = model.series_of("ratio", self)
+        return tuple(2 * ratio * np.sqrt(k * m) for k, m in ((self.kn, mass), (self.kt, mass), (self.turning, inertia)))
+
+    def matrices(self, model):
+        """Stiffness and damping matrices for all 3 N displacements, including the pressures of the cells."""
+        size = 3 * len(model.mass)
+        rows, places = self.rows(model)
+        flat = (places[:, :, None] * size + places[:, None, :]).ravel()
+        stiffness, damping = np.zeros(size * size), np.zeros(size * size)
+        for g, k, c in zip(rows, (self.kn, self.kt, self.turning), self.dashpots(model)):
+            outer = g[:, :, None] * g[:, None, :]
+            stiffness += np.bincount(flat, (k[:, None, None] * outer).ravel(), size * size)
+            damping += np.bincount(flat, (c[:, None, None] * outer).ravel(), size * size)
+        weights = np.zeros((len(model.mass), size))
+        for body, share, skew in ((self.i, self.share_i, self.skew_i), (self.j, self.share_j, -self.skew_j)):
+            own = self.length[:, None] * (share[:, None] * rows[0] + skew[:, None] * rows[1])
+            np.add.at(weights, (np.repeat(body, 6), places.ravel()), own.ravel())
+        stiffness = stiffness.reshape(size, size) + weights.T @ (model.pressure_per_area[:, None] * weights)
+        return stiffness, damping.reshape(size, size)
+
+    def limits(self, compression):
+        """Strength in shear, N. @param compression  N, negative in tension"""
+        s = compression / self.length
+        strength = self.tan_friction * np.minimum(s, self.knee) + self.tan_beyond * np.maximum(0.0, s - self.knee)
+        return self.cohesion + self.length * strength
+
+    def limits_of(self, rows, compression):
+        """The same of some faces."""
+        return self.chosen(rows).limits(compression)
+
+    def load_to_failure(self, normal, shear, moment):
+        """Factor on these forces at which each face fails. @param normal, shear  N, tension positive @param moment  N m"""
+        tension = normal + 6 * self.moment_share * np.abs(moment) / self.length
+        with np.errstate(divide="ignore", invalid="ignore"):
+            parting = np.where(tension > 0, self.tensile / tension, math.inf)
+
+            def sliding(cohesion, friction):
+                rise = np.abs(shear) + friction * normal
+                return np.where(rise > 0, cohesion / rise, math.inf)
+
+            near = sliding(self.cohesion, self.tan_friction)
+            far = sliding(self.cohesion + np.where(np.isinf(self.knee), 0.0, (self.tan_friction - self.tan_beyond) * self.knee * self.length),
+                          self.tan_beyond)
+            beyond = (normal < 0) & (np.where(np.isinf(near), 1e200, near) * -normal > self.knee * self.length)
+        load = np.minimum(parting, np.where(beyond, far, near))
+        load[self.held] = math.inf
+        return load
+
+
+def from_outlines(model):
+    """The same from the polygons, moved outwards by half the gap; faces are where their edges lie on each other. Reference points are
+    circumcentres of triangles, otherwise centroids."""
+    deck, by = model.deck, model.mesh_gap / 2
+    outlines = [outset(b.corners, by) for b in deck.bodies]
+    edges = [[(a, b) for a, b in zip(o, np.roll(o, -1, axis=0))] for o in outlines]
+    low, high = (np.array([f(o, axis=0) for o in outlines]) for f in (np.min, np.max))
+    cells, tolerance = [], along_one_line * math.sqrt(model.area[: model.count].mean())
+    for k, own in enumerate(edges):
+        rows = []
+        near = np.flatnonzero(((low <= high[k] + tolerance) & (high >= low[k] - tolerance)).all(axis=1))
+        for a, b in own:
+            long = math.dist(a, b)
+            to = (b - a) / long
+            covered = []
+            for m in near[near != k]:
+                for c, d in edges[m]:
+                    if max(abs(np.cross(to, c - a)), abs(np.cross(to, d - a))) > tolerance:
+                        continue
+                    start, stop = max(0.0, to @ (d - a)), min(long, to @ (c - a))
+                    if stop - start > tolerance:
+                        covered.append((start, stop, int(m)))
+            wall = next((n for n, y in ((lower, deck.y1), (upper, deck.y2)) if max(abs(a[1] - y), abs(b[1] - y)) <= tolerance), free)
+            at = 0.0
+            for start, stop, m in sorted(covered) + [(long, long, None)]:
+                if start - at > tolerance:
+                    rows.append((a + at * to, a + start * to, wall))
+                if m is not None:
+                    rows.append((a + start * to, a + stop * to, m))
+                at = max(at, stop)
+        cells.append(rows)
+    points = np.array([circumcentre(o) if len(o) == 3 else polygon_moments(o)[1] for o in outlines])
+    return cells, points
+
+
+def circumcentre(triangle):
+    a = triangle[0]
+    b, c = triangle[1] - a, triangle[2] - a
+    return a + np.array([c[1] * (b @ b) - b[1] * (c @ c), b[0] * (c @ c) - c[0] * (b @ b)]) / (2 * np.cross(b, c))
+
+
+def make_faces(model):
+    """All faces of the specimen and its platens. Sets model.pressure_per_area, λ/(A + λ Σ L h_b/E_c) in Pa/m², 0 for platens."""
+    seeded = model.results.key("mesh", "kind") == "voronoi" and not model.joints.traces
+    cells, points = from_outlines(model)
+    if seeded:
+        points = np.array([b.circles[0, :2] for b in model.results.circles.bodies])
+    model.reference = points
+    outlines = [np.array([a for a, _, _ in rows]) for rows in cells]
+    area, centroid = zip(*(polygon_moments(o)[:2] for o in outlines))
+    area = np.array(area)
+    law = [model.materials[m] for m in model.material]
+    contact, pressure, kappa = (np.array([m[name] for m in law]) for name in ("face_modulus", "pressure_modulus", "shear_share"))
+    bonded = model.results.key("loading", "platens") != "frictional"
+    found, sides = [], []
+    for k, rows in enumerate(cells):
+        for a, b, other in rows:
+            long = math.dist(a, b)
+            if long <= shortest * math.sqrt(area[k]):
+                continue
+            out = np.array([b[1] - a[1], a[0] - b[0]]) / long
+            other = {lower: model.bottom, upper: model.top}.get(other, other) if bonded else other
+            if other < 0:
+                sides.append((k, (a + b) / 2, out, long))
+            elif other > k:
+                found.append((k, other, (a + b) / 2, out, long))
+    i, j = (np.array([f[c] for f in found]) for c in (0, 1))
+    middle, normal, length = (np.array([f[c] for f in found]) for c in (2, 3, 4))
+    held = j >= model.count
+    tangent = turned(normal)
+    at_i = points[i]
+    at_j = points[np.where(held, 0, j)]
+    to_i, to_j = dot(middle - at_i, normal), np.where(held, 0.0, dot(at_j - middle, normal))
+    apart = to_i + to_j
+    least = least_distance * apart[~held].mean()
+    by_centroid = held & (to_i < least)
+    at_i = np.where(by_centroid[:, None], np.array(centroid)[i], at_i)
+    to_i = np.where(by_centroid, dot(middle - at_i, normal), to_i)
+    apart = to_i + to_j
+    # A distance that is raised changes D, but not the distances of the reference points.
+    series = np.where(apart < least, least * (1 / contact[i] + 1 / contact[np.where(held, i, j)]) / 2, to_i / contact[i] + to_j / contact[j])
+    kn = length / series
+    across_i, across_j = (np.where(held, 0.0, dot(middle - at, tangent) / contact[b] / series) for at, b in ((at_i, i), (at_j, j)))
+    soft = np.zeros(len(model.mass))
+    for k, at, out, long in sides:
+        away = (at - points[k]) @ out
+        if away < least:
+            away = (at - centroid[k]) @ out
+        soft[k] += long * away / contact[k]
+    model.pressure_per_area = np.zeros(len(model.mass))
+    inside = slice(0, model.count)
+    model.pressure_per_area[inside] = pressure[inside] / (area + pressure[inside] * soft[inside])
+    count, blank = len(i), np.zeros(len(i))
+    ids = np.array(model.ids)
+    factor = factors(model.results, ids[i], ids[j])
+    rock = np.where(held, i, j)  # platens' faces are those of the cell's material
+
+    def weaker(name, take=np.minimum):
+        values = np.array([m[name] for m in law], float)
+        return take(values[i], values[rock])
+
+    glued = model.results.key("loading", "platens") == "glued"
+    depth = model.results.key("loading", "grip", 0.0) * model.height
+    y = middle[:, 1]
+    never = glued & (held | (y < model.deck.y1 + depth) | (y > model.deck.y2 - depth))
+    return FaceBonds(
+        i=i, element=np.zeros(count, int), j=j, overlap=blank, normal=normal, position=middle, share=blank, shear_share=blank,
+        lap=np.full(count, math.nan), trace=np.full(count, -1), rest=blank, held=never,
+        tensile=factor * length * weaker("tensile_strength"), cohesion=factor * length * weaker("cohesion"), length=length,
+        kn=kn, kt=kn * np.where(held, kappa[i], np.sqrt(kappa[i] * kappa[j])), share_i=to_i / contact[i] / series, share_j=to_j / contact[j] / series,
+        skew_i=across_i, skew_j=across_j, tan_friction=np.tan(np.radians(weaker("friction_angle"))), tan_beyond=np.tan(np.radians(weaker("friction_angle_beyond"))), knee=weaker("friction_knee"),
+        moment_share=weaker("moment_share", np.maximum),
+        residual_friction=np.tan(np.radians(weaker("residual_friction_angle"))),
+        left_cohesion=length * np.minimum(weaker("residual_cohesion"), factor * weaker("cohesion")),
+        slides_to_soften=weaker("softening_slip") > 0,
+        left_tension=length * np.minimum(weaker("residual_tensile_strength"), factor * weaker("tensile_strength")))
