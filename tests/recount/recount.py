@@ -17,6 +17,7 @@ from cycles import first_loading, recount_cycles, travel
 from emission import recount_emission
 from events import recount_events, recount_parting
 from face_frames import recount_face_frame
+from face_history import recount_face_history
 from frames import recount_frame, recount_places
 from history import holds_every_step, recount_history
 from joints import Joints, recount_faces, recount_joints
@@ -359,8 +360,8 @@ def recount_model(r, joints, faces):
     for what, table in (("events", r.events), ("slips", r.results.slips)):
         if table is not None and len(table["time"]):
             recount_places(r, model, bonds, rows, what, table)
-    if r.every_step and not model.by_faces:
-        recount_history(r, model, bonds, rows)
+    if r.every_step:
+        (recount_face_history if model.by_faces else recount_history)(r, model, bonds, rows)
     first = r.results.frame(rows[0])
     picked = sorted({rows[round(k * (len(rows) - 1) / 6)] for k in range(7)})
     for row in picked:

@@ -40,6 +40,11 @@ def faces_squeezed():
     return run("faces_squeezed", packing + faces + cells + by_faces + scattered("weibull", 0.2) + short + output)
 
 
+def every_step_of_faces():
+    case = faces + cells + by_faces + scattered("weibull", 0.2) + squeezed.replace("0.02", "0.003") + "axial_strain_rate = 1.0\n"
+    return every_step_of_few("faces", case)
+
+
 def circles_by_factors():
     return run("factors", rock + cohesive + factors + squeezed + rate + output)
 
@@ -211,6 +216,17 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
                 r = self.agrees(run("faces_" + name, text), 220)
                 self.assertGreater(r.summary["bonds_broken"], 2)
                 self.assertLessEqual({"youngs_modulus", "poissons_ratio", "stable_time_step"} if name != "wedges" else {"youngs_modulus"}, r.keys)
+
+    def test_every_step_of_faces(self):
+        own = faces_without_pressure + cells + by_faces + scattered("weibull", 0.2)
+        weak = faces.replace("cohesion = 5e6", "cohesion = 3.6e6") + cells + by_faces
+        for name, folder in (("squeezed", every_step_of_faces()), ("without_pressure", every_step_of_few(
+                "faces_without_pressure", own + squeezed.replace("0.02", "0.0035") + "axial_strain_rate = 1.0\n")),
+                             ("pulled", every_step_of_few("faces_pulled", weak + pulled.replace("0.005", "0.0008") + "axial_strain_rate = 0.5\n"))):
+            with self.subTest(faces=name):
+                r = self.agrees(folder, 150)
+                self.assertTrue(any("history: energy of breaks" in line[0] for line in r.lines), "breaks that are followed")
+                self.assertNotIn("curve: energy_error after breaks", r.left)
 
     def test_every_step_of_coulomb_bonds(self):
         weak = strengths.replace("1.0e7", "0.5e7").replace("3.0e7", "0.5e7")
@@ -581,6 +597,18 @@ class FaultsAreFound(WrongJoints, WrongFiles, unittest.TestCase):
             summary["crack_rose"]["tension_to_peak"]["length"] *= 0.999
 
         self.found(self.spoil_summary(shorter, faces_squeezed()), "crack_rose.tension_to_peak.length")
+
+    def test_losses_and_single_breaks_of_faces(self):
+        more = lambda values: [str(float(value) * 1.00001) for value in values]  # noqa: E731
+        for file, columns in (("curve.csv", ("dashpot_loss", "friction_loss", "fracture_loss", "platen_work", "strain_energy", "energy_error")),
+                              ("events.csv", ("energy", "normal_force", "shear_force"))):
+            for column in columns:
+                figure = column if file == "curve.csv" else column.replace("_", " ") + " of breaks"
+                with self.subTest(column=column):
+                    self.found(self.spoil_column(file, column, more, every_step_of_faces()), "history: " + figure)
+        other = {"shear": "tension", "tension": "shear"}
+        found = self.spoil_column("events.csv", "mode", lambda words: words[:-1] + [other[words[-1]]], every_step_of_faces())
+        self.found(found, "history: mode of breaks")
 
     def test_other_constants_of_faces(self):
         """The results of one law do not pass for those of another."""
