@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Faces between bonded polygons: geometry before the inset, springs, pressures of cells, strengths (solver/MODEL.md 5.5).
 
-Voronoi cells are made again from the seeds of specimen_circles.dat; other polygons are moved outwards by half the gap."""
+The polygons are moved outwards by half the gap. An edge that the inset has removed is missing, as in the program; there the cells lap a
+little and have no face."""
 
 import math
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ from bonds import Bonds, factors
 from model import dot, turned
 from outlines import outset, polygon_moments
 
-least_distance = 0.2  # least h as a fraction of its mean, and least distance of a reference point from a free side
+least_distance = 0.2  # least h as a fraction of its mean; a reference point nearer to a free side or platen gives way to the centroid
 free, lower, upper = -1, -2, -3  # in place of a neighbour: nothing, the lower and the upper end of the box
 shortest = 1e-9  # fraction of the square root of a cell's area: shorter faces are rounding
 along_one_line = 1e-7  # fraction of a cell by which two edges of one face may lie apart
@@ -127,7 +128,7 @@ class FaceBonds(Bonds):
         return self.cohesion + self.length * strength
 
     def limits_of(self, rows, compression):
-        """The same of some faces."""
+        """Strength in shear of some faces, N."""
         return self.chosen(rows).limits(compression)
 
     def load_to_failure(self, normal, shear, moment):
@@ -150,8 +151,8 @@ class FaceBonds(Bonds):
 
 
 def from_outlines(model):
-    """The same from the polygons, moved outwards by half the gap; faces are where their edges lie on each other. Reference points are
-    circumcentres of triangles, otherwise centroids."""
+    """Cells as rows (begin, end, neighbour), and their reference points: circumcentres of triangles, otherwise centroids. The polygons are
+    moved outwards by half the gap; faces are where their edges lie on each other."""
     deck, by = model.deck, model.mesh_gap / 2
     outlines = [outset(b.corners, by) for b in deck.bodies]
     edges = [[(a, b) for a, b in zip(o, np.roll(o, -1, axis=0))] for o in outlines]
@@ -190,78 +191,91 @@ def circumcentre(triangle):
     return a + np.array([c[1] * (b @ b) - b[1] * (c @ c), b[0] * (c @ c) - c[0] * (b @ b)]) / (2 * np.cross(b, c))
 
 
-def make_faces(model):
-    """All faces of the specimen and its platens. Sets model.pressure_per_area, λ/(A + λ Σ L h_b/E_c) in Pa/m², 0 for platens."""
-    seeded = model.results.key("mesh", "kind") == "voronoi" and not model.joints.traces
-    cells, points = from_outlines(model)
-    if seeded:
-        points = np.array([b.circles[0, :2] for b in model.results.circles.bodies])
-    model.reference = points
-    outlines = [np.array([a for a, _, _ in rows]) for rows in cells]
-    area, centroid = zip(*(polygon_moments(o)[:2] for o in outlines))
-    area = np.array(area)
-    law = [model.materials[m] for m in model.material]
-    contact, pressure, kappa = (np.array([m[name] for m in law]) for name in ("face_modulus", "pressure_modulus", "shear_share"))
-    bonded = model.results.key("loading", "platens") != "frictional"
+@dataclass
+class Edges:
+    """Parts of outlines before the inset: faces between i and j, or free sides of i (j is then -1)."""
+
+    i: np.ndarray
+    j: np.ndarray
+    middle: np.ndarray  # m
+    normal: np.ndarray  # out of i
+    length: np.ndarray  # m
+
+
+def split_edges(model, cells, area):
+    """@return faces, each once, and free sides"""
+    platens = {} if model.frictional else {lower: model.bottom, upper: model.top}
     found, sides = [], []
     for k, rows in enumerate(cells):
         for a, b, other in rows:
-            long = math.dist(a, b)
-            if long <= shortest * math.sqrt(area[k]):
+            long, other = math.dist(a, b), platens.get(other, other)
+            if long <= shortest * math.sqrt(area[k]) or 0 <= other < k:
                 continue
             out = np.array([b[1] - a[1], a[0] - b[0]]) / long
-            other = {lower: model.bottom, upper: model.top}.get(other, other) if bonded else other
-            if other < 0:
-                sides.append((k, (a + b) / 2, out, long))
-            elif other > k:
-                found.append((k, other, (a + b) / 2, out, long))
-    i, j = (np.array([f[c] for f in found]) for c in (0, 1))
-    middle, normal, length = (np.array([f[c] for f in found]) for c in (2, 3, 4))
-    held = j >= model.count
-    tangent = turned(normal)
-    at_i = points[i]
-    at_j = points[np.where(held, 0, j)]
-    to_i, to_j = dot(middle - at_i, normal), np.where(held, 0.0, dot(at_j - middle, normal))
-    apart = to_i + to_j
-    least = least_distance * apart[~held].mean()
-    by_centroid = held & (to_i < least)
-    at_i = np.where(by_centroid[:, None], np.array(centroid)[i], at_i)
-    to_i = np.where(by_centroid, dot(middle - at_i, normal), to_i)
-    apart = to_i + to_j
-    # A distance that is raised changes D, but not the distances of the reference points.
-    series = np.where(apart < least, least * (1 / contact[i] + 1 / contact[np.where(held, i, j)]) / 2, to_i / contact[i] + to_j / contact[j])
-    kn = length / series
-    across_i, across_j = (np.where(held, 0.0, dot(middle - at, tangent) / contact[b] / series) for at, b in ((at_i, i), (at_j, j)))
-    soft = np.zeros(len(model.mass))
-    for k, at, out, long in sides:
-        away = (at - points[k]) @ out
-        if away < least:
-            away = (at - centroid[k]) @ out
-        soft[k] += long * away / contact[k]
+            (found if other >= 0 else sides).append((k, max(other, -1), (a + b) / 2, out, long))
+    return (Edges(*(np.array([row[c] for row in rows]) for c in range(5))) for rows in (found, sides))
+
+
+def make_faces(model):
+    """All faces of the specimen and its platens. Sets model.pressure_per_area, λ/(A + λ Σ L h_b/E_c) in Pa/m², 0 for platens."""
+    cells, points = from_outlines(model)
+    if model.results.key("mesh", "kind") == "voronoi":
+        points = np.array([b.circles[0, :2] for b in model.results.circles.bodies])
+    area, centroid = (np.array(values) for values in zip(*(polygon_moments(np.array([a for a, _, _ in rows]))[:2] for rows in cells)))
+    faces, sides = split_edges(model, cells, area)
+    contact, pressure, kappa = (np.array([model.materials[m][name] for m in model.material]) for name in ("face_modulus", "pressure_modulus", "shear_share"))
+    i, j, held = faces.i, faces.j, faces.j >= model.count
+    at_i, at_j = points[i], points[np.where(held, 0, j)]
+    to_i, to_j = dot(faces.middle - at_i, faces.normal), np.where(held, 0.0, dot(at_j - faces.middle, faces.normal))
+    least = least_distance * (to_i + to_j)[~held].mean()
+    near = held & (to_i < least)
+    at_i = np.where(near[:, None], centroid[i], at_i)
+    to_i = np.where(near, dot(faces.middle - at_i, faces.normal), to_i)
+    # A distance h that is raised changes D, but not the distances of the reference points.
+    soft = 1 / contact[i], 1 / contact[np.where(held, i, j)]
+    series = np.where(to_i + to_j < least, least * (soft[0] + soft[1]) / 2, to_i * soft[0] + to_j * soft[1])
+    across = [np.where(held, 0.0, dot(faces.middle - at, turned(faces.normal)) * s / series) for at, s in zip((at_i, at_j), soft)]
     model.pressure_per_area = np.zeros(len(model.mass))
     inside = slice(0, model.count)
-    model.pressure_per_area[inside] = pressure[inside] / (area + pressure[inside] * soft[inside])
-    count, blank = len(i), np.zeros(len(i))
-    ids = np.array(model.ids)
+    model.pressure_per_area[inside] = pressure[inside] / (area + pressure[inside] * softness_of_sides(sides, points, centroid, least, contact, model.count))
+    kn, none, ids = faces.length / series, np.zeros(len(i)), np.array(model.ids)
     factor = factors(model.results, ids[i], ids[j])
-    rock = np.where(held, i, j)  # platens' faces are those of the cell's material
+    return FaceBonds(
+        i=i, element=np.zeros(len(i), int), j=j, overlap=none, normal=faces.normal, position=faces.middle, share=none, shear_share=none,
+        lap=np.full(len(i), math.nan), trace=np.full(len(i), -1), rest=none, held=never_breaks(model, faces), length=faces.length,
+        kn=kn, kt=kn * np.where(held, kappa[i], np.sqrt(kappa[i] * kappa[np.where(held, i, j)])), share_i=to_i * soft[0] / series,
+        share_j=to_j * soft[1] / series, skew_i=across[0], skew_j=across[1], **strengths(model, faces, factor))
+
+
+def softness_of_sides(sides, points, centroid, least, contact, count):
+    """Σ L h_b/E_c of the free sides of each cell, m²/Pa."""
+    total = np.zeros(count)
+    away, inner = (dot(sides.middle - at[sides.i], sides.normal) for at in (points, centroid))
+    np.add.at(total, sides.i, sides.length * np.where(away < least, inner, away) / contact[sides.i])
+    return total
+
+
+def never_breaks(model, faces):
+    """Which faces are those of glued platens, or lie within the grips."""
+    depth, y = model.results.key("loading", "grip", 0.0) * model.height, faces.middle[:, 1]
+    beyond = (faces.j >= model.count) | (y < model.deck.y1 + depth) | (y > model.deck.y2 - depth)
+    return beyond & (model.results.key("loading", "platens") == "glued")
+
+
+def strengths(model, faces, factor):
+    """Strengths and constants of faces: the weaker of two materials; faces on platens have those of the cell. @param factor  random, for T
+    and C"""
+    other = np.where(faces.j >= model.count, faces.i, faces.j)
 
     def weaker(name, take=np.minimum):
-        values = np.array([m[name] for m in law], float)
-        return take(values[i], values[rock])
+        values = np.array([model.materials[m][name] for m in model.material], float)
+        return take(values[faces.i], values[other])
 
-    glued = model.results.key("loading", "platens") == "glued"
-    depth = model.results.key("loading", "grip", 0.0) * model.height
-    y = middle[:, 1]
-    never = glued & (held | (y < model.deck.y1 + depth) | (y > model.deck.y2 - depth))
-    return FaceBonds(
-        i=i, element=np.zeros(count, int), j=j, overlap=blank, normal=normal, position=middle, share=blank, shear_share=blank,
-        lap=np.full(count, math.nan), trace=np.full(count, -1), rest=blank, held=never,
-        tensile=factor * length * weaker("tensile_strength"), cohesion=factor * length * weaker("cohesion"), length=length,
-        kn=kn, kt=kn * np.where(held, kappa[i], np.sqrt(kappa[i] * kappa[j])), share_i=to_i / contact[i] / series, share_j=to_j / contact[j] / series,
-        skew_i=across_i, skew_j=across_j, tan_friction=np.tan(np.radians(weaker("friction_angle"))), tan_beyond=np.tan(np.radians(weaker("friction_angle_beyond"))), knee=weaker("friction_knee"),
-        moment_share=weaker("moment_share", np.maximum),
-        residual_friction=np.tan(np.radians(weaker("residual_friction_angle"))),
-        left_cohesion=length * np.minimum(weaker("residual_cohesion"), factor * weaker("cohesion")),
-        slides_to_soften=weaker("softening_slip") > 0,
-        left_tension=length * np.minimum(weaker("residual_tensile_strength"), factor * weaker("tensile_strength")))
+    tensile, cohesion = (factor * weaker(name) for name in ("tensile_strength", "cohesion"))
+    tangents = {of: np.tan(np.radians(weaker(name))) for of, name in (
+        ("tan_friction", "friction_angle"), ("tan_beyond", "friction_angle_beyond"), ("residual_friction", "residual_friction_angle"))}
+    return tangents | {
+        "tensile": faces.length * tensile, "cohesion": faces.length * cohesion, "knee": weaker("friction_knee"),
+        "moment_share": weaker("moment_share", np.maximum), "slides_to_soften": weaker("softening_slip") > 0,
+        "left_cohesion": faces.length * np.minimum(weaker("residual_cohesion"), cohesion),
+        "left_tension": faces.length * np.minimum(weaker("residual_tensile_strength"), tensile)}

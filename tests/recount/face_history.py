@@ -168,8 +168,8 @@ class Follower:
         per = model.pressure_per_area[[i, j]]
         by_stretch, by_slide = np.array([b.share_i[k], b.share_j[k]]), np.array([b.skew_i[k], -b.skew_j[k]])
         before = self.pressure[[i, j]].copy()
-        forces_then = np.array(b.chosen(np.array([k])).forces(*(np.array([values[k]]) for values in (self.laps.opening, self.laps.sliding, self.laps.turn)), self.pressure))[:, 0]
         opening, sliding, turn = (values[k] for values in (self.laps.opening, self.laps.sliding, self.laps.turn))
+        whole = np.array(b.chosen([k]).forces(opening, sliding, turn, self.pressure))[:, 0]
         face = Broken(in_shear, self.held_after(k, by_stretch @ before, 1.0) if in_shear else 0.0)
         slip, pressure = 0.0, by_stretch @ before
         coupled = long * (by_stretch @ (per * by_stretch)), long * (by_stretch @ (per * by_slide)), long * (by_slide @ (per * by_slide))
@@ -202,8 +202,8 @@ class Follower:
         self.fracture += energy
         # Half the work of what the face and its cells lose has been done in this step.
         own = long * (by_stretch * moved[0] + by_slide * moved[1])
-        lost = (forces_then - np.array([contact.force, shear, contact.moment])) @ moved + np.where(per > 0, before - after, 0.0) @ (dilated[[i, j]] - own)
-        self.lag -= lost / 2
+        lost = whole - np.array([contact.force, shear, contact.moment])
+        self.lag -= (lost @ moved + np.where(per > 0, before - after, 0.0) @ (dilated[[i, j]] - own)) / 2
         face = self.state(k, face, contact, pressure, skewing)
         face.pressure, face.shear = pressure, shear
         self.broken[k] = face

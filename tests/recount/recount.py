@@ -337,6 +337,9 @@ def recount_model(r, joints, faces):
     """Figures that follow from the specimen between its platens. @param faces  faces on traces, from joints.py"""
     model = Model(r.results, joints)
     recount_lengths(r)
+    if model.by_faces and joints.traces:
+        r.leave("bonds, events and frames", "faces on traces are not recounted")
+        return
     if joints.have_mechanics() and not model.polygons:
         parts = joints.parts(faces, model.deck)
         if None in parts:
