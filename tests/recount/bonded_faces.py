@@ -36,7 +36,8 @@ class FaceBonds(Bonds):
     moment_share: np.ndarray  # β
     residual_friction: np.ndarray  # tan φ_r
     left_cohesion: np.ndarray  # N, cohesion after a failure in shear
-    slides_to_soften: np.ndarray  # whether the cohesion falls over a slip instead of at once
+    softening_slip: np.ndarray  # m, u_c, over which the cohesion falls
+    softening_opening: np.ndarray  # m, w_c, over which the tensile strength after a failure in shear falls
     left_tension: np.ndarray  # N, tensile strength after a failure in shear
 
     @property
@@ -47,7 +48,7 @@ class FaceBonds(Bonds):
     @property
     def softens(self):
         """Whether faces keep a cohesion after a failure in shear, if only over some slip."""
-        return self.slides_to_soften | (self.left_cohesion > 0)
+        return (self.softening_slip > 0) | (self.left_cohesion > 0)
 
     def motion(self, model, centre, angle):
         """δ_n, δ_t (m) and δ_φ (rad) of all faces, their normals, and the places of their middles on both bodies."""
@@ -276,6 +277,6 @@ def strengths(model, faces, factor):
         ("tan_friction", "friction_angle"), ("tan_beyond", "friction_angle_beyond"), ("residual_friction", "residual_friction_angle"))}
     return tangents | {
         "tensile": faces.length * tensile, "cohesion": faces.length * cohesion, "knee": weaker("friction_knee"),
-        "moment_share": weaker("moment_share", np.maximum), "slides_to_soften": weaker("softening_slip") > 0,
+        "moment_share": weaker("moment_share", np.maximum), "softening_slip": weaker("softening_slip"), "softening_opening": weaker("softening_opening"),
         "left_cohesion": faces.length * np.minimum(weaker("residual_cohesion"), cohesion),
         "left_tension": faces.length * np.minimum(weaker("residual_tensile_strength"), tensile)}

@@ -114,6 +114,7 @@ cohesion = 5e6
 moment_share = 0.7
 damping_ratio = 0.2
 """
+softening = "residual_cohesion = 1e6\nsoftening_slip = 2e-4\nresidual_tensile_strength = 1e6\nsoftening_opening = 2e-4\n"
 faces_without_pressure = """[material]
 units = "area"
 density = 2500.0

@@ -36,6 +36,8 @@ class Broken:
     in_shear: bool
     held: float  # 1 - D
     slip: float = 0.0  # m, u_p
+    path: float = 0.0  # m, sum of all |Δu_p|
+    glued: float = 0.0  # m, b_c: least closed length since a failure in shear
     pressure: float = 0.0  # Pa, late pressure of the next step
     opening: float = 0.0
     sliding: float = 0.0
@@ -86,10 +88,36 @@ class Follower:
         return Contact(force, moment, closed, stretch, stored, q * pull, whole)
 
     def held_after(self, k, pressure, held):
-        """1 - D: without a residual tension, a face that is pulled on loses all its tension."""
-        a, stiffness = self.laps.lap[k] / 2, self.bonds.kn[k] / self.bonds.length[k]
-        stress = self.laps.opening[k] + pressure / stiffness + self.bonds.moment_share[k] * a * abs(self.laps.turn[k])
-        return 0.0 if a == 0 or stress > 0 else held
+        """1 - D after a step: from the residual tension on, it falls to 0 over softening_opening."""
+        b, a, stiffness = self.bonds, self.laps.lap[k] / 2, self.bonds.kn[k] / self.bonds.length[k]
+        stress = stiffness * (self.laps.opening[k] + pressure / stiffness + b.moment_share[k] * a * abs(self.laps.turn[k]))
+        residual = b.left_tension[k] / b.length[k]
+        if held == 0.0 or a == 0:
+            return 0.0
+        if stress <= residual:
+            return held
+        steepness = 1 - residual / (stiffness * b.softening_opening[k]) if b.softening_opening[k] > 0 else -math.inf
+        return min(held, max(0.0, 1 - (1 - residual / stress) / steepness)) if steepness > 0 else 0.0
+
+    def cohesion(self, k, path):
+        """What is left of the cohesion after a slip, Pa."""
+        b = self.bonds
+        whole, residual = b.cohesion[k] / b.length[k], b.left_cohesion[k] / b.length[k]
+        return residual if not path < b.softening_slip[k] else residual + (whole - residual) * (1 - path / b.softening_slip[k])
+
+    def slide(self, k, trial, stiffness, force, glued, path):
+        """Slip that brings a shear force to its limit. @return slip, remaining force, and the force that works against a falling cohesion"""
+        b, size, rubbing = self.bonds, abs(trial), self.limit(k, force)
+        before, residual = self.cohesion(k, path), b.left_cohesion[k] / b.length[k]
+        slip = max(0.0, size - rubbing - before * glued) / stiffness
+        if slip == 0.0:
+            return 0.0, trial, 0.0
+        if path < b.softening_slip[k] and glued > 0:
+            fall = (b.cohesion[k] / b.length[k] - residual) / b.softening_slip[k] * glued
+            longer = slip * stiffness / (stiffness - fall) if fall < stiffness else math.inf
+            slip = longer if path + longer < b.softening_slip[k] else (size - rubbing - residual * glued) / stiffness
+        after = self.cohesion(k, path + slip)
+        return math.copysign(slip, trial), math.copysign(rubbing + after * glued, trial), ((before + after) / 2 - residual) * glued
 
     def ends(self, k, pressure, held):
         """Mean of ½ k w² at both ends of the lap, N."""
@@ -103,6 +131,7 @@ class Follower:
                        stretch=contact.stretch, ends=self.ends(k, pressure, face.held), pull=contact.pull, taken=1 - laps.q[k], whole=contact.whole)
 
     def limit(self, k, force):
+        """Residual friction, N."""
         return self.bonds.residual_friction[k] * max(0.0, -force)
 
     def step(self, step, places, angle, velocity, spin, dt):
@@ -142,7 +171,7 @@ class Follower:
                 contact = self.rub(k, face, late[k], mean[k], skewing[k])
                 forces[:, k] = contact.force, self.broken[k].shear, contact.moment
             shares[k] = contact.closed / b.length[k] if k in late else 0.0  # a face that breaks has no dashpots in this step
-            sticks[k] = abs(forces[1, k]) < self.limit(k, forces[0, k]) * (1 - rounding)
+            sticks[k] = self.broken[k].slipped == 0.0
         self.lose_to_dashpots(shares, sticks, rates, dt)
         self.forces = forces
         intact[failing] = False
@@ -183,15 +212,14 @@ class Follower:
             contact = self.contact(k, pressure, face.held)
             skewing = by_slide @ before + coupled[1] * (contact.stretch - opening) - coupled[2] * slip
             shear = b.kt[k] * (sliding - slip) + long * skewing
-            excess = abs(shear) - (self.limit(k, contact.force) if in_shear else 0.0)
-            if excess <= 0:
-                break
-            more = math.copysign(excess / (b.kt[k] + long * coupled[2]), shear)
+            face.glued = contact.closed if in_shear else 0.0
+            stiffness = b.kt[k] + long * coupled[2]  # with the pressures' answer to slip
+            more = self.slide(k, shear, stiffness, contact.force, face.glued, abs(slip))[0] if in_shear else shear / stiffness
             if abs(more) <= settled * (abs(sliding) + abs(slip)):
                 break
             slip += more
         after = before + per * long * (by_stretch * (contact.stretch - opening) - by_slide * slip)
-        face.slip = slip
+        face.slip, face.path = slip, abs(slip)
         face.energy = contact.energy + b.kt[k] * (sliding - slip) ** 2 / 2
         self.pressure[[i, j]] = np.where(per > 0, after, 0.0)
 
@@ -216,10 +244,11 @@ class Follower:
         state = self.state(k, face, late, face.pressure, skewing)
         state.late = mean - face.pressure, now.force - late.force, now.moment - late.moment
         trial = b.kt[k] * (self.laps.sliding[k] - face.slip) + b.length[k] * skewing
-        excess = max(0.0, abs(trial) - self.limit(k, now.force))
-        state.slipped = math.copysign(excess / b.kt[k], trial)
-        state.shear = trial - b.kt[k] * state.slipped
-        state.slip = face.slip + state.slipped
+        state.glued = min(face.glued, now.closed)
+        state.slipped, state.shear, falling = self.slide(k, trial, b.kt[k], now.force, state.glued, face.path)
+        state.slip, state.path = face.slip + state.slipped, face.path + abs(state.slipped)
+        self.fracture += falling * abs(state.slipped)
+        self.friction -= falling * abs(state.slipped)
         self.friction += ((face.shear + state.shear) * state.slipped + b.length[k] * (face.skewing + skewing) * (face.slipped - state.slipped)) / 2
         self.friction += (face.ends + state.ends) * (face.half_lap - state.half_lap) + (face.whole + state.whole) / 2 * (state.taken - face.taken)
         p, f, m = (x + y for x, y in zip(face.late, state.late))
@@ -240,9 +269,6 @@ class Follower:
 
 def recount_face_history(r, model, bonds, rows):
     c, e = r.curve, r.events
-    if np.any(bonds.softens) or np.any(bonds.left_tension > 0):
-        r.leave("history of faces", "residual cohesion and tension are not followed")
-        return
     index = {frozenset(pair): k for k, pair in enumerate(zip(bonds.i.tolist(), bonds.j.tolist()))}
     pairs = [frozenset((model.index[int(a)], model.index[int(b)])) for a, b in zip(e["body_i"], e["body_j"])]
     follower = Follower(model, bonds, {index.get(pair): n for n, pair in enumerate(pairs)})

@@ -136,7 +136,7 @@ class Model:
         m["face_modulus"], m["pressure_modulus"], m["shear_share"] = moduli(
             given("youngs_modulus"), given("poissons_ratio"), given("stiffness_ratio"), shear_correction[kind])
         m["normal_stiffness"], m["shear_stiffness"] = m["face_modulus"], m["face_modulus"] * m["shear_share"]
-        for name in ("residual_cohesion", "residual_tensile_strength", "softening_slip"):
+        for name in ("residual_cohesion", "residual_tensile_strength", "softening_slip", "softening_opening"):
             m[name] = given(name, 0.0)
         m["friction_knee"] = given("friction_knee", math.inf)
         m["friction_angle_beyond"], m["moment_share"] = given("friction_angle_beyond", m["friction_angle"]), given("moment_share", 0.0)

@@ -16,7 +16,7 @@ sys.dont_write_bytecode = True
 import numpy as np  # noqa: E402
 from cases import (  # noqa: E402
     area, bonded, by_faces, cells, circles_every_step, cohesive, faces, faces_of_minerals, faces_without_pressure, factors, friction,
-    minerals, minerals_of_an_area, output, packing, pulled, rate, rock, scattered, squeezed, strengths, triangles, voronoi, wedges
+    minerals, minerals_of_an_area, output, packing, pulled, rate, rock, scattered, softening, squeezed, strengths, triangles, voronoi, wedges
 )
 from expected import figures_expected  # noqa: E402
 from jointed import JointedTests, WrongJoints  # noqa: E402
@@ -220,13 +220,17 @@ class Recount(JointedTests, SoundFiles, unittest.TestCase):
     def test_every_step_of_faces(self):
         own = faces_without_pressure + cells + by_faces + scattered("weibull", 0.2)
         weak = faces.replace("cohesion = 5e6", "cohesion = 3.6e6") + cells + by_faces
+        soft = faces + softening + cells + by_faces + scattered("weibull", 0.2)
         for name, folder in (("squeezed", every_step_of_faces()), ("without_pressure", every_step_of_few(
                 "faces_without_pressure", own + squeezed.replace("0.02", "0.0035") + "axial_strain_rate = 1.0\n")),
+                             ("softening", every_step_of_few("faces_softening", soft + squeezed.replace("0.02", "0.0033") + "axial_strain_rate = 1.0\n")),
                              ("pulled", every_step_of_few("faces_pulled", weak + pulled.replace("0.005", "0.0008") + "axial_strain_rate = 0.5\n"))):
             with self.subTest(faces=name):
                 r = self.agrees(folder, 150)
                 self.assertTrue(any("history: energy of breaks" in line[0] for line in r.lines), "breaks that are followed")
                 self.assertNotIn("curve: energy_error after breaks", r.left)
+                if name == "softening":
+                    self.assertGreater(r.curve["fracture_loss"][-1], 1.1 * np.sum(r.events["energy"]), "what slip and opening use up")
 
     def test_every_step_of_coulomb_bonds(self):
         weak = strengths.replace("1.0e7", "0.5e7").replace("3.0e7", "0.5e7")
