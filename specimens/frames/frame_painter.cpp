@@ -73,6 +73,26 @@ const char* of_contacts(std::string_view name) { return declared(contact_arrays(
 const char* of_cracks(std::string_view name) { return declared(crack_arrays(), name).name; }
 const char* of_joints(std::string_view name) { return declared(joint_arrays(), name).name; }
 
+/// First of the bonds that are faces, which are the last ones.
+PointIndex first_face_of(const BondRecord& bonds) {
+    return bonds.kind_begin[static_cast<std::size_t>(PointKind::bonded_face)];
+}
+
+/// Motion of a bond that is a face since it was bonded.
+BondFaceMotion motion_of_face(const PlacedFrame& placed, PointIndex bond) {
+    const ContactPoint point = placed.setup().bonds.points[bond];
+    return motion_of(placed.world().faces.place[point.element_i], placed.body(point.body_i), placed.body(point.body_j));
+}
+
+/// A bond that is a face, with its normal stress. @param normal N, compression positive
+FaceTraction traction_of(const PlacedFrame& placed, PointIndex bond, double normal) {
+    const World& world = placed.world();
+    const FaceSprings springs = world.faces.springs[placed.setup().bonds.points[bond].element_i];
+    const BondFaceMotion motion = motion_of_face(placed, bond);
+    return holds(placed.frame().states[bond]) ? traction_of_intact(springs, motion, normal)
+                                              : traction_of_broken(springs, motion, world.settings.thick, normal);
+}
+
 constexpr std::int64_t most_kept =
     2000;  // largest number of particles whose constant arrays are kept in compressed form
 
@@ -269,7 +289,8 @@ void FramePainter::write_contact_cells(std::ostream& out, const LooseContacts& l
 
 /// Writes the points of contacts. With circles, they are all centres, followed by one point per contact. With polygons,
 /// they are two points per contact.
-void FramePainter::write_contact_points(std::ostream& out, const PlacedFrame& placed, std::size_t count) const {
+void FramePainter::write_contact_points(std::ostream& out, const PlacedFrame& placed, std::size_t count,
+                                        std::span<const FaceTraction> tractions) const {
     const Frame& frame = placed.frame();
     write_points(out, precision_, count, [&](const auto& add) {
         for (BodyIndex b = 0; b < frame.bodies.size() && !setup_.specimen.polygons; ++b) {
@@ -287,7 +308,15 @@ void FramePainter::write_contact_points(std::ostream& out, const PlacedFrame& pl
             for (PointIndex k = begin; k < end; ++k) {
                 const ContactPoint point = setup_.bonds.points.at<K>(k);
                 const Facing held = facing_at_start<K>(world_, setup_, point);
-                add_places(placed.carried(point.body_i, held.on_i), placed.carried(point.body_j, held.on_j));
+                const Vec2 on_i = placed.carried(point.body_i, held.on_i),
+                           on_j = placed.carried(point.body_j, held.on_j);
+                if constexpr (K == PointKind::bonded_face) {
+                    const Vec2 middle = 0.5 * (on_i + on_j), half = tractions[k - begin].half_length *
+                                                                    perpendicular(motion_of_face(placed, k).normal);
+                    add_places(middle - half, middle + half);
+                } else {
+                    add_places(on_i, on_j);
+                }
             }
         });
         const BodyView bodies(world_);
@@ -310,7 +339,11 @@ void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, 
     const std::size_t contacts = setup_.bonds.points.size() + loose.size();
     const VtpCounts counts{setup_.specimen.polygons ? 2 * contacts : centres_ + contacts, contacts, 0};
     write_head(out, frame, counts);
-    write_contact_points(out, placed, counts.points);
+    const PointIndex first_face = first_face_of(setup_.bonds);
+    std::vector<FaceTraction> tractions;
+    for (PointIndex bond = first_face; bond < setup_.bonds.points.size(); ++bond)
+        tractions.push_back(traction_of(placed, bond, forces.normal[bond]));
+    write_contact_points(out, placed, counts.points, tractions);
     loose.empty() && !bond_cells_.empty() ? void(out << bond_cells_) : write_contact_cells(out, frame.loose);
 
     write_array<double>(out, of_contacts("normal_force"), contacts, [&](const auto& add) {
@@ -335,6 +368,18 @@ void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, 
         }
         for (const LooseContact& contact : loose) add(frame.time - contact.since);
     });
+    const auto write_of_faces = [&](const char* name, const auto& value_of) {
+        write_array<double>(out, of_contacts(name), contacts, [&](const auto& add) {
+            for (PointIndex bond = 0; bond < first_face; ++bond) add(0.0);
+            for (const FaceTraction& traction : tractions) add(value_of(traction));
+            for (std::size_t k = 0; k < loose.size(); ++k) add(0.0);
+        });
+    };
+    if (!tractions.empty()) {
+        write_of_faces("moment", [](const FaceTraction& of) { return of.moment; });
+        write_of_faces("stress_begin", [](const FaceTraction& of) { return of.at_begin; });
+        write_of_faces("stress_end", [](const FaceTraction& of) { return of.at_end; });
+    }
     end_element(out, "CellData");
     write_vtp_end(out);
 }
@@ -371,6 +416,11 @@ void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, st
     write_array<double>(out, of_cracks("opening"), cracks.size(), [&](const auto& add) {
         for (const double opening : openings) add(opening);
     });
+    const PointIndex first_face = first_face_of(setup_.bonds);
+    if (first_face < setup_.bonds.points.size())
+        write_values("slip", double{}, [&](const Crack& crack) {
+            return crack.bond < first_face ? 0.0 : motion_of_face(placed, crack.bond).sliding;
+        });
     if (!setup_.bonds.traces.empty())
         write_values("trace", std::int32_t{}, [&](const Crack& crack) { return setup_.bonds.trace_of(crack.bond); });
     end_element(out, "CellData");

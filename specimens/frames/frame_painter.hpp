@@ -9,7 +9,7 @@
 // be drawn with `radius` about the mean of the corners. All circles of a clump have the clump's values.
 // Contacts: first all bonds at the start of loading, always in the same order and at the points where they were
 // attached; then all other current contacts. A contact is a line: centre-point-centre between circles, point-point
-// between polygons.
+// between polygons, and from end to end of a face by which polygons are bonded.
 // Cracks: a line for each bonded point that has broken, in the order of events.csv, positioned by crack_faces.hpp.
 // Joints: a line for each face on a trace, with its length at the start of loading (trace_faces.hpp).
 // Cell data and their units are listed by particle_arrays(), contact_arrays(), crack_arrays() and joint_arrays().
@@ -30,6 +30,7 @@
 #include <vector>
 
 #include "solver/base/vec2.hpp"
+#include "solver/faces/face_traction.hpp"
 #include "specimens/frames/frame.hpp"
 #include "specimens/frames/frame_forces.hpp"
 #include "specimens/frames/placed_frame.hpp"
@@ -66,7 +67,8 @@ class FramePainter {
     template <class Visit>
     void visit_contacts(const LooseContacts& loose, const Visit& visit) const;
     void write_particle_cells(std::ostream& out) const;
-    void write_contact_points(std::ostream& out, const PlacedFrame& placed, std::size_t count) const;
+    void write_contact_points(std::ostream& out, const PlacedFrame& placed, std::size_t count,
+                              std::span<const FaceTraction> tractions) const;
     void write_contact_cells(std::ostream& out, const LooseContacts& loose) const;
 
     const World& world_;

@@ -42,8 +42,9 @@ struct RecordedCell {
 
 /// A point at which two cells are bonded in the first frame.
 struct RecordedBond {
-    std::int32_t i = 0, j = 0;  ///< indices of the cells
-    Vec2 place;                 ///< position in the first frame
+    std::int32_t i = 0, j = 0;        ///< indices of the cells
+    Vec2 place;                       ///< position in the first frame
+    Vec2 begin = place, end = place;  ///< ends of a face in the first frame; `place` for bonds that are not faces
 };
 
 /// State of a RecordedBond in a frame.
@@ -72,7 +73,8 @@ struct RecordedFrame {
     std::vector<double> stress_xx, stress_yy, stress_xy;
     std::vector<double> fragment;  ///< index of the cell's fragment
     std::vector<double> normal_force, shear_force;
-    std::vector<double> state;  ///< values of BondState
+    std::vector<double> state;                     ///< values of BondState
+    std::vector<double> stress_begin, stress_end;  ///< normal stress at the ends of faces; empty without faces
     RecordedContacts contacts;
 };
 

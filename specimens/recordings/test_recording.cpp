@@ -102,6 +102,9 @@ class TestFrames {
         for (std::size_t k = 0; k < data.cells.size() && state[k] != unbonded; ++k) {
             const Vec2 place = place_at(contacts, data, k, i[k], j[k]);
             recording.bonds.push_back({cell_of(contacts, i[k], place), cell_of(contacts, j[k], place), place});
+            if (!data.cell_data.contains("stress_begin")) continue;
+            recording.bonds.back().begin = data.points[data.cells[k].points.front()];
+            recording.bonds.back().end = data.points[data.cells[k].points.back()];
         }
         bonds_ = recording.bonds.size();
     }
@@ -177,6 +180,11 @@ class TestFrames {
         frame.normal_force.assign(normal.begin(), normal.begin() + bonds);
         frame.shear_force.assign(shear.begin(), shear.begin() + bonds);
         frame.state.assign(state.begin(), state.begin() + bonds);
+        if (data.cell_data.contains("stress_begin")) {
+            const auto &begin = cell_values(file, data, "stress_begin"), &end = cell_values(file, data, "stress_end");
+            frame.stress_begin.assign(begin.begin(), begin.begin() + bonds);
+            frame.stress_end.assign(end.begin(), end.begin() + bonds);
+        }
         RecordedContacts& contacts = frame.contacts;
         for (std::size_t k = bonds_; k < data.cells.size(); ++k) {
             const Vec2 place = place_at(file, data, k, i[k], j[k]);

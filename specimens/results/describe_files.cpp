@@ -98,7 +98,7 @@ the files as parts 0 to 3 of a time series. The files are VTK's XML PolyData (co
 | file | holds |
 | --- | --- |
 | `particles_NNNNN.vtp` | platens as lines, polygons by their corners, circles as regular polygons of equal area (24 corners, or 12 with more than 2000 particles). All circles of a clump have the values of the clump |
-| `contacts_NNNNN.vtp` | all bonds that were intact when loading began, in the same order in each file, followed by other current contacts. Lines run from centre to point to centre between circles, or from surface to surface between polygons |
+| `contacts_NNNNN.vtp` | all bonds that were intact when loading began, in the same order in each file, followed by other current contacts. Lines run from centre to point to centre between circles, from surface to surface between polygons, and along the face if polygons are bonded by faces |
 | `cracks_NNNNN.vtp` | a line for each bonded contact point that has broken, in the order of `events.csv`. The line is the point's part of the face along which two bodies were bonded, at its current position |
 | `joints_NNNNN.vtp` | a line for each face on a joint trace; only for jointed specimens |
 | `frames.pvd` | list of all these files, for ParaView |
