@@ -25,6 +25,7 @@
 #include "tools/commands/commands.hpp"
 #include "tools/page/report_page.hpp"
 #include "tools/plot/deck_panels.hpp"
+#include "tools/plot/face_bands.hpp"
 #include "tools/plot/figure_options.hpp"
 #include "tools/plot/panels.hpp"
 #include "tools/terminal/printable.hpp"
@@ -131,8 +132,9 @@ std::size_t frame_at(const Recording& test, const std::string& at) {
 }
 
 /// @param asked the requested moments; if empty, start, peak and end, of which two may coincide
+/// @param forces whether the forces of faces are drawn
 Panel drawings_of(const Recording& test, const fs::path& folder, const std::optional<Words>& asked,
-                  const DrawingStyle& style) {
+                  const DrawingStyle& style, bool forces) {
     std::vector<DrawnMoment> drawn;
     for (const std::string& at : asked.value_or(Words{"start", "peak", "end"})) {
         const std::size_t frame = frame_at(test, at);
@@ -144,6 +146,7 @@ Panel drawings_of(const Recording& test, const fs::path& folder, const std::opti
         Words caption{strain_text(head.axial_strain.value_or(0.0))};
         if (!names.empty()) caption.insert(caption.begin(), fmt::format("{}", fmt::join(names, ", ")));
         drawn.push_back({&test, frame, std::move(caption)});
+        drawn.back().forces = forces;
     }
     return drawings(drawn, std::vector<fs::path>(drawn.size(), folder), style);
 }
@@ -159,6 +162,7 @@ Words everything_of(const std::vector<Recording>& tests) {
         what.emplace_back("emission");
     if (std::ranges::none_of(tests, [](const Recording& test) { return test.frames.empty(); }))
         what.emplace_back("specimen");
+    if (std::ranges::all_of(tests, has_faces)) what.emplace_back("forces");
     return what;
 }
 
@@ -198,15 +202,16 @@ void expect_parts_of(const po::variables_map& given, const Words& what) {
             throw without_effect("crackle plot", fmt::format("--{}", option), input);
     };
     expect("measured", has_word(what, "curve"), "a figure without curves");
-    expect("at", has_word(what, "specimen"), "a figure without specimens");
-    expect("magnify", has_word(what, "specimen"), "a figure without specimens");
+    const bool specimens = has_word(what, "specimen") || has_word(what, "forces");
+    expect("at", specimens, "a figure without specimens");
+    expect("magnify", specimens, "a figure without specimens");
 }
 
 void plot_tests(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
     expect_options(given, "folders of tests", {"what", "at", "magnify", "labels", "measured"});
     const fs::path output = output_file(given["output"].as<std::string>(), given.contains("force"));
     Words what = words_of(given, "what", {"all"});
-    expect_words(what, {"curve", "ae", "emission", "strain", "specimen", "all"}, "");
+    expect_words(what, {"curve", "ae", "emission", "strain", "specimen", "forces", "all"}, "");
     std::vector<Recording> tests;
     for (const std::string& folder : folders) {
         tests.push_back(read_whole(folder));
@@ -223,6 +228,13 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
     expect_results("emission", has_emission,
                    "ae.csv, expected one; it requires output.emission in the case, and a linear solution (see notices "
                    "of summary.json)");
+    if (has_word(what, "forces"))
+        for (const Recording& test : tests)
+            if (!has_faces(test))
+                throw InputError(
+                    fmt::format("plot: {}: found no frames with forces of faces, expected a test with "
+                                "bond.law = \"face\"; leave forces out of --what",
+                                test.name));
     expect_parts_of(given, what);
     Words labels = given.contains("labels") ? given["labels"].as<Words>() : default_labels(tests);
     expect_labels(labels, tests.size(), "test");
@@ -238,9 +250,9 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
         if (word == "ae") panels.push_back(breaks(plotted));
         if (word == "strain") panels.push_back(area_strain(plotted));
         if (word == "emission") add_emission_panels(panels, tests, folders, plotted);
-        if (word != "specimen") continue;
+        if (word != "specimen" && word != "forces") continue;
         for (std::size_t k = 0; k < tests.size(); ++k) {
-            panels.push_back(drawings_of(tests[k], folders[k], moments, look.drawing));
+            panels.push_back(drawings_of(tests[k], folders[k], moments, look.drawing, word == "forces"));
             if (tests.size() > 1) panels.back().title = labels[k];
         }
     }
@@ -407,7 +419,8 @@ po::options_description plot_options() {
                           "figure to write: .svg, .pdf or .png; with --guide a folder")  //
         ("what", po::value<Words>()->multitoken()->value_name("WORD"),
          "diagrams, one below the other (default: all). For tests: curve, ae (bond breaks), emission (acoustic events: "
-         "magnitudes of all tests together, and maps), strain (area strain and the part due to cracks), specimen. For "
+         "magnitudes of all tests together, and maps), strain (area strain and the part due to cracks), specimen, "
+         "forces (of faces). For "
          "a campaign: curve (bands), axes (results against the axes of the plan), scatter (of the packings). For the "
          "run of a deck: energy, displacement, height, velocity, force (against time), curve (force against "
          "displacement)")  //

@@ -177,6 +177,10 @@ void add_bonds(PlainBlock& block, const std::vector<RecordedBond>& bonds) {
     block.add("bonds.j", listed<std::int32_t>(bonds, [](const RecordedBond& b) { return b.j; }));
     block.add("bonds.x", listed<float>(bonds, [](const RecordedBond& b) { return b.place.x; }));
     block.add("bonds.y", listed<float>(bonds, [](const RecordedBond& b) { return b.place.y; }));
+    if (std::ranges::none_of(bonds, [](const RecordedBond& b) { return norm(b.end - b.begin) > 0.0; })) return;
+    // The other end is as far on the other side of the bond's place.
+    block.add("bonds.half_x", listed<float>(bonds, [](const RecordedBond& b) { return 0.5 * (b.end.x - b.begin.x); }));
+    block.add("bonds.half_y", listed<float>(bonds, [](const RecordedBond& b) { return 0.5 * (b.end.y - b.begin.y); }));
 }
 
 void add_curve(PlainBlock& block, const NumberTable& curve) {
@@ -320,6 +324,8 @@ void add_fields(CodedBlock& block, const std::vector<RecordedFrame>& frames, dou
     add_field(block, "fn", frames, &RecordedFrame::normal_force, by_size(force_growth));
     add_field(block, "fs", frames, &RecordedFrame::shear_force, by_size(force_growth));
     add_field(block, "state", frames, &RecordedFrame::state, evenly(1.0));
+    add_field(block, "sb", frames, &RecordedFrame::stress_begin, by_size(force_growth));
+    add_field(block, "se", frames, &RecordedFrame::stress_end, by_size(force_growth));
 }
 
 Json listed_frame(const FrameHead& head) {

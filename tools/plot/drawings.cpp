@@ -18,6 +18,7 @@
 #include "specimens/frames/frame.hpp"
 #include "specimens/frames/read_frames.hpp"
 #include "tools/plot/axes.hpp"
+#include "tools/plot/face_bands.hpp"
 #include "tools/plot/panels.hpp"
 
 namespace crackle::plot {
@@ -65,6 +66,7 @@ struct FaceLine {
 
     Vec2 from, to;
     Kind kind = Kind::tension;
+    double opening = 0.0;  // m, of a crack
 };
 
 const Colour& colour_of(FaceLine::Kind kind) {
@@ -90,6 +92,10 @@ struct Motion {
     Vec2 of(Vec2 place) const { return centre + displacement + turned(place - centre); }
     Motion with(double magnify) const { return {centre, magnify * displacement, cosine, sine}; }
 };
+
+Motion motion_of(const RecordedCell& cell, const RecordedFrame& frame, std::size_t k) {
+    return {cell.centre, {frame.ux[k], frame.uy[k]}, std::cos(frame.angle[k]), std::sin(frame.angle[k])};
+}
 
 struct DrawnBody {
     Motion motion;
@@ -122,7 +128,7 @@ std::vector<FaceLine> faces_of(const fs::path& folder, const FrameHead& head, co
     if (!fs::exists(file)) return {};
     const PolyData data = read_polydata(file);
     const bool joints = picture == "joints_";
-    const auto word = data.cell_data.find(joints ? "state" : "mode");
+    const auto word = data.cell_data.find(joints ? "state" : "mode"), opening = data.cell_data.find("opening");
     const std::vector<double>&body_i = cell_values(file, data, "body_i"), &body_j = cell_values(file, data, "body_j");
     std::vector<FaceLine> lines;
     for (std::size_t k = 0; k < data.cells.size(); ++k) {
@@ -142,7 +148,9 @@ std::vector<FaceLine> faces_of(const fs::path& folder, const FrameHead& head, co
         if (!begin || !end) continue;
         for (const DrawnBody& body : {i->second, j->second}) {
             const Motion motion = body.motion.with(magnify);
-            if (body.shown) lines.push_back({motion.of(*begin), motion.of(*end), kind});
+            if (body.shown)
+                lines.push_back({motion.of(*begin), motion.of(*end), kind,
+                                 joints || opening == data.cell_data.end() ? 0.0 : opening->second.at(k)});
         }
     }
     return lines;
@@ -154,11 +162,17 @@ struct Moment {
     std::vector<bool> shown;                  // by cell: whether it is drawn
     const std::vector<RecordedCell>* cells = nullptr;
     std::vector<FaceLine> faces;  // joints first, so that cracks are drawn over them
+    std::vector<FaceBand> bands;
+    bool forces = false;  // whether bands are drawn, and cracks as wide as they are open
     std::vector<DrawnMark> marks;
     std::vector<std::string> caption;   // lines of text
     std::vector<std::string> minerals;  // empty if the rock has only one material
     Extent extent;
 
+    /// Mean size of a cell, m.
+    double cell_size() const {
+        return std::sqrt(extent.width() * extent.height() / static_cast<double>(cells->size()));
+    }
     const Colour& colour_of_cell(std::size_t k) const {
         const auto number = static_cast<std::size_t>((*cells)[k].material - 1);
         return number < minerals.size() ? mineral_colour(number) : grain;
@@ -227,6 +241,24 @@ std::size_t choose_shown(Moment& moment, const RecordedFrame& frame) {
     return left_out;
 }
 
+/// Stresses of the faces of drawn cells, each at the mean of the positions to which its two cells have carried it.
+std::vector<FaceBand> bands_of(const Recording& recording, const RecordedFrame& frame, const std::vector<bool>& shown,
+                               double magnify) {
+    const auto motion = [&](std::int32_t cell) {
+        const auto k = static_cast<std::size_t>(cell);
+        return motion_of(recording.cells[k], frame, k).with(magnify);
+    };
+    std::vector<FaceBand> bands;
+    for (std::size_t bond = 0; bond < frame.stress_begin.size(); ++bond) {
+        const RecordedBond& face = recording.bonds[bond];
+        if (!shown[static_cast<std::size_t>(face.i)] || !shown[static_cast<std::size_t>(face.j)]) continue;
+        const Motion i = motion(face.i), j = motion(face.j);
+        const auto mean = [&](Vec2 place) { return 0.5 * (i.of(place) + j.of(place)); };
+        if (const auto band = face_band(frame, bond, mean(face.begin), mean(face.end))) bands.push_back(*band);
+    }
+    return bands;
+}
+
 Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingStyle& style) {
     const Recording& recording = *drawn.recording;
     const RecordedFrame frame = recording.frame(drawn.frame);
@@ -236,7 +268,7 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
     std::unordered_map<int, DrawnBody> bodies;  // by body id; for a clump, one of its circles
     for (std::size_t k = 0; k < recording.cells.size(); ++k) {
         const RecordedCell& cell = recording.cells[k];
-        const Motion moved{cell.centre, {frame.ux[k], frame.uy[k]}, std::cos(frame.angle[k]), std::sin(frame.angle[k])};
+        const Motion moved = motion_of(cell, frame, k);
         bodies.emplace(cell.id, DrawnBody{moved, true});
         const Motion motion = moved.with(style.magnify);
         std::vector<Vec2> outline;
@@ -254,6 +286,8 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
     moment.marks = drawn.marks;
     const FrameHead& head = recording.frames[drawn.frame];
     moment.faces = faces_of(folder, head, "joints_", bodies, style.magnify);
+    moment.forces = drawn.forces;
+    if (drawn.forces) moment.bands = bands_of(recording, frame, moment.shown, style.magnify);
     if (!drawn.cracks) return moment;
     const std::vector<FaceLine> cracks = faces_of(folder, head, "cracks_", bodies, style.magnify);
     moment.faces.insert(moment.faces.end(), cracks.begin(), cracks.end());
@@ -271,7 +305,36 @@ double caption_height(const Canvas& canvas, const std::vector<Moment>& moments) 
     return 5.0 + static_cast<double>(lines) * canvas.size_of("X", caption_text).height;
 }
 
-void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const Extent& extent) {
+/// Lengths in drawings of forces, the same for all moments.
+struct ForceScales {
+    double reach = 0.0;                   // m per N/m, half the width of a band
+    double high = 0.0;                    // N/m, stress exceeded at only a few ends of faces
+    std::string unit = "N/m";             // of stresses
+    double widening = 0.0, widest = 0.0;  // m per m: width of a crack per opening; m, largest width
+};
+
+ForceScales scales_of(const std::vector<Moment>& moments) {
+    constexpr double high_band = 0.4, usual_crack = 0.08, widest_crack = 0.3;  // relative to the size of a cell
+    std::vector<const FaceBand*> bands;
+    std::vector<double> openings;
+    for (const Moment& moment : moments) {
+        for (const FaceBand& band : moment.bands) bands.push_back(&band);
+        for (const FaceLine& line : moment.faces)
+            if (moment.forces && line.opening > 0.0) openings.push_back(line.opening);
+    }
+    ForceScales scales;
+    const double size = moments.front().cell_size();
+    scales.high = high_stress(bands);
+    if (scales.high > 0.0) scales.reach = high_band * size / scales.high;
+    if (openings.empty()) return scales;
+    std::ranges::nth_element(openings, openings.begin() + static_cast<std::ptrdiff_t>(openings.size() / 2));
+    scales.widening = usual_crack * size / openings[openings.size() / 2];
+    scales.widest = widest_crack * size;
+    return scales;
+}
+
+void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const Extent& extent,
+                 const ForceScales& scales) {
     const double scale = place.width / extent.width();
     const auto at = [&](Vec2 p) {
         return Point{place.x + scale * (p.x - extent.x1), place.bottom() - scale * (p.y - extent.y1)};
@@ -283,7 +346,7 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
         return all;
     };
     // Edges are thinner for small particles; otherwise everything would look grey.
-    const double size = scale * std::sqrt(extent.width() * extent.height() / static_cast<double>(moment.cells->size()));
+    const double size = scale * moment.cell_size();
     const double edge = std::clamp(0.035 * size, 0.04, 0.3), crack = std::clamp(0.12 * size, 0.25, 0.9);
     canvas.clip(place);
     for (std::size_t k = 0; k < moment.cells->size(); ++k) {
@@ -298,7 +361,14 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
             canvas.polygon(on_sheet(moment.outlines[k]), &moment.colour_of_cell(k), &grain_edge, edge);
         }
     }
-    for (const FaceLine& line : moment.faces) canvas.line({at(line.from), at(line.to)}, colour_of(line.kind), crack);
+    for (const FaceBand& band : moment.bands)
+        for (const BandPart& part : parts_of(band, scales.reach)) {
+            const Colour& colour = part.compression ? compressive_colour : tensile_colour;
+            canvas.polygon(on_sheet(part.corners), &colour, &colour, 0.1);
+        }
+    for (const FaceLine& line : moment.faces)
+        canvas.line({at(line.from), at(line.to)}, colour_of(line.kind),
+                    crack + scale * std::clamp(scales.widening * line.opening, 0.0, scales.widest));
     const Colour rim = colour("#ffffff");
     for (const DrawnMark& mark : moment.marks) canvas.circle(at(mark.place), mark.radius, &mark.colour, &rim, 0.3);
     canvas.unclip();
@@ -331,37 +401,24 @@ Key key_of(const std::vector<Moment>& moments, double magnify) {
     return key;
 }
 
-/// Draws scale bar, colours of minerals and cracks, and the magnification of displacements in one line.
-void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a_metre) {
-    const double middle = place.y + 0.5 * place.height;
-    const double length = round_length(std::min(60.0, 0.15 * place.width) / points_a_metre);
-    const Unit unit = unit_for(length, "m");
-    struct Item {
-        enum class Sample : std::uint8_t { bar, line, patch, none };
+/// A sample with its meaning.
+struct KeyItem {
+    enum class Sample : std::uint8_t { bar, line, patch, band, none };
 
-        std::string text;
-        Sample sample;
-        Colour colour;
-        double length;  // pt
-    };
-    constexpr double patch = 6.0;  // pt
-    std::vector<Item> items{
-        {fmt::format("{:.6g} {}", length / unit.factor, unit.name), Item::Sample::bar, ink, length * points_a_metre}};
-    for (std::size_t k = 0; k < key.minerals.size(); ++k)
-        items.push_back({escaped(key.minerals[k]), Item::Sample::patch, mineral_colour(k), patch});
-    const auto add_line = [&](bool any, const char* text, const Colour& colour) {
-        if (any) items.push_back({text, Item::Sample::line, colour, 10.0});
-    };
-    add_line(key.tension, "broken in tension", tension_colour);
-    add_line(key.shear, "in shear", shear_colour);
-    add_line(key.joint, "joint", joint_colour);
-    add_line(key.open_joint, "open joint", ink);
-    if (key.magnify != 1.0)
-        items.push_back({fmt::format("displacements ×{:.6g}", key.magnify), Item::Sample::none, ink, 0.0});
+    std::string text;
+    Sample sample;
+    Colour colour;
+    double length, height = 0.0;  // pt; height of a band
+};
+
+/// Draws samples with their meanings in one line.
+void draw_items(Canvas& canvas, const Rect& place, const std::vector<KeyItem>& items) {
+    using Sample = KeyItem::Sample;
+    const double middle = place.y + 0.5 * place.height;
     double lines = 0.0, texts = 0.0;  // pt
-    for (const Item& item : items) {
+    for (const KeyItem& item : items) {
         lines += item.length;
-        texts += (item.sample != Item::Sample::none ? 3.0 : 0.0) + canvas.size_of(item.text, key_text).width;
+        texts += (item.sample != Sample::none ? 3.0 : 0.0) + canvas.size_of(item.text, key_text).width;
     }
     double gap = 1.2 * canvas.style().font_size;
     texts += gap * (static_cast<double>(items.size()) - 1.0);
@@ -370,22 +427,69 @@ void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a
     gap *= shrunk;
     const double width = lines + shrunk * texts;
     double x = place.x + 0.5 * (place.width - width);
-    for (const Item& item : items) {
+    for (const KeyItem& item : items) {
         const double end_x = x + item.length;
-        if (item.sample == Item::Sample::patch) {
+        if (item.sample == Sample::patch) {
             const double half = 0.5 * item.length;
             canvas.polygon({{x, middle - half}, {end_x, middle - half}, {end_x, middle + half}, {x, middle + half}},
                            &item.colour, &grain_edge, 0.3);
-        } else if (item.sample != Item::Sample::none) {
-            const bool bar = item.sample == Item::Sample::bar;
+        } else if (item.sample == Sample::band) {
+            canvas.rectangle({x, middle - 0.5 * item.height, item.length, item.height}, item.colour);
+        } else if (item.sample != Sample::none) {
+            const bool bar = item.sample == Sample::bar;
             canvas.line({{x, middle}, {end_x, middle}}, item.colour, bar ? 0.8 : 1.2);
             for (const double end : {x, end_x})
                 if (bar) canvas.line({{end, middle - 2.0}, {end, middle + 2.0}}, ink, 0.8);
         }
-        if (item.sample != Item::Sample::none) x = end_x + 3.0 * shrunk;
+        if (item.sample != Sample::none) x = end_x + 3.0 * shrunk;
         canvas.text({x, middle}, item.text, Across::left, Down::middle, size);
         x += canvas.size_of(item.text, size).width + gap;
     }
+}
+
+/// Draws scale bar, colours of minerals and cracks, and the magnification of displacements in one line.
+void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a_metre) {
+    using Sample = KeyItem::Sample;
+    const double length = round_length(std::min(60.0, 0.15 * place.width) / points_a_metre);
+    const Unit unit = unit_for(length, "m");
+    constexpr double patch = 6.0;  // pt
+    std::vector<KeyItem> items{
+        {fmt::format("{:.6g} {}", length / unit.factor, unit.name), Sample::bar, ink, length * points_a_metre}};
+    for (std::size_t k = 0; k < key.minerals.size(); ++k)
+        items.push_back({escaped(key.minerals[k]), Sample::patch, mineral_colour(k), patch});
+    const auto add_line = [&](bool any, const char* text, const Colour& colour) {
+        if (any) items.push_back({text, Sample::line, colour, 10.0});
+    };
+    add_line(key.tension, "broken in tension", tension_colour);
+    add_line(key.shear, "in shear", shear_colour);
+    add_line(key.joint, "joint", joint_colour);
+    add_line(key.open_joint, "open joint", ink);
+    if (key.magnify != 1.0)
+        items.push_back({fmt::format("displacements ×{:.6g}", key.magnify), Sample::none, ink, 0.0});
+    draw_items(canvas, place, items);
+}
+
+/// Draws the scales of the stresses of faces and of the openings of cracks in one line.
+void draw_force_key(Canvas& canvas, const Rect& place, const ForceScales& scales, double points_a_metre) {
+    constexpr double length = 10.0, highest = key_height - 3.0;  // pt
+    using Sample = KeyItem::Sample;
+    std::vector<KeyItem> items;
+    if (scales.reach > 0.0) {
+        const double width_of_one = 2.0 * scales.reach * points_a_metre;
+        const double stress = round_length(std::min(scales.high, highest / width_of_one));
+        const Unit unit = unit_for(stress, scales.unit);
+        for (const auto& [name, colour] : {std::pair("compression", compressive_colour), {"tension", tensile_colour}})
+            items.push_back({fmt::format("{} {:.6g} {}", name, stress / unit.factor, unit.name), Sample::band, colour,
+                             length, stress * width_of_one});
+    }
+    if (scales.widening > 0.0) {
+        const double width_of_one = scales.widening * points_a_metre;
+        const double opening = round_length(std::min(scales.widest / scales.widening, highest / width_of_one));
+        const Unit unit = unit_for(opening, "m");
+        items.push_back({fmt::format("open by {:.6g} {}", opening / unit.factor, unit.name), Sample::band, grain_edge,
+                         length, opening * width_of_one});
+    }
+    if (!items.empty()) draw_items(canvas, place, items);
 }
 
 /// Drawings beside each other. All have the same scale and height; each has the width that it needs.
@@ -434,10 +538,13 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
     std::vector<Moment> moments;
     for (std::size_t k = 0; k < drawn.size(); ++k) moments.push_back(prepared(drawn[k], folders[k], style));
     const Row row(std::move(moments));
+    ForceScales scales = scales_of(row.moments);
+    if (drawn.front().recording->results.summary.about.material_units == StiffnessUnits::area) scales.unit = "Pa";
+    const double keys_height = row.moments.front().forces ? 2.0 * key_height : key_height;
     Panel panel;
     panel.letter_above = true;
-    panel.height = [row](const Canvas& measure, double width) {
-        return row.scale_at(width) * row.height + caption_height(measure, row.moments) + key_height;
+    panel.height = [row, keys_height](const Canvas& measure, double width) {
+        return row.scale_at(width) * row.height + caption_height(measure, row.moments) + keys_height;
     };
     if (std::ranges::any_of(drawn, &DrawnMoment::lettered)) {
         panel.more_letters = [drawn, row](double width) {
@@ -449,17 +556,20 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
             return letters;
         };
     }
-    panel.draw = [row, key = key_of(row.moments, style.magnify)](Canvas& canvas, const Rect& place) {
+    panel.draw = [row, scales, keys_height, key = key_of(row.moments, style.magnify)](Canvas& canvas,
+                                                                                      const Rect& place) {
         const double scale = row.scale_at(place.width), drawn_height = scale * row.height;
         const std::vector<double> lefts = row.lefts_at(place.width);
         for (std::size_t k = 0; k < row.moments.size(); ++k) {
             const Moment& moment = row.moments[k];
             const double width = scale * moment.extent.width(), x = place.x + lefts[k];
-            draw_moment(canvas, {x, place.y, width, drawn_height}, moment, moment.extent);
+            draw_moment(canvas, {x, place.y, width, drawn_height}, moment, moment.extent, scales);
             canvas.text({x + 0.5 * width, place.y + drawn_height + 3.0},
                         fmt::format("{}", fmt::join(moment.caption, "\n")), Across::centre, Down::top, caption_text);
         }
-        draw_key(canvas, {place.x, place.bottom() - key_height, place.width, key_height}, key, scale);
+        draw_key(canvas, {place.x, place.bottom() - keys_height, place.width, key_height}, key, scale);
+        if (keys_height > key_height)
+            draw_force_key(canvas, {place.x, place.bottom() - key_height, place.width, key_height}, scales, scale);
     };
     return panel;
 }

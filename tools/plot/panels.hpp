@@ -64,13 +64,14 @@ struct DrawnMoment {
     std::vector<DrawnMark> marks = {};
     bool lettered =
         false;  ///< whether this drawing has its own letter within a row; the first drawing of a row always has one
+    bool forces = false;  ///< whether the stresses of faces are drawn, and cracks as wide as they are open
 };
 struct DrawingStyle {
     double magnify = 1.0;  ///< magnification of displacements
 };
 /// Specimens side by side at the same scale. Cracks are coloured by mode and drawn on both faces that they separated. A
 /// fragment is drawn completely or, if it has flown far away, not at all; the caption gives the number of particles
-/// left out.
+/// left out. Stresses of faces and openings have the same scale in all drawings.
 /// @param folders by moment: folder of its test, which contains the cracks of each frame
 Panel drawings(const std::vector<DrawnMoment>& moments, const std::vector<std::filesystem::path>& folders,
                const DrawingStyle& style);

@@ -41,6 +41,7 @@ TEST_F(UnusedOptions, OfFiguresAndPagesOfTests) {
     expect_without_effect("plot --guide six -o figures --what curve", "--what", "--guide");
     expect_refused("plot squeezed -o figure.pdf --dpi 600",
                    "--dpi: found with a vector format, but has no effect there; leave it out, or write a .png");
+    expect_refused("plot squeezed -o figure.pdf --what forces", "found no frames with forces of faces");
 }
 
 TEST_F(UnusedOptions, OfACampaign) {

@@ -14,7 +14,7 @@ import {element} from '../elements/dom';
 import {Picking} from '../geometry/picking';
 import {movedCentre} from '../geometry/rigid_motion';
 import {plain, quantitiesOf, type Quantity} from '../quantities/quantities';
-import {categories, forceScaleOf, forceScaleOfAll, joined, joinedForces, rangeOfFrames, rangeUntil, type ForceScale, type Range} from '../quantities/ranges';
+import {categories, forceScaleOf, forceScaleOfAll, joined, joinedForces, noForces, rangeOfFrames, rangeUntil, type ForceScale, type Range} from '../quantities/ranges';
 import {axesFor, Clock, type Axis} from './clock';
 import {Navigation} from './navigation';
 
@@ -199,7 +199,7 @@ export class Viewer {
         const theme = currentTheme(), {settings} = this;
         const over = settings.layout === 'over' && frames.length > 1;
         const colours = this.colours(frames);
-        const forceScale = settings.layers.forces ? this.forceScale(frames) : {end: 0, largest: 0};
+        const forceScale = settings.layers.forces ? this.forceScale(frames) : noForces;
         const crackColours = this.crackColours(frames.map(({view}) => view));
         const offered = this.layers;
         const shown = frames.map(({view, frame}, at): Shown => {

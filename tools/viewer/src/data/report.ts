@@ -126,6 +126,8 @@ export interface Bonds {
     j: NumberArray;
     x: NumberArray; // m, contact point
     y: NumberArray;
+    halfX: NumberArray; // m, from the contact point to the second end of a face; empty without faces
+    halfY: NumberArray;
 }
 
 export interface TestData {
@@ -234,6 +236,8 @@ async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
             j: optional('bonds.j'),
             x: optional('bonds.x'),
             y: optional('bonds.y'),
+            halfX: optional('bonds.half_x'),
+            halfY: optional('bonds.half_y'),
         },
         frames: entry.frames,
         groups: entry.groups,

@@ -105,8 +105,41 @@ export function addBonds(lines: Segments, test: TestData, frame: Frame, magnific
     }
 }
 
+const bondTouchingAgain = 3; // state of a broken bond
+
+/// Adds the stresses of faces as bands across them, as the figures of `crackle plot` do (tools/plot/face_bands.hpp).
+/// @param highest  m, half the width of the band of a stress at the scale's end
+function addStresses(lines: Segments, test: TestData, frame: Frame, magnification: number, end: number, highest: number, theme: Theme): void {
+    const {bonds} = test, atBegin = frame.field('sb'), atEnd = frame.field('se'), fs = frame.field('fs'), state = frame.field('state');
+    if (!atBegin || !atEnd || !fs || !state || bonds.halfX.length === 0 || end === 0) return;
+    const compression = rgb(theme.compressive), tension = rgb(theme.tensile), reach = highest / end;
+    for (let bond = 0; bond < bonds.count; ++bond) {
+        if (state[bond] === bondBroken) continue;
+        const at = bondedPoint(test, frame, bond, magnification), angle = (frame.angle[bonds.i[bond]!]! + frame.angle[bonds.j[bond]!]!) / 2;
+        const turned = {x: Math.cos(angle) * bonds.halfX[bond]! - Math.sin(angle) * bonds.halfY[bond]!, y: Math.sin(angle) * bonds.halfX[bond]! + Math.cos(angle) * bonds.halfY[bond]!};
+        const half = Math.hypot(turned.x, turned.y), t = {x: turned.x / half, y: turned.y / half}, shear = fs[bond]! / (2 * half);
+        const place = (share: number): Point => ({x: at.x + share * turned.x, y: at.y + share * turned.y});
+        const side = (stress: number): Point => ({x: reach * (stress * t.y - shear * t.x), y: reach * (-stress * t.x - shear * t.y)});
+        const add = (from: number, stressFrom: number, to: number, stressTo: number) => {
+            const pressed = stressFrom + stressTo >= 0;
+            if (from === to || (stressFrom === 0 && stressTo === 0 && shear === 0) || (!pressed && state[bond] === bondTouchingAgain)) return;
+            lines.addBand(place(from), place(to), side(stressFrom), side(stressTo), pressed ? compression : tension, 0.85);
+        };
+        const begin = atBegin[bond]!, last = atEnd[bond]!;
+        if (begin * last >= 0) {
+            add(-1, begin, 1, last);
+            continue;
+        }
+        const zero = (begin + last) / (begin - last); // where the stress changes its sign
+        add(-1, begin, zero, 0);
+        add(zero, 0, 1, last);
+    }
+}
+
 /// Adds contact forces. Line widths are relative to the widest line: the force divided by the scale's end.
-export function addForces(lines: Segments, test: TestData, frame: Frame, magnification: number, {end}: ForceScale, theme: Theme): void {
+/// @param highest  m, half the width of the widest band of faces
+export function addForces(lines: Segments, test: TestData, frame: Frame, magnification: number, {end, stress}: ForceScale, highest: number, theme: Theme): void {
+    addStresses(lines, test, frame, magnification, stress.end, highest, theme);
     if (end === 0) return;
     const {bonds, cells} = test, compression = rgb(theme.compressive), tension = rgb(theme.tensile);
     const add = (i: number, j: number, fn: number, fs: number, at: () => Point) => {
@@ -114,7 +147,7 @@ export function addForces(lines: Segments, test: TestData, frame: Frame, magnifi
         if (share >= smallestForceShown) addBranches(lines, cells, frame, i, j, at(), magnification, Math.min(1, share), fn < 0 ? tension : compression, 0.85);
     };
     const fn = frame.field('fn'), fs = frame.field('fs');
-    if (fn && fs) {
+    if (fn && fs && bonds.halfX.length === 0) {
         for (let bond = 0; bond < bonds.count; ++bond) {
             add(bonds.i[bond]!, bonds.j[bond]!, fn[bond]!, fs[bond]!, () => bondedPoint(test, frame, bond, magnification));
         }

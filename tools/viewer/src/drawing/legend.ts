@@ -6,7 +6,7 @@ import {css, paletteSize, type Rgb} from '../colours/palettes';
 import type {Theme} from '../colours/theme';
 import type {Sheet, TextStyle} from '../elements/sheet';
 import type {ForceScale} from '../quantities/ranges';
-import {quantity, scaleFor, significant, thinSpace, titledInFull} from '../quantities/units';
+import {ofStress, quantity, scaleFor, significant, thinSpace, titledInFull} from '../quantities/units';
 import {smallestForceShown} from './drawn_lines';
 import type {Layer} from './settings';
 import type {Look} from './specimen_view';
@@ -29,13 +29,19 @@ export function drawLegend(sheet: Sheet, look: Look, left: number, top: number):
     }
     if (shown('bonds')) x += drawMarks(sheet, 'Bonds', [['intact', theme.bond, 1.5], ['slid', theme.slid, 1.5]], theme, x, top) + gap;
     if (shown('forces')) {
-        drawMarks(sheet, forceTitle(look.forceScale), [['compression', theme.compressive, 5], ['tension', theme.tensile, 5]], theme, x, top);
+        const {end, stress} = look.forceScale;
+        const titles = [...(stress.end > 0 ? [stressTitle(stress)] : []), ...(end > 0 || stress.end === 0 ? [forceTitle(look.forceScale)] : [])];
+        drawMarks(sheet, titles.join('. '), [['compression', theme.compressive, 5], ['tension', theme.tensile, 5]], theme, x, top);
     }
 }
 
 function forceTitle({end, largest}: ForceScale): string {
     if (end === 0) return 'Contact force: none';
     return `Contact force, widest ${largest > end ? `≥${thinSpace}` : ''}${quantity(end, 'N', 2)}, none drawn below ${quantity(smallestForceShown * end, 'N', 2)}`;
+}
+
+function stressTitle({end, largest}: ForceScale['stress']): string {
+    return `Stress of faces, ${quantity(end, ofStress, 2)} is half a particle wide${largest > end ? `, largest ${quantity(largest, ofStress, 2)}` : ''}; taper: moment, slant: shear`;
 }
 
 const small = (theme: Theme): TextStyle => ({size: 11, colour: theme.ink});

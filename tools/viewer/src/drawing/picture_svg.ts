@@ -46,23 +46,25 @@ function particles(view: SpecimenView, frame: Frame, look: Look, placing: Placin
     return group;
 }
 
-/// The segments as paths; all segments of the same width and colour share one path.
+/// The segments as paths; all lines of the same width and colour share one path, and all bands of the same colour.
 function lines(segments: Segments, placing: Placing, widest: number): SVGElement {
     const group = svgElement('g', {fill: 'none', 'stroke-linecap': 'round'});
     const paths = new Map<string, string[]>();
     for (let at = 0; at < segments.count; ++at) {
         const [x1, y1, x2, y2] = segments.ends.subarray(4 * at, 4 * at + 4) as unknown as [number, number, number, number];
         const [r, g, b, a] = segments.colours.subarray(4 * at, 4 * at + 4) as unknown as [number, number, number, number];
-        const width = (Math.round(20 * Math.max(0.3, segments.widths[at]! * widest)) / 20).toFixed(2);
-        const key = `${css([r, g, b] as Rgb)} ${width} ${(a / 255).toFixed(2)}`;
         const point = (x: number, y: number) => `${(placing.x + x * placing.scale).toFixed(2)} ${(placing.y - y * placing.scale).toFixed(2)}`;
-        const found = paths.get(key), d = `M${point(x1, y1)}L${point(x2, y2)}`;
+        const isBand = segments.isBand(at), [u1, v1, u2, v2] = segments.sides.subarray(4 * at, 4 * at + 4) as unknown as [number, number, number, number];
+        const width = isBand ? 'band' : (Math.round(20 * Math.max(0.3, segments.widths[at]! * widest)) / 20).toFixed(2);
+        const key = `${css([r, g, b] as Rgb)} ${width} ${(a / 255).toFixed(2)}`;
+        const found = paths.get(key);
+        const d = isBand ? `M${point(x1 + u1, y1 + v1)}L${point(x2 + u2, y2 + v2)}L${point(x2 - u2, y2 - v2)}L${point(x1 - u1, y1 - v1)}Z` : `M${point(x1, y1)}L${point(x2, y2)}`;
         if (found) found.push(d);
         else paths.set(key, [d]);
     }
     for (const [key, d] of paths) {
         const [stroke, width, opacity] = key.split(' ') as [string, string, string];
-        group.append(svgElement('path', {d: d.join(''), stroke, 'stroke-width': width, 'stroke-opacity': opacity}));
+        group.append(svgElement('path', width === 'band' ? {d: d.join(''), fill: stroke, 'fill-opacity': opacity} : {d: d.join(''), stroke, 'stroke-width': width, 'stroke-opacity': opacity}));
     }
     return group;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws segments as instances of one square, which the vertex shader stretches along each line to its width in pixels.
+// Draws segments as instances of one square, which the vertex shader stretches along each line to its width in pixels, or to
+// the corners of a band.
 
 import {
     BufferAttribute, DynamicDrawUsage, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, RawShaderMaterial, Vector2,
@@ -16,6 +17,7 @@ in vec2 corner; // position along and across the line, -1 to 1
 in vec4 ends;
 in float width;
 in vec4 colour;
+in vec4 sides;
 out vec4 shown;
 void main() {
     mat4 toClip = projectionMatrix * modelViewMatrix;
@@ -25,6 +27,10 @@ void main() {
     vec2 along = far > 0.0 ? way / far : vec2(1.0, 0.0);
     // Ends extend by half the line's width, so that the lines of a chain join.
     vec2 at = (corner.x < 0.0 ? from : to) + across * (corner.x * along + corner.y * vec2(-along.y, along.x));
+    if (sides != vec4(0.0)) {
+        vec2 place = corner.x < 0.0 ? ends.xy + corner.y * sides.xy : ends.zw + corner.y * sides.zw;
+        at = (toClip * vec4(place, 0.0, 1.0)).xy * halfSize;
+    }
     shown = colour;
     gl_Position = vec4(at / halfSize, 0.0, 1.0);
 }`;
@@ -55,7 +61,7 @@ export class SegmentLayer {
         if (this.capacity !== segments.widths.length) this.allocate(segments);
         const {geometry} = this.mesh;
         geometry.instanceCount = segments.count;
-        for (const name of ['ends', 'width', 'colour']) {
+        for (const name of ['ends', 'width', 'colour', 'sides']) {
             const attribute = geometry.getAttribute(name) as InstancedBufferAttribute;
             attribute.clearUpdateRanges();
             attribute.addUpdateRange(0, segments.count * attribute.itemSize);
@@ -83,6 +89,7 @@ export class SegmentLayer {
         geometry.setAttribute('ends', instanced(segments.ends, 4));
         geometry.setAttribute('width', instanced(segments.widths, 1));
         geometry.setAttribute('colour', instanced(segments.colours, 4, true));
+        geometry.setAttribute('sides', instanced(segments.sides, 4));
         this.mesh.geometry.dispose();
         this.mesh.geometry = geometry;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Straight lines with widths and colours, for platens, walls, cracks, bonds and forces. They are filled on the CPU for each
-// frame, and drawn by WebGL (segment_layer.ts) or written to SVG (picture_svg.ts).
+// Straight lines with widths and colours, for platens, walls, cracks, bonds and forces, and bands for the stresses of faces.
+// They are filled on the CPU for each frame, and drawn by WebGL (segment_layer.ts) or written to SVG (picture_svg.ts).
 
 import type {Rgb} from '../colours/palettes';
 import type {Point} from '../data/cells';
@@ -10,6 +10,7 @@ export class Segments {
     ends = new Float32Array(4 * 256); // m, start and end of each line
     widths = new Float32Array(256); // px
     colours = new Uint8Array(4 * 256);
+    sides = new Float32Array(4 * 256); // m, from the start and end of a band to its side; 0 for lines
 
     /// Coordinates are stored relative to the origin, so that single precision is enough at any zoom.
     constructor(readonly origin: Point) {}
@@ -30,6 +31,17 @@ export class Segments {
         this.colours[4 * at + 1] = colour[1];
         this.colours[4 * at + 2] = colour[2];
         this.colours[4 * at + 3] = 255 * opacity;
+        this.sides.fill(0, 4 * at, 4 * at + 4);
+    }
+
+    /// Adds a quadrilateral about a line. @param fromSide, toSide  vectors from the ends of the line to its corners on one side
+    addBand(from: Point, to: Point, fromSide: Point, toSide: Point, colour: Rgb, opacity: number): void {
+        this.add(from.x, from.y, to.x, to.y, 0, colour, opacity);
+        this.sides.set([fromSide.x, fromSide.y, toSide.x, toSide.y], 4 * (this.count - 1));
+    }
+
+    isBand(at: number): boolean {
+        return this.sides.subarray(4 * at, 4 * at + 4).some((side) => side !== 0);
     }
 
     private grow(): void {
@@ -41,5 +53,6 @@ export class Segments {
         this.ends = grown(this.ends);
         this.widths = grown(this.widths);
         this.colours = grown(this.colours);
+        this.sides = grown(this.sides);
     }
 }

@@ -18,6 +18,8 @@ import {SegmentLayer} from './segment_layer';
 import {Segments} from './segments';
 import {layerNames, type Layer, type Settings} from './settings';
 
+const highestBand = 0.25; // half the width of the widest band of faces, relative to a particle's size
+
 /// Everything that decides how a test looks at one moment.
 export interface Look {
     settings: Settings;
@@ -109,7 +111,7 @@ export class SpecimenView {
         if (layers.platens) addChains(this.lines, this.test, frame, magnification, theme);
         if (layers.cracks) addCracks(this.lines, this.test, this.cracks, frame, magnification, look.crackColours, theme);
         if (look.picked !== undefined) addPicked(this.lines, this.test.cells, frame, look.picked, magnification, theme);
-        if (layers.forces) addForces(this.forces, this.test, frame, magnification, look.forceScale, theme);
+        if (layers.forces) addForces(this.forces, this.test, frame, magnification, look.forceScale, highestBand * this.meanSize, theme);
     }
 
     /// Width of the line for the largest force, px. It is smaller if faces have several points, whose lines lie side by side.

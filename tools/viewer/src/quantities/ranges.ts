@@ -84,34 +84,51 @@ export function joined(ranges: readonly Range[]): Range {
     return {low: over('low', 0, Math.min), high: over('high', 0, Math.max), least: over('least', Infinity, Math.min), most: over('most', -Infinity, Math.max)};
 }
 
-/// The scale of contact forces, N: its end excludes the largest two per cent of the non-zero forces.
-export interface ForceScale {
-    end: number; // 0 if there are no forces
+/// A scale whose end excludes the largest two per cent of the non-zero sizes.
+interface SizeScale {
+    end: number; // 0 if there are none
     largest: number;
 }
 
-class Forces {
+/// The scales of contact forces, N, and of the stresses of faces, N/m.
+export interface ForceScale extends SizeScale {
+    stress: SizeScale;
+}
+
+export const noForces: ForceScale = {end: 0, largest: 0, stress: {end: 0, largest: 0}};
+
+class Sizes {
     private readonly samples: number[] = [];
     private largest = 0;
 
-    add(frame: Frame, sampled: boolean): void {
-        this.addAll(frame.field('fn'), frame.field('fs'), sampled);
-        const {contacts} = frame;
-        this.addAll(contacts?.fn, contacts?.fs, sampled);
-    }
-
-    get scale(): ForceScale {
+    get scale(): SizeScale {
         return {end: upper(this.samples) || this.largest, largest: this.largest};
     }
 
-    private addAll(fn: Float32Array | undefined, fs: Float32Array | undefined, sampled: boolean): void {
-        if (!fn || !fs) return;
-        const stride = Math.max(1, Math.floor(fn.length / 4000));
-        for (let at = 0; at < fn.length; ++at) {
-            const size = Math.hypot(fn[at]!, fs[at]!);
+    add(a: Float32Array | undefined, b: Float32Array | undefined, sizeOf: (a: number, b: number) => number, sampled: boolean): void {
+        if (!a || !b) return;
+        const stride = Math.max(1, Math.floor(a.length / 4000));
+        for (let at = 0; at < a.length; ++at) {
+            const size = sizeOf(a[at]!, b[at]!);
             if (size > this.largest) this.largest = size;
             if (sampled && size > 0 && at % stride === 0) this.samples.push(size);
         }
+    }
+}
+
+class Forces {
+    private readonly forces = new Sizes();
+    private readonly stresses = new Sizes();
+
+    add(frame: Frame, sampled: boolean): void {
+        const begin = frame.field('sb'), {contacts} = frame;
+        if (begin) this.stresses.add(begin, frame.field('se'), (one, other) => Math.max(Math.abs(one), Math.abs(other)), sampled);
+        else this.forces.add(frame.field('fn'), frame.field('fs'), Math.hypot, sampled);
+        this.forces.add(contacts?.fn, contacts?.fs, Math.hypot, sampled);
+    }
+
+    get scale(): ForceScale {
+        return {...this.forces.scale, stress: this.stresses.scale};
     }
 }
 
@@ -128,5 +145,6 @@ export function forceScaleOf(frames: readonly Frame[]): ForceScale {
 }
 
 export function joinedForces(scales: readonly ForceScale[]): ForceScale {
-    return {end: Math.max(...scales.map(({end}) => end)), largest: Math.max(...scales.map(({largest}) => largest))};
+    const join = (sizes: readonly SizeScale[]) => ({end: Math.max(...sizes.map(({end}) => end)), largest: Math.max(...sizes.map(({largest}) => largest))});
+    return {...join(scales), stress: join(scales.map(({stress}) => stress))};
 }
