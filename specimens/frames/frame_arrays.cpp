@@ -41,22 +41,16 @@ constexpr Quantity arrays_of_contacts[]{
     {"age", "s",
      "time since loading began for an intact bond, and time since the break for a broken bond. For a contact without a "
      "bond, time since the first curve row in which it touched",
-<<<<<<< HEAD
      "curve rows that are not written to curve.csv count as well; there are at least 2000 rows up to "
      "`loading.max_axial_strain`"},
-=======
-     "rows that are not written count as well: there are at least 2000 up to `loading.max_axial_strain`"},
     {"moment", "N m",
      "moment of a face on body_i, positive counter-clockwise; only for specimens bonded by faces, as are the two "
-     "arrays "
-     "that follow. They are 0 for contacts that are not faces"},
+     "arrays that follow. They are 0 for contacts that are not faces"},
     {"stress_begin", "N/m",
      "normal stress at the first end of the face, N/L ± 6M/L² with its length L, positive in compression. The stress "
-     "is "
-     "linear along the face",
+     "is linear along the face",
      "of a broken face, a negative value marks an open end: the pressure falls to 0 before it"},
     {"stress_end", "N/m", "normal stress at the second end of the face, as for stress_begin"},
->>>>>>> 8f26f9bc (Write moment, stress at both ends and slip of faces to frames)
 };
 constexpr Quantity arrays_of_cracks[]{
     {"body_i", "", "id of one body, as in events.csv"},
