@@ -46,6 +46,10 @@ const std::vector<Claim>& claims() {
                  joint_face_claims(),
                  joint_compliance_claims(),
                  weakness_plane_claims(),
+                 face_strength_claims(),
+                 broken_face_claims(),
+                 face_elasticity_claims(),
+                 face_energy_claims(),
              }) {
             std::move(part.begin(), part.end(), std::back_inserter(list));
         }

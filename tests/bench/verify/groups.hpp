@@ -38,5 +38,9 @@ std::vector<Claim> joint_claims();
 std::vector<Claim> joint_face_claims();
 std::vector<Claim> joint_compliance_claims();
 std::vector<Claim> weakness_plane_claims();
+std::vector<Claim> face_strength_claims();
+std::vector<Claim> broken_face_claims();
+std::vector<Claim> face_elasticity_claims();
+std::vector<Claim> face_energy_claims();
 
 }  // namespace crackle::verification

@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "solver/base/errors.hpp"
-#include "tests/solver/faces/cell_worlds.hpp"
+#include "tests/bench/verify/scenes/cell_worlds.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle::face_test {
+namespace crackle::verification {
 namespace {
 
 using testing::agrees;
@@ -33,13 +33,7 @@ TEST(BondFaces, FindNoOffsetBetweenSeedsOfVoronoiCells) {
 /// Three squares of side 1 in a row, of which the last is a driven body.
 CellWorld squares() {
     CellBox box{.width = 3.0, .height = 1.0, .gap = 0.0};
-    Mesh mesh;
-    for (int n = 0; n < 3; ++n) {
-        mesh.cells.push_back({static_cast<std::uint32_t>(mesh.corners.size()), 4, n});
-        for (const Point corner : {Point{0.0, 0.0}, Point{1.0, 0.0}, Point{1.0, 1.0}, Point{0.0, 1.0}})
-            mesh.corners.push_back({corner.x + n, corner.y});
-    }
-    CellWorld cells = world_of(box, mesh, {{0.4, 0.5}, {1.8, 0.5}, {2.5, 0.5}}, 3);
+    CellWorld cells = world_of(box, squares_in_a_row(3), {{0.4, 0.5}, {1.8, 0.5}, {2.5, 0.5}}, 3);
     for (BodyIndex b = 0; b < 3; ++b)
         if (cells.world.bodies.names[b].id == 3) cells.world.bodies.inertia[b] = {0.0, 0.0, 0.0, 1.0};
     return cells;
@@ -77,4 +71,4 @@ TEST(BondFaces, RefuseAWorldWithoutFacesAndDistancesThatMayBeNothing) {
 }
 
 }  // namespace
-}  // namespace crackle::face_test
+}  // namespace crackle::verification

@@ -7,10 +7,10 @@
 
 #include <cmath>
 
-#include "tests/solver/faces/cell_worlds.hpp"
+#include "tests/bench/verify/scenes/cell_worlds.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle::face_test {
+namespace crackle::verification {
 namespace {
 
 FaceNet faces_of(const CellBox& box) { return find_faces(outlines_before_inset(build_box(box).world, box.gap)); }
@@ -96,4 +96,4 @@ TEST(FindFaces, ShareALongEdgeAmongTwoShortOnes) {
 }
 
 }  // namespace
-}  // namespace crackle::face_test
+}  // namespace crackle::verification

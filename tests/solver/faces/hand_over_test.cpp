@@ -14,10 +14,10 @@
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
-#include "tests/solver/faces/cell_worlds.hpp"
+#include "tests/bench/verify/scenes/cell_worlds.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle::face_test {
+namespace crackle::verification {
 namespace {
 
 using testing::within;
@@ -153,4 +153,4 @@ TEST(HandOver, SharesAFaceByItsLapAndItsTurn) {
 }
 
 }  // namespace
-}  // namespace crackle::face_test
+}  // namespace crackle::verification

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Worlds of Voronoi cells or triangles for tests of faces: boxes of seeds, with platens below and above on request.
+// Worlds of cells that faces can bond: boxes of Voronoi cells or triangles, with platens below and above on request,
+// and squares in a row. Tested by tests/solver/faces/find_faces_test.cpp.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "mesher/mesher.hpp"
 #include "solver/faces/bond_faces.hpp"
+#include "solver/faces/face_pass.hpp"
 #include "solver/stepping/build_world.hpp"
 
-namespace crackle::face_test {
+namespace crackle::verification {
 
 /// A box of cells.
 struct CellBox {
@@ -121,6 +125,23 @@ inline CellWorld build_box(const CellBox& box, int materials = 1) {
     return world_of(box, make_mesh(seeds, {0.0, box.width, 0.0, box.height}, request), seeds, materials);
 }
 
+/// Squares of side 1 m in a row from the origin along x, without gaps.
+inline Mesh squares_in_a_row(int count) {
+    Mesh mesh;
+    for (int n = 0; n < count; ++n) {
+        mesh.cells.push_back({static_cast<std::uint32_t>(mesh.corners.size()), 4, n});
+        for (const Point corner : {Point{0.0, 0.0}, Point{1.0, 0.0}, Point{1.0, 1.0}, Point{0.0, 1.0}})
+            mesh.corners.push_back({corner.x + n, corner.y});
+    }
+    return mesh;
+}
+
+/// Computes the forces of the faces of a world, without those of contact points.
+inline void compute_face_forces(World& world) {
+    std::ranges::fill(world.bodies.force, BodyForce{});
+    add_face_forces(world);
+}
+
 /// Rock of E = 1 for a shear ratio, without failure.
 inline FaceBonding elastic_rock(const CellWorld& cells, double gap, double poissons_ratio, double shear_ratio,
                                 double correction = 0.0) {
@@ -132,4 +153,4 @@ inline FaceBonding elastic_rock(const CellWorld& cells, double gap, double poiss
     return bonding;
 }
 
-}  // namespace crackle::face_test
+}  // namespace crackle::verification
