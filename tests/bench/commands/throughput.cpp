@@ -41,11 +41,12 @@ struct Row {
     std::string scene;
     std::int64_t particles = 0;
     int threads = 1;
-    double contacts = 0.0;  // per particle
-    double rate = 0.0;      // particle-steps / s
-    double bare = 0.0;      // bare kernel on the same discs, particle-steps/s; 0 if not measured
-    double bytes = 0.0;     // bytes of memory per particle; 0 if unknown
-    double list = 0.0;      // number of steps per neighbour list; 0 if unknown
+    double contacts = 0.0;   // per particle
+    double rate = 0.0;       // particle-steps / s
+    double bare = 0.0;       // bare kernel on the same discs, particle-steps/s; 0 if not measured
+    double bytes = 0.0;      // bytes of memory per particle; 0 if unknown
+    double list = 0.0;       // number of steps per neighbour list; 0 if unknown
+    std::int64_t count = 0;  // number of circles that was asked for, from which polygons are meshed
 };
 
 /// Takes steps for the given time. @return particle-steps per second
@@ -87,6 +88,7 @@ Row measure_test(const Settings& settings, const std::string& kind, std::int64_t
         rates.push_back(timed.rate());
         row.particles = timed.particles;
         row.contacts = timed.contacts_per_particle;
+        row.count = count;
         if (k == 0) row.bytes = timed.bytes_per_particle;  // later runs include memory left by earlier ones
         if (with_bare) bares.push_back(bare_rate(count, 0.25 * settings.seconds));
     }
@@ -136,26 +138,38 @@ std::string shown(double value, const char* format) {
     return value > 0.0 ? fmt::format(fmt::runtime(format), value) : "–";
 }
 
+/// Time per particle and step over that of circles of the same count on one thread; 0 if these were not measured.
+double times_circles(const std::vector<Row>& rows, const Row& row) {
+    if (row.scene == "circles" || row.count == 0) return 0.0;
+    for (const Row& other : rows)
+        if (other.scene == "circles" && other.threads == 1 && other.count == row.count) return other.rate / row.rate;
+    return 0.0;
+}
+
 std::string page_of(const std::string& command, const Limits& limits, const std::vector<Row>& rows) {
     std::string text = fmt::format(
         "# Throughput\n\nMade by `{}` on {}, kernels for {}, {} lanes of doubles, one process. Triad: {:.0f} GB/s in "
         "the first cache, "
         "{:.0f} in the second, {:.0f} in memory. Rates are million particle-steps per second of the whole engine, as "
         "in `crackle test` (bonds, friction, dashpots, platens, curve, events, frames; a curve row every 100 steps). "
-        "The bare kernel has no neighbour search, bonds, energy balance, controls or observers. Contacts: "
-        "bonded points per particle. Memory: peak resident set while stepping minus that of an empty process. Flowing: "
+        "The bare kernel has no neighbour search, bonds, energy balance, controls or observers. `coulomb`, `faces` and "
+        "`pressure` are the cells of `voronoi` with stiffnesses per area, bonded by coulomb points, by faces, and by "
+        "faces with pressures of the cells. Times circles: time per particle and step over that of as many circles. "
+        "Contacts: bonded points or faces per particle. Memory: peak resident set while stepping minus that of an "
+        "empty process. Flowing: "
         "a "
         "collapsing column without its right wall, whose front is as fast as that of a dam break; contacts are "
         "touching points. Steps per list: number of steps for which a neighbour list remains valid.\n\n"
         "| scene | particles | threads | contacts per particle | rate, M/s | bare kernel, M/s | ratio | ns per "
-        "particle | bytes per particle | steps per list |\n"
-        "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+        "particle | times circles | bytes per particle | steps per list |\n"
+        "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
         command, processor_name(), name_of(chosen_set()), lanes_of(chosen_set()), limits.l1, limits.l2, limits.memory);
     for (const Row& row : rows) {
-        text += fmt::format("| {} | {} | {} | {:.2f} | {:.2f} | {} | {} | {:.1f} | {} | {} |\n", row.scene,
+        text += fmt::format("| {} | {} | {} | {:.2f} | {:.2f} | {} | {} | {:.1f} | {} | {} | {} |\n", row.scene,
                             row.particles, row.threads, row.contacts, 1e-6 * row.rate, shown(1e-6 * row.bare, "{:.2f}"),
                             shown(row.bare > 0.0 ? row.rate / row.bare : 0.0, "{:.2f}"), 1e9 / row.rate,
-                            shown(row.bytes, "{:.0f}"), shown(row.list, "{:.1f}"));
+                            shown(times_circles(rows, row), "{:.2f}"), shown(row.bytes, "{:.0f}"),
+                            shown(row.list, "{:.1f}"));
     }
     return text;
 }
@@ -194,7 +208,7 @@ std::string script_of(const std::vector<Row>& rows) {
     }
     add(
         "bare", "bare kernel", [](const Row& row) { return row.bare > 0.0; }, [](const Row& row) { return row.bare; });
-    for (const char* kind : {"voronoi", "delaunay"})
+    for (const char* kind : {"voronoi", "delaunay", "coulomb", "faces", "pressure"})
         add(
             kind, kind, [=](const Row& row) { return row.scene == kind; }, rate);
     add(
@@ -221,7 +235,7 @@ CommandLine describe_bench_throughput() {
         ("repeats", po::value<int>()->value_name("N"),
          "runs of a scene, of which the median is used (default 3; quick: 1)")  //
         ("kinds", po::value<std::vector<std::string>>()->multitoken()->value_name("KIND"),
-         "circles, voronoi, delaunay, flowing (default all, polygons up to 50000)")                            //
+         "circles, voronoi, delaunay, coulomb, faces, pressure, flowing (default all, polygons up to 50000)")  //
         ("threads", po::value<std::vector<int>>()->multitoken()->value_name("N"), "of circles (default 1 2)")  //
         ("quick", "small and short");
     return {.synopses = {"crackle-bench throughput [OPTIONS]"},
@@ -265,7 +279,8 @@ int bench_throughput(const Invocation& invocation) {
     if (settings.repeats < 1 || settings.repeats > 100)
         throw InputError(
             fmt::format("crackle-bench throughput: --repeats: found {}, expected 1 to 100", settings.repeats));
-    const std::vector<std::string> all_kinds{"circles", "voronoi", "delaunay", "flowing"};
+    const std::vector<std::string> all_kinds{"circles", "voronoi",  "delaunay", "coulomb",
+                                             "faces",   "pressure", "flowing"};
     const auto kinds = given.contains("kinds") ? given["kinds"].as<std::vector<std::string>>() : all_kinds;
     for (const std::string& kind : kinds) {
         if (std::ranges::find(all_kinds, kind) == all_kinds.end())
@@ -309,7 +324,7 @@ int bench_throughput(const Invocation& invocation) {
             if (wanted("circles") && (number == 1 || count >= 5000)) plan_test("circles", count, number, number == 1);
         }
     }
-    for (const char* kind : {"voronoi", "delaunay"}) {
+    for (const char* kind : {"voronoi", "delaunay", "coulomb", "faces", "pressure"}) {
         for (const std::int64_t count : counts) {
             if (wanted(kind) && (count <= 50'000 || given.contains("kinds"))) plan_test(kind, count, 1, false);
         }

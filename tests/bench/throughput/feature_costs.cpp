@@ -319,6 +319,46 @@ void add_observers(const FeatureStudy& study, const std::string& kind, const Add
                 steps_alone, observed));
 }
 
+/// Hexagons at rest that are bonded by faces, with or without pressures of the cells; faces hold all loads.
+World world_of_faces(const Scene& hexagons, bool pressure) {
+    Scene scene = hexagons;
+    scene.bond_law = BondLaw::face;
+    scene.units = StiffnessUnits::area;
+    stir(scene);
+    World world = build_world(scene);
+    constexpr double youngs_modulus = 1e7, poissons_ratio = 0.25;  // Pa, near the stiffness of the points; -
+    FaceMaterial rock;
+    rock.moduli = pressure ? face_moduli(youngs_modulus, poissons_ratio, 1.0 / 1.6, 0.0)
+                           : face_moduli_without_pressure(youngs_modulus, poissons_ratio, 0.0);
+    rock.law.tensile_strength = youngs_modulus;  // so strong that nothing breaks
+    rock.law.cohesion = 2.0 * youngs_modulus;
+    rock.law.moment_share = 0.6;
+    rock.law.damping_ratio = timed_rock().damping_ratio.value_or(0.0);
+    FaceBonding bonding;
+    bonding.materials = {rock};
+    bonding.gap = gap;
+    bond_by_faces(world, bonding);
+    for (int k = 0; k < steps_before_start; ++k) step(world);
+    return world;
+}
+
+/// Compares cells that are bonded by faces with the same cells bonded by points, and pressures of cells with none.
+void add_faces(const FeatureStudy& study, const Add& add) {
+    const Scene hexagons = packed_hexagons(study.count);
+    const World points = world_with(hexagons, {.dashpots = true, .friction = true, .bonds = true, .coulomb = true}),
+                faces = world_of_faces(hexagons, false), pressed = world_of_faces(hexagons, true);
+    World work_points = points, work_faces = faces, work_pressed = pressed;
+    const auto trial = [&](const World& start, World& work) {
+        Trial one = trial_of(start, work, [](World& world) { step(world); });
+        one.contacts = static_cast<std::int64_t>(faces.faces.size());
+        return one;
+    };
+    add(compare(study, row_of(FeatureRowKind::added, "hexagons", "faces", "coulomb bonds"), trial(points, work_points),
+                trial(faces, work_faces)));
+    add(compare(study, row_of(FeatureRowKind::added, "hexagons", "pressures of cells", "faces"),
+                trial(faces, work_faces), trial(pressed, work_pressed)));
+}
+
 struct Absence {
     const char* feature;
     Features scene;
@@ -416,6 +456,7 @@ void measure_feature_costs(const FeatureStudy& study, const std::function<void(c
     add_observers(study, "circles", add);
     add_rungs(study, "hexagons", hexagons, add);
     add_observers(study, "voronoi", add);
+    add_faces(study, add);
     add_absent_kernels(study, "discs", discs, add);
     add_absent_parts(study, discs, add);
     add_absent_kernels(study, "hexagons", hexagons, add);

@@ -38,7 +38,7 @@ struct FeatureRow {
     std::string bodies;                        // discs, hexagons, voronoi
     std::string feature;                       // the feature that is added or absent
     std::string beside;                        // scene or kernel with which it is compared
-    std::int64_t particles, contacts;          // contacts: points that carry load
+    std::int64_t particles, contacts;          // contacts: points that carry load, or faces
     double contact_seconds, particle_seconds;  // median of a step or a force pass
     MedianInterval difference;                 // s per contact and step more than the other; NaN if nothing is compared
     MedianInterval ratio;                      // ratio of the two times per contact and step

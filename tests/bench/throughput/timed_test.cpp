@@ -48,13 +48,26 @@ double rows_of(const TimedSpecimen& specimen) {
 }
 
 std::string case_text(const TimedSpecimen& specimen) {
+    const bool coulomb = specimen.kind == "coulomb", pressure = specimen.kind == "pressure",
+               faces = pressure || specimen.kind == "faces";
     std::string text = fmt::format(
         "[particles]\nfile = \"in_gm.dat\"\n[loading]\nkind = \"compression\"\naxial_strain_rate = 1e-6\n"
-        "max_axial_strain = {}\n[material]\ndamping_ratio = 0.2\n[numerics]\nthreads = {}\n[output]\ncurve_rows = {}\n",
+        "max_axial_strain = {}\n[numerics]\nthreads = {}\n[output]\ncurve_rows = {}\n[material]\ndamping_ratio = 0.2\n",
         end_strain, specimen.threads, rows_of(specimen));
-    if (specimen.kind != "circles")
-        text += fmt::format("[mesh]\nkind = \"{}\"\nthick = {}\n[bond]\nthick = {}\n", specimen.kind, polygon_gap,
-                            polygon_gap + mean_overlap);
+    if (specimen.kind == "circles") return text;
+    // Strengths per area are so large that nothing breaks.
+    if (coulomb || faces)
+        text +=
+            "units = \"area\"\ntensile_strength = 1e9\ncohesion = 4e9\nfriction_angle = 40\nresidual_friction_angle = "
+            "20\n";
+    if (coulomb) text += "contact_modulus = 50e9\nstiffness_ratio = 1.6\n";
+    // Without a ratio of stiffnesses, it follows from Poisson's ratio, and cells have no pressure.
+    if (faces) text += "youngs_modulus = 50e9\npoissons_ratio = 0.25\nmoment_share = 0.6\n";
+    if (pressure) text += "stiffness_ratio = 1.6\n";
+    text += fmt::format("[mesh]\nkind = \"{}\"\nthick = {}\n[bond]\n", coulomb || faces ? "voronoi" : specimen.kind,
+                        polygon_gap);
+    if (coulomb || faces) text += fmt::format("law = \"{}\"\n", coulomb ? "coulomb" : "face");
+    if (!faces) text += fmt::format("thick = {}\n", polygon_gap + mean_overlap);
     return text;
 }
 

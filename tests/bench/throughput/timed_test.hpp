@@ -14,9 +14,11 @@
 namespace crackle::throughput {
 
 struct TimedSpecimen {
-    std::string kind = "circles";  ///< circles, delaunay, voronoi
-    std::int64_t count = 304;      ///< number of circles, from which polygons are meshed; the actual number differs
-                                   ///< slightly
+    /// circles, delaunay, voronoi; or Voronoi cells with stiffnesses per area that are bonded by points (coulomb), by
+    /// faces (faces), or by faces with pressures of the cells (pressure)
+    std::string kind = "circles";
+    std::int64_t count = 304;  ///< number of circles, from which polygons are meshed; the actual number differs
+                               ///< slightly
     int threads = 1;
     double seconds = 2.0;  ///< smallest duration of the stepping loop
 };
@@ -24,7 +26,7 @@ struct TimedSpecimen {
 struct TimedTest {
     std::int64_t particles = 0, steps = 0, bonds = 0, list_builds = 0;
     double step_seconds = 0.0;           ///< wall-clock time of the stepping loop, including observers and files
-    double contacts_per_particle = 0.0;  ///< number of bonded points per particle, including those at platens
+    double contacts_per_particle = 0.0;  ///< number of bonded points or faces per particle, including those at platens
     double bytes_per_particle = 0.0;     ///< peak resident set while stepping, minus that of an empty process; 0 if
                                          ///< unknown
 

@@ -95,7 +95,8 @@ TEST_F(BenchCommand, ThroughputWritesATableOfEveryKindOfScene) {
     EXPECT_EQ(answer.out, read("rates/throughput.md"));
     EXPECT_TRUE(exists("rates/throughput.csv"));
     EXPECT_FALSE(exists("rates/scratch"));
-    for (const char* row : {"| circles | 305 | 1 |", "| voronoi | 305 | 1 |", "| delaunay | 671 | 1 |"})
+    for (const char* row : {"| circles | 305 | 1 |", "| voronoi | 305 | 1 |", "| delaunay | 671 | 1 |",
+                            "| coulomb | 305 | 1 |", "| faces | 305 | 1 |", "| pressure | 305 | 1 |"})
         EXPECT_NE(answer.out.find(row), std::string::npos) << row << '\n' << answer.out;
 }
 
@@ -122,7 +123,7 @@ TEST_F(BenchCommand, FeaturesWritesBothTablesAndItsPicture) {
         if (line.starts_with('#') || line.starts_with("kind,")) continue;
         ++rows;
     }
-    EXPECT_EQ(rows, 42);
+    EXPECT_EQ(rows, 44);
     if (answer.err.find("found no gnuplot") == std::string::npos) {
         EXPECT_NE(read("costs/features.svg").find("<svg"), std::string::npos) << answer.err;
     }

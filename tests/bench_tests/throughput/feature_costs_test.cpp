@@ -80,7 +80,7 @@ TEST(FeatureCosts, EveryRowHasItsNumbersInOrder) {
         EXPECT_EQ(row.difference.low > 0.0, row.ratio.low > 1.0) << row.feature;
     });
     std::filesystem::remove_all(scratch);
-    EXPECT_EQ(kinds["added"], 11 + 10 + 2);
+    EXPECT_EQ(kinds["added"], 11 + 10 + 2 + 2);
     EXPECT_EQ(kinds["dispatched"], 4 + 4 + 2);
     EXPECT_EQ(kinds["forced"], 4 + 4 + 1);
     // No contact opens during the runs, so all rows of unbonded discs have the same number of contacts. Clumps make
