@@ -100,6 +100,17 @@ Json interval_of(const FittedNumber& number) {
     return {{"value", number.value}, {"low", number.low}, {"high", number.high}};
 }
 
+Json measured_as_json(const EnvelopeFigure& e) {
+    Json all = Json::array();
+    for (const StrengthOfCores& cores : e.measured)
+        all.push_back({{"confining_pressure", cores.confinement},
+                       {"strength", cores.strength},
+                       {"error", cores.error},
+                       {"mohr_coulomb", e.laws.mohr_coulomb(cores.confinement)},
+                       {"hoek_brown", e.laws.hoek_brown(cores.confinement)}});
+    return all;
+}
+
 Json as_json(const EnvelopeFigure& e, const std::vector<std::string>& notices) {
     const StrengthEnvelope& laws = e.laws;
     Json strengths = Json::array();
@@ -140,15 +151,7 @@ Json as_json(const EnvelopeFigure& e, const std::vector<std::string>& notices) {
                            {"strength_ratio", laws.hoek_brown_strength.value / e.tension.mean},
                            {"strength_ratio_by_m", hoek_martin(laws.hoek_brown_m.value)}};
     }
-    if (!e.measured.empty()) {
-        json["measured"] = Json::array();
-        for (const StrengthOfCores& cores : e.measured)
-            json["measured"].push_back({{"confining_pressure", cores.confinement},
-                                        {"strength", cores.strength},
-                                        {"error", cores.error},
-                                        {"mohr_coulomb", laws.mohr_coulomb(cores.confinement)},
-                                        {"hoek_brown", laws.hoek_brown(cores.confinement)}});
-    }
+    if (!e.measured.empty()) json["measured"] = measured_as_json(e);
     json["notices"] = notices;
     const std::string stress = e.tests.unit;
     json["units"] = {

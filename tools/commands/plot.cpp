@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -27,6 +26,7 @@
 #include "tools/plot/deck_panels.hpp"
 #include "tools/plot/face_bands.hpp"
 #include "tools/plot/figure_options.hpp"
+#include "tools/plot/moments.hpp"
 #include "tools/plot/panels.hpp"
 #include "tools/terminal/printable.hpp"
 
@@ -101,34 +101,6 @@ void write_figure(const fs::path& file, const std::vector<Panel>& panels, const 
 
 std::string strain_text(double strain) {
     return strain == 0.0 ? "ε = 0" : fmt::format("ε = {:.3g}·10⁻³", 1e3 * strain);
-}
-
-/// Index of the frame for a word (start, peak, end), or of the frame nearest to a given strain.
-std::size_t frame_at(const Recording& test, const std::string& at) {
-    if (test.frames.empty())
-        throw InputError(fmt::format(
-            "plot: {}: found no frames, expected a test with frames (output.frames in its case)", test.name));
-    const auto has_role = [&](const FrameHead& head) { return has_word(head.roles, at); };
-    if (const auto found = std::find_if(test.frames.begin(), test.frames.end(), has_role); found != test.frames.end())
-        return static_cast<std::size_t>(found - test.frames.begin());
-    double strain = 0.0;
-    const auto [end, error] = std::from_chars(at.data(), at.data() + at.size(), strain);
-    if (error != std::errc() || end != at.data() + at.size()) {
-        const bool role = at == "start" || at == "peak" || at == "end";
-        throw InputError(fmt::format("plot: --at: found '{}', {}", at,
-                                     role ? fmt::format("for which {} has no frame", test.name)
-                                          : std::string("expected a strain, start, peak or end")));
-    }
-    const double last = test.frames.back().axial_strain.value_or(0.0);
-    if (!(strain >= 0.0 && strain <= last * (1.0 + 1e-9))) {
-        throw InputError(
-            fmt::format("plot: --at: found {}, expected 0 to {:.6g}, the last strain of {}", at, last, test.name));
-    }
-    const auto farther = [&](const FrameHead& a, const FrameHead& b) {
-        return std::abs(a.axial_strain.value_or(0.0) - strain) < std::abs(b.axial_strain.value_or(0.0) - strain);
-    };
-    return static_cast<std::size_t>(std::min_element(test.frames.begin(), test.frames.end(), farther) -
-                                    test.frames.begin());
 }
 
 /// @param asked the requested moments; if empty, start, peak and end, of which two may coincide
