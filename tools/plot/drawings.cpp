@@ -54,7 +54,7 @@ struct ForceScales {
 };
 
 ForceScales scales_of(const std::vector<Moment>& moments) {
-    constexpr double high_band = 0.4, usual_crack = 0.08, widest_crack = 0.3;  // relative to the size of a cell
+    constexpr double high_band = 0.22, usual_crack = 0.05, widest_crack = 0.14;  // relative to the size of a cell
     std::vector<const FaceBand*> bands;
     std::vector<double> openings;
     for (const Moment& moment : moments) {
