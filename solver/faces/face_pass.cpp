@@ -50,6 +50,7 @@ class Pass {
         over_blocks(world_, faces_.size(), [&](std::size_t /*block*/, std::size_t begin, std::size_t end) {
             move(faces_, bodies_, static_cast<FaceIndex>(begin), static_cast<FaceIndex>(end));
         });
+        for_each(world_, faces_.broken.size(), [&](std::size_t n) { follow_far_turn(n); });
         hand_over(world_);
         faces_.late.resize(faces_.broken.size());
         for_each(world_, faces_.late.size(), [&](std::size_t n) { move_broken(n); });
@@ -84,6 +85,14 @@ class Pass {
         FaceLosses sum;
         for (std::size_t block = 0; block * block_size < count; ++block) sum.add(faces_.losses[block]);
         return sum;
+    }
+
+    /// Corrects the motion of a broken face whose bodies have turned far against each other.
+    void follow_far_turn(std::size_t n) {
+        const FaceIndex k = faces_.broken[n].face;
+        if (std::abs(faces_.motion[k].turn) <= last_bisected_turn) return;
+        const BodyPair& pair = faces_.bodies[k];
+        faces_.motion.set(k, motion_of(faces_.place[k], bodies_[pair.body_i], bodies_[pair.body_j]));
     }
 
     /// Computes the contact of a broken face at its late pressure, and its contribution to the dilation of its cells.

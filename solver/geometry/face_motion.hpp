@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 
 #include "solver/base/lanes.hpp"
 #include "solver/world/faces.hpp"
@@ -97,8 +98,31 @@ CRACKLE_INLINE MotionOf<Number> motion_of(const PlaceOf<Number>& place, const Fa
 inline Vec2 turned_by(const BodyState& body, Vec2 v) {
     return {body.shape[0] * v.x - body.shape[1] * v.y, body.shape[1] * v.x + body.shape[0] * v.y};
 }
+
+/// Relative rotation up to which the normal bisects the two turned normals, rad. Beyond it, only the scalar motion_of()
+/// is right.
+inline constexpr double last_bisected_turn = 2.0;
+
+/// Normal of a face, turned by the mean of both rotations: unit vector, continuous for any relative rotation, while the
+/// sum of the two turned normals a and b changes its sign at half a turn. @param turn relative rotation, rad
+inline VecOf<double> mean_normal(const VecOf<double>& a, const VecOf<double>& b, double turn) {
+    const double turns = turn / (2.0 * std::numbers::pi);
+    const bool opposed = dot(a, b) < -0.5;  // |a + b| would be small; |b - a| is not
+    const VecOf<double> across = opposed ? -1.0 * perpendicular(b + -1.0 * a) : a + b;
+    const double whole = opposed ? std::floor(turns) : std::nearbyint(turns);
+    const double sign = std::fmod(whole, 2.0) == 0.0 ? 1.0 : -1.0;
+    return (sign / std::sqrt(dot(across, across))) * across;
+}
+
 inline BondFaceMotion motion_of(const FacePlace& place, const BodyState& i, const BodyState& j) {
-    const MotionOf<double> m = motion_of(place_of(place), face_body(i), face_body(j));
+    const PlaceOf<double> p = place_of(place);
+    const FaceBody<double> body_i = face_body(i), body_j = face_body(j);
+    MotionOf<double> m = motion_of(p, body_i, body_j);
+    if (std::abs(m.turn) > last_bisected_turn) {
+        m.normal = mean_normal(body_i.turned(p.normal_i), body_j.turned(p.normal_j), m.turn);
+        const VecOf<double> apart = (body_j.place - body_i.place) + (body_j.turned(p.arm_j) - body_i.turned(p.arm_i));
+        m.opening = dot(apart, m.normal), m.sliding = dot(apart, perpendicular(m.normal));
+    }
     return {{m.normal.x, m.normal.y}, m.opening, m.sliding, m.turn};
 }
 

@@ -33,7 +33,8 @@ namespace {
 /// Computes LooseContact::joint_force for a point.
 template <PointKind K>
 double joint_force(const World& world, PointIndex k) {
-    if (world.points.state[k].law < world.settings.first_joint_law()) return std::numeric_limits<double>::quiet_NaN();
+    if (world.points.state[k].law < world.settings.first_joint_law() && world.faces.size() == 0)
+        return std::numeric_limits<double>::quiet_NaN();
     const double overlap = overlap_at<K>(BodyView(world), world.points.contact[k]);
     return law_of(world, k).normal_stiffness * std::max(0.0, overlap - world.points.bond_overlap[k]);
 }

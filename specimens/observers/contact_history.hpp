@@ -34,9 +34,9 @@ struct LooseContact {
     ContactPoint point;
     double shear_force = 0.0;  // N, elastic part, at the last update
     double since = 0.0;        // s, time of the row in which the contact was first seen
-    /// Elastic normal force, N, at the last update, for a point across a joint. Such a point has its own stiffness and
-    /// an overlap at which the force is zero. NaN elsewhere, because the positions of the bodies then determine the
-    /// force.
+    /// Elastic normal force, N, at the last update, for a point across a joint or in a specimen bonded by faces. Such a
+    /// point may have its own stiffness and an overlap at which the force is zero. NaN elsewhere, because the positions
+    /// of the bodies then determine the force.
     double joint_force = std::numeric_limits<double>::quiet_NaN();
 
     CRACKLE_FIELDS(point, shear_force, since, joint_force);

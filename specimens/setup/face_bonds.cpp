@@ -40,7 +40,9 @@ FaceBonding face_bonding_of(const World& world, const Specimen& specimen, const 
     FaceBonding bonding;
     for (std::size_t m = 0; m < world.settings.materials.size(); ++m) {
         const std::vector<parts::Mineral>& minerals = specimen.mineral_parts.list;
-        const parts::MaterialValues& values = m < minerals.size() ? minerals[m].material : specimen.material;
+        parts::MaterialValues values = m < minerals.size() ? minerals[m].material : specimen.material;
+        // A particle file may state the friction angle.
+        if (!values.friction_angle) values.friction_angle = world.settings.materials[m].friction_angle;
         bonding.materials.push_back({values.face_moduli(), values.face_law()});
         bonding.materials.back().law.damping_ratio = world.settings.materials[m].damping_ratio.value_or(0.0);
     }

@@ -51,6 +51,32 @@ Disturbed disturbed(double shear_ratio, bool broken) {
     return d;
 }
 
+TEST(FaceMotion, IsContinuousOverTwoTurns) {
+    const FacePlace place{
+        .normal_i = {1.0, 0.0}, .normal_j = {1.0, 0.0}, .arm_i = {0.5, 0.2}, .arm_j = {-0.4, 0.1}, .rest_turn = 0.0};
+    const auto body = [](double x, double angle) {
+        BodyState state{};
+        state.x = x;
+        state.angle = angle;
+        state.shape[0] = std::cos(angle);
+        state.shape[1] = std::sin(angle);
+        return state;
+    };
+    constexpr double step = 1e-3, first = -13.0;
+    const BodyState i = body(0.0, 0.3);
+    BondFaceMotion last = motion_of(place, i, body(1.0, 0.3 + first));
+    double jump = 0.0, error = 0.0;
+    for (double turn = first + step; turn < -first; turn += step) {
+        const BondFaceMotion now = motion_of(place, i, body(1.0, 0.3 + turn));
+        error = std::max(error, norm(now.normal - Vec2{std::cos(0.3 + 0.5 * turn), std::sin(0.3 + 0.5 * turn)}));
+        jump = std::max({jump, std::abs(now.opening - last.opening), std::abs(now.sliding - last.sliding)});
+        last = now;
+    }
+    EXPECT_TRUE(within("normal less that turned by half of the relative rotation, -13 to 13 rad", error, 0.0, 1e-12));
+    // The gap is at most 2.1 m long and turns by half a step; the arm of body j turns by a whole one.
+    EXPECT_LT(jump, 2.0 * step) << "m, largest change of opening or sliding in a step";
+}
+
 TEST(FaceForces, AreTheGradientOfTheEnergyForAnyRotation) {
     for (const double ratio : {1.0, 1.0 / 1.6}) {
         Disturbed d = disturbed(ratio, false);

@@ -303,8 +303,8 @@ std::vector<Claim> face_elasticity_claims() {
          .note = "κ = 1/1.6 without c_κ."},
         {.name = "step_of_faces_is_exact_and_its_bound_close",
          .group = group,
-         .statement = "the guaranteed bound on the step of intact faces is below the exact step and at least 0.9 of "
-                      "it; the exact step is 2/ω of the dense matrix of the force routine",
+         .statement = "the exact step of intact faces is 2/ω of the dense matrix of the force routine, and the "
+                      "guaranteed bound is between 0.9 and 1 of it",
          .check = step_of_faces_is_exact_and_its_bound_close},
     };
 }
