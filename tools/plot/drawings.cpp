@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "tools/plot/axes.hpp"
+#include "tools/plot/legend.hpp"
 #include "tools/plot/moments.hpp"
 #include "tools/plot/panels.hpp"
 
@@ -34,6 +35,8 @@ const Colour& colour_of(FaceLine::Kind kind) {
     return ink;
 }
 
+constexpr double least_band = 0.02;       // smallest stress that is drawn, relative to the high one
+constexpr double band_tint = 0.6;         // share of its colour in the fill of a band
 constexpr double between_drawings = 6.0;  // pt
 constexpr double key_height = 13.0;       // pt, height of the key, a line below the captions
 constexpr double key_text = 0.85;         // text size of the key, relative to the font size
@@ -45,31 +48,52 @@ double caption_height(const Canvas& canvas, const std::vector<Moment>& moments) 
     return 5.0 + static_cast<double>(lines) * canvas.size_of("X", caption_text).height;
 }
 
+/// The largest length of the form 1, 2 or 5 times a power of ten that does not exceed `most`.
+double round_length(double most) {
+    const double power = std::pow(10.0, std::floor(std::log10(most)));
+    return (most >= 5.0 * power ? 5.0 : most >= 2.0 * power ? 2.0 : 1.0) * power;
+}
+
+/// Width of the line of a crack, pt. @param size size of a cell, pt
+double crack_width(double size) { return std::clamp(0.12 * size, 0.25, 0.9); }
+
 /// Lengths in drawings of forces, the same for all moments.
 struct ForceScales {
     double reach = 0.0;                   // m per N/m, half the width of a band
     double high = 0.0;                    // N/m, stress exceeded at only a few ends of faces
     std::string unit = "N/m";             // of stresses
+    double cell = 0.0;                    // m, size of a cell
     double widening = 0.0, widest = 0.0;  // m per m: width of a crack per opening; m, largest width
 };
 
-ForceScales scales_of(const std::vector<Moment>& moments) {
-    constexpr double high_band = 0.22, usual_crack = 0.05, widest_crack = 0.14;  // relative to the size of a cell
-    std::vector<const FaceBand*> bands;
+/// The median of the openings of a moment's open cracks, m; infinite if it has none.
+double usual_opening(const Moment& moment) {
     std::vector<double> openings;
+    for (const FaceLine& line : moment.faces)
+        if (line.opening > 0.0) openings.push_back(line.opening);
+    if (openings.empty()) return std::numeric_limits<double>::infinity();
+    const auto middle = openings.begin() + static_cast<std::ptrdiff_t>(openings.size() / 2);
+    std::ranges::nth_element(openings, middle);
+    return *middle;
+}
+
+ForceScales scales_of(const std::vector<Moment>& moments) {
+    constexpr double high_band = 0.18, widest_crack = 0.07;  // relative to the size of a cell
+    std::vector<const FaceBand*> bands;
+    // Openings grow a hundredfold after the peak. The scale is that of the moment with the narrowest cracks, in which
+    // they would otherwise not be seen.
+    double opening = std::numeric_limits<double>::infinity();
     for (const Moment& moment : moments) {
         for (const FaceBand& band : moment.bands) bands.push_back(&band);
-        for (const FaceLine& line : moment.faces)
-            if (moment.forces && line.opening > 0.0) openings.push_back(line.opening);
+        if (moment.forces) opening = std::min(opening, usual_opening(moment));
     }
     ForceScales scales;
-    const double size = moments.front().cell_size();
+    const double size = scales.cell = moments.front().cell_size();
     scales.high = high_stress(bands);
     if (scales.high > 0.0) scales.reach = high_band * size / scales.high;
-    if (openings.empty()) return scales;
-    std::ranges::nth_element(openings, openings.begin() + static_cast<std::ptrdiff_t>(openings.size() / 2));
-    scales.widening = usual_crack * size / openings[openings.size() / 2];
+    if (!std::isfinite(opening)) return scales;
     scales.widest = widest_crack * size;
+    scales.widening = scales.widest / round_length(2.0 * opening);
     return scales;
 }
 
@@ -87,7 +111,7 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
     };
     // Edges are thinner for small particles; otherwise everything would look grey.
     const double size = scale * moment.cell_size();
-    const double edge = std::clamp(0.035 * size, 0.04, 0.3), crack = std::clamp(0.12 * size, 0.25, 0.9);
+    const double edge = std::clamp(0.035 * size, 0.04, 0.3), crack = crack_width(size);
     canvas.clip(place);
     for (std::size_t k = 0; k < moment.cells->size(); ++k) {
         const RecordedCell& cell = (*moment.cells)[k];
@@ -102,22 +126,18 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
         }
     }
     for (const FaceBand& band : moment.bands)
-        for (const BandPart& part : parts_of(band, scales.reach)) {
-            const Colour& colour = part.compression ? compressive_colour : tensile_colour;
-            canvas.polygon(on_sheet(part.corners), &colour, &colour, 0.1);
-        }
+        if (band.largest() > least_band * scales.high)
+            for (const BandPart& part : parts_of(band, scales.reach)) {
+                const Colour &edge_colour = part.compression ? compressive_colour : tensile_colour,
+                             fill = tinted(edge_colour, band_tint);
+                canvas.polygon(on_sheet(part.corners), &fill, &edge_colour, 0.5 * edge);
+            }
     for (const FaceLine& line : moment.faces)
         canvas.line({at(line.from), at(line.to)}, colour_of(line.kind),
                     crack + scale * std::clamp(scales.widening * line.opening, 0.0, scales.widest));
     const Colour rim = colour("#ffffff");
     for (const DrawnMark& mark : moment.marks) canvas.circle(at(mark.place), mark.radius, &mark.colour, &rim, 0.3);
     canvas.unclip();
-}
-
-/// The largest length of the form 1, 2 or 5 times a power of ten that does not exceed `most`.
-double round_length(double most) {
-    const double power = std::pow(10.0, std::floor(std::log10(most)));
-    return (most >= 5.0 * power ? 5.0 : most >= 2.0 * power ? 2.0 : 1.0) * power;
 }
 
 struct Key {
@@ -219,15 +239,15 @@ void draw_force_key(Canvas& canvas, const Rect& place, const ForceScales& scales
         const double stress = round_length(std::min(scales.high, highest / width_of_one));
         const Unit unit = unit_for(stress, scales.unit);
         for (const auto& [name, colour] : {std::pair("compression", compressive_colour), {"tension", tensile_colour}})
-            items.push_back({fmt::format("{} {:.6g} {}", name, stress / unit.factor, unit.name), Sample::band, colour,
-                             length, stress * width_of_one});
+            items.push_back({fmt::format("{} {:.6g} {}", name, stress / unit.factor, unit.name), Sample::band,
+                             tinted(colour, band_tint), length, stress * width_of_one});
     }
     if (scales.widening > 0.0) {
-        const double width_of_one = scales.widening * points_a_metre;
-        const double opening = round_length(std::min(scales.widest / scales.widening, highest / width_of_one));
+        const double opening = scales.widest / scales.widening;
         const Unit unit = unit_for(opening, "m");
-        items.push_back({fmt::format("open by {:.6g} {}", opening / unit.factor, unit.name), Sample::band, grain_edge,
-                         length, opening * width_of_one});
+        items.push_back({fmt::format("open by {:.6g} {} or more", opening / unit.factor, unit.name), Sample::band,
+                         grain_edge, length,
+                         crack_width(scales.cell * points_a_metre) + scales.widest * points_a_metre});
     }
     if (!items.empty()) draw_items(canvas, place, items);
 }

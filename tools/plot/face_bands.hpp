@@ -7,6 +7,8 @@
 // Tested by tests/tools/plot/face_bands_test.cpp.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -24,6 +26,9 @@ struct FaceBand {
     Vec2 begin, end;                                   // m
     double at_begin = 0.0, at_end = 0.0, shear = 0.0;  // N/m: σ at both ends, τ
     bool broken = false;                               ///< whether it is broken and carries no tension
+
+    /// Largest stress at its ends, N/m.
+    double largest() const { return std::hypot(std::max(std::abs(at_begin), std::abs(at_end)), shear); }
 };
 
 /// Part of a band, with one sign of the normal stress.

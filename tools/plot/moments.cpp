@@ -198,9 +198,9 @@ double Moment::cell_size() const {
 }
 
 const Colour& Moment::colour_of_cell(std::size_t k) const {
-    static const Colour grain = colour("#e3e0d9");
+    static const Colour grain = colour("#e3e0d9"), light_grain = colour("#f4f2ee");
     const auto number = static_cast<std::size_t>((*cells)[k].material - 1);
-    return number < minerals.size() ? mineral_colour(number) : grain;
+    return number < minerals.size() ? mineral_colour(number) : forces ? light_grain : grain;
 }
 
 Moment moment_of(const DrawnMoment& drawn, const fs::path& folder, const DrawingStyle& style) {
