@@ -103,7 +103,7 @@ inline Vec2 turned_by(const BodyState& body, Vec2 v) {
 /// is right.
 inline constexpr double last_bisected_turn = 2.0;
 
-/// Normal of a face, turned by the mean of both rotations: unit vector, continuous for any relative rotation, while the
+/// Unit normal of a face, turned by the mean of both rotations. It is continuous for any relative rotation, while the
 /// sum of the two turned normals a and b changes its sign at half a turn. @param turn relative rotation, rad
 inline VecOf<double> mean_normal(const VecOf<double>& a, const VecOf<double>& b, double turn) {
     const double turns = turn / (2.0 * std::numbers::pi);
