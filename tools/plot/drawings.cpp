@@ -245,7 +245,7 @@ void draw_force_key(Canvas& canvas, const Rect& place, const ForceScales& scales
     if (scales.widening > 0.0) {
         const double opening = scales.widest / scales.widening;
         const Unit unit = unit_for(opening, "m");
-        items.push_back({fmt::format("open by {:.6g} {} or more", opening / unit.factor, unit.name), Sample::band,
+        items.push_back({fmt::format("open ≥ {:.6g} {}", opening / unit.factor, unit.name), Sample::band,
                          grain_edge, length,
                          crack_width(scales.cell * points_a_metre) + scales.widest * points_a_metre});
     }
