@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "tools/plot/axes.hpp"
-#include "tools/plot/legend.hpp"
+#include "tools/plot/face_bands.hpp"
 #include "tools/plot/moments.hpp"
 #include "tools/plot/panels.hpp"
 
@@ -36,7 +36,6 @@ const Colour& colour_of(FaceLine::Kind kind) {
 }
 
 constexpr double least_band = 0.02;       // smallest stress that is drawn, relative to the high one
-constexpr double band_tint = 0.6;         // share of its colour in the fill of a band
 constexpr double between_drawings = 6.0;  // pt
 constexpr double key_height = 13.0;       // pt, height of the key, a line below the captions
 constexpr double key_text = 0.85;         // text size of the key, relative to the font size
@@ -128,8 +127,8 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
     for (const FaceBand& band : moment.bands)
         if (band.largest() > least_band * scales.high)
             for (const BandPart& part : parts_of(band, scales.reach)) {
-                const Colour &edge_colour = part.compression ? compressive_colour : tensile_colour,
-                             fill = tinted(edge_colour, band_tint);
+                const Colour& edge_colour = part.compression ? compressive_colour : tensile_colour;
+                const Colour fill = band_fill(part.compression);
                 canvas.polygon(on_sheet(part.corners), &fill, &edge_colour, 0.5 * edge);
             }
     for (const FaceLine& line : moment.faces)
@@ -238,16 +237,16 @@ void draw_force_key(Canvas& canvas, const Rect& place, const ForceScales& scales
         const double width_of_one = 2.0 * scales.reach * points_a_metre;
         const double stress = round_length(std::min(scales.high, highest / width_of_one));
         const Unit unit = unit_for(stress, scales.unit);
-        for (const auto& [name, colour] : {std::pair("compression", compressive_colour), {"tension", tensile_colour}})
-            items.push_back({fmt::format("{} {:.6g} {}", name, stress / unit.factor, unit.name), Sample::band,
-                             tinted(colour, band_tint), length, stress * width_of_one});
+        for (const bool compression : {true, false})
+            items.push_back(
+                {fmt::format("{} {:.6g} {}", compression ? "compression" : "tension", stress / unit.factor, unit.name),
+                 Sample::band, band_fill(compression), length, stress * width_of_one});
     }
     if (scales.widening > 0.0) {
         const double opening = scales.widest / scales.widening;
         const Unit unit = unit_for(opening, "m");
-        items.push_back({fmt::format("open ≥ {:.6g} {}", opening / unit.factor, unit.name), Sample::band,
-                         grain_edge, length,
-                         crack_width(scales.cell * points_a_metre) + scales.widest * points_a_metre});
+        items.push_back({fmt::format("open ≥ {:.6g} {}", opening / unit.factor, unit.name), Sample::band, grain_edge,
+                         length, crack_width(scales.cell * points_a_metre) + scales.widest * points_a_metre});
     }
     if (!items.empty()) draw_items(canvas, place, items);
 }

@@ -4,7 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/plot/legend.hpp"
+
 namespace crackle::plot {
+
+Colour band_fill(bool compression) {
+    constexpr double tint = 0.6;
+    return tinted(compression ? compressive_colour : tensile_colour, tint);
+}
 
 bool has_faces(const Recording& recording) {
     return !recording.frames.empty() && !recording.frame(0).stress_begin.empty();

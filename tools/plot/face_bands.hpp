@@ -41,6 +41,9 @@ struct BandPart {
 /// Recording::bonds
 std::optional<FaceBand> face_band(const RecordedFrame& frame, std::size_t bond, Vec2 begin, Vec2 end);
 
+/// Colour of the inside of a band, lighter than its edge.
+Colour band_fill(bool compression);
+
 /// The parts of a band to draw. @param reach m per N/m
 std::vector<BandPart> parts_of(const FaceBand& band, double reach);
 

@@ -30,8 +30,8 @@ export function drawLegend(sheet: Sheet, look: Look, left: number, top: number):
     if (shown('bonds')) x += drawMarks(sheet, 'Bonds', [['intact', theme.bond, 1.5], ['slid', theme.slid, 1.5]], theme, x, top) + gap;
     if (shown('forces')) {
         const {end, stress} = look.forceScale;
-        const titles = [...(stress.end > 0 ? [stressTitle(stress)] : []), ...(end > 0 || stress.end === 0 ? [forceTitle(look.forceScale)] : [])];
-        drawMarks(sheet, titles.join('. '), [['compression', theme.compressive, 5], ['tension', theme.tensile, 5]], theme, x, top);
+        if (stress.end > 0) x += drawMarks(sheet, stressTitle(stress), [['compression', theme.compressive, 5], ['tension', theme.tensile, 5]], theme, x, top) + gap;
+        if (end > 0 || stress.end === 0) drawMarks(sheet, forceTitle(look.forceScale), [['compression', theme.compressive, 5], ['tension', theme.tensile, 5]], theme, x, top);
     }
 }
 
@@ -40,8 +40,8 @@ function forceTitle({end, largest}: ForceScale): string {
     return `Contact force, widest ${largest > end ? `≥${thinSpace}` : ''}${quantity(end, 'N', 2)}, none drawn below ${quantity(smallestForceShown * end, 'N', 2)}`;
 }
 
-function stressTitle({end, largest}: ForceScale['stress']): string {
-    return `Stress of faces, ${quantity(end, ofStress, 2)} is half a particle wide${largest > end ? `, largest ${quantity(largest, ofStress, 2)}` : ''}; taper: moment, slant: shear`;
+function stressTitle({end}: ForceScale['stress']): string {
+    return `Stress of faces, ½ particle: ${quantity(end, ofStress, 2)}`;
 }
 
 const small = (theme: Theme): TextStyle => ({size: 11, colour: theme.ink});

@@ -3,7 +3,7 @@
 // the corners of a band.
 
 import {
-    BufferAttribute, DynamicDrawUsage, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, RawShaderMaterial, Vector2,
+    BufferAttribute, DoubleSide, DynamicDrawUsage, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, RawShaderMaterial, Vector2,
 } from 'three';
 
 import type {Segments} from './segments';
@@ -47,7 +47,7 @@ export class SegmentLayer {
 
     constructor(order: number) {
         this.mesh = new Mesh(new InstancedBufferGeometry(), new RawShaderMaterial({
-            glslVersion: GLSL3, vertexShader, fragmentShader, depthTest: false, depthWrite: false, transparent: true,
+            glslVersion: GLSL3, vertexShader, fragmentShader, side: DoubleSide, depthTest: false, depthWrite: false, transparent: true,
             uniforms: {halfSize: {value: new Vector2(1, 1)}, scale: {value: 1}},
         }));
         this.mesh.frustumCulled = false;

@@ -49,9 +49,9 @@ class Values {
     }
 }
 
-function upper(samples: readonly number[]): number {
+function upper(samples: readonly number[], without = excluded): number {
     const sorted = Float64Array.from(samples).sort();
-    return sorted[Math.floor((1 - excluded) * (sorted.length - 1))] ?? 0;
+    return sorted[Math.floor((1 - without) * (sorted.length - 1))] ?? 0;
 }
 
 export function rangeOfFrames(frames: readonly {frame: Frame; cells: Cells}[], quantity: Quantity): Range {
@@ -84,7 +84,9 @@ export function joined(ranges: readonly Range[]): Range {
     return {low: over('low', 0, Math.min), high: over('high', 0, Math.max), least: over('least', Infinity, Math.min), most: over('most', -Infinity, Math.max)};
 }
 
-/// A scale whose end excludes the largest two per cent of the non-zero sizes.
+const stressesExcluded = 0.1; // the collapse of a specimen presses some corners several times as much as its peak
+
+/// A scale whose end excludes the largest of the non-zero sizes: two per cent of the forces, ten of the stresses.
 interface SizeScale {
     end: number; // 0 if there are none
     largest: number;
@@ -101,8 +103,10 @@ class Sizes {
     private readonly samples: number[] = [];
     private largest = 0;
 
+    constructor(private readonly without: number) {}
+
     get scale(): SizeScale {
-        return {end: upper(this.samples) || this.largest, largest: this.largest};
+        return {end: upper(this.samples, this.without) || this.largest, largest: this.largest};
     }
 
     add(a: Float32Array | undefined, b: Float32Array | undefined, sizeOf: (a: number, b: number) => number, sampled: boolean): void {
@@ -117,8 +121,8 @@ class Sizes {
 }
 
 class Forces {
-    private readonly forces = new Sizes();
-    private readonly stresses = new Sizes();
+    private readonly forces = new Sizes(excluded);
+    private readonly stresses = new Sizes(stressesExcluded);
 
     add(frame: Frame, sampled: boolean): void {
         const begin = frame.field('sb'), {contacts} = frame;
