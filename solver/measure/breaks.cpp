@@ -26,12 +26,12 @@ const std::vector<BreakColumn>& break_columns() {
           "(solver/MODEL.md 5)"},
          [](Event e) { return written(e.energy); }},
         {{"strength", "N",
-          "strength of the bond: for a back-tension bond, its tensile strength k_n δ0; for a coulomb bond, the limit "
-          "that was reached, T or C + μ f_n; for a face, the stress limit times the length of the face"},
+          "strength of the bond: k_n δ0 of a back-tension bond; for a coulomb bond, the limit that was reached, T or "
+          "C + μ f_n; for a face, the stress limit times its length"},
          [](Event e) { return written(e.strength); }},
         {{"normal_force", "N",
-          "elastic normal force, positive if it pushes the bodies apart, in the last step in which the bond carried at "
-          "least half its strength; for a coulomb bond or a face, at failure"},
+          "elastic normal force, positive if it pushes, in the last step in which the bond carried at least half its "
+          "strength; for a coulomb bond or a face, at failure"},
          [](Event e) { return written(e.normal_force); }},
         {{"shear_force", "N",
           "elastic shear force on body_i in the same step as normal_force, positive along the normal from body_i to "

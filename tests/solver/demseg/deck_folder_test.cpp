@@ -177,7 +177,7 @@ TEST_F(DeckFolder, BareSegmentsThatNoCornerCanTouchAreTold) {
     std::ofstream(folder_ / "in_bc.dat") << "0 0 200 100 10\n0\n0\n";
     DeckRun run(options());
     ASSERT_EQ(run.notices().size(), 1u);
-    EXPECT_NE(run.notices()[0].find("thick: found 0"), std::string::npos) << run.notices()[0];
+    EXPECT_NE(run.notices()[0].find("thick: at a thickness of 0"), std::string::npos) << run.notices()[0];
 }
 
 TEST_F(DeckFolder, RenamedFilesGoOnWithTheStateUnlessTheyWereEdited) {

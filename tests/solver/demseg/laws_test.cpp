@@ -104,13 +104,13 @@ TEST_F(KeptLaw, ContradictedIsAnErrorThatNamesBoth) {
     for (const bool edited : {false, true}) {
         if (edited) edit("new_in_bc.dat", " 100 10\n", " 50 5\n");
         const std::string said = refusal([&] { DeckRun{next}; });
-        EXPECT_NE(said.find("--law: found rounded, expected demseg, which "), std::string::npos);
+        EXPECT_NE(said.find("--law: found rounded, expected demseg, as recorded "), std::string::npos);
         EXPECT_NE(said.find("new_state.bin"), std::string::npos);
     }
     next.law = SegmentLaw::demseg;
     EXPECT_NO_THROW(DeckRun{next});
     next.integrator = Integrator::consistent;
-    EXPECT_NE(refusal([&] { DeckRun{next}; }).find("--integrator: found consistent, expected leapfrog, which "),
+    EXPECT_NE(refusal([&] { DeckRun{next}; }).find("--integrator: found consistent, expected leapfrog, as recorded "),
               std::string::npos);
 }
 

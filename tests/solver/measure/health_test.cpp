@@ -397,7 +397,7 @@ TEST(Scene, SoFarFromTheOriginThatPositionsCannotMoveIsRefused) {
     scene.circles[4].centre.x += 1e6;
     const std::string text = refusal(scene);
     EXPECT_NE(text.find(fmt::format("body {}: ", scene.bodies[4].id)), std::string::npos) << text;
-    EXPECT_NE(text.find("shift the origin"), std::string::npos) << text;
+    EXPECT_NE(text.find("move the origin"), std::string::npos) << text;
     scene.circles[4].centre.x -= 0.99e6;
     EXPECT_EQ(refusal(scene), "accepted");
     scene.add_chain_body(901, 0, {{1e9, 0.0}, {1e9 + 0.5, 0.0}, {1e9, 0.5}}, true);
@@ -414,7 +414,7 @@ TEST(Scene, BareSegmentsAndCornersThatCannotTouchAreTold) {
     const std::vector<std::string> notices = scene_notices(scene);
     ASSERT_EQ(notices.size(), 1u);
     fmt::print("  {}\n", notices[0]);
-    EXPECT_NE(notices[0].find("thick: found 0"), std::string::npos);
+    EXPECT_NE(notices[0].find("thick: at a thickness of 0"), std::string::npos);
     EXPECT_NE(notices[0].find("body 901"), std::string::npos);
     scene.thick = 1e-3;
     EXPECT_TRUE(scene_notices(scene).empty());

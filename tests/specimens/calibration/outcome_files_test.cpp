@@ -61,7 +61,7 @@ TEST_F(OutcomeFiles, TableHasMeanErrorScatterAndWhatIsAllowed) {
     EXPECT_NE(text.find("leaves an error of ±12.30 %, more than the tolerance of 2.00 %; 200 of each"),
               std::string::npos)
         << text;
-    EXPECT_NE(text.find("material.tensile_strength times 1.35, material.residual_friction_angle -4:"),
+    EXPECT_NE(text.find("material.tensile_strength times 1.35, material.residual_friction_angle -4 shifts"),
               std::string::npos)
         << text;
     CalibrationOutcome whole = outcome();

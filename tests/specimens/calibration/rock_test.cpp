@@ -89,7 +89,7 @@ TEST_F(RockFile, RefusesWithFileLineAndKey) {
                    "a key that describes the rock, not how it is tested");
     expect_refused("[[test]]\nname = \"../evil\"\ncase = \"tension.toml\"\n" + free, "a name without /");
     expect_refused("[[test]]\ncase = \"compression.toml\"\nset = {\"material.cohesion\" = 1e7}\n" + target_ + free,
-                   "which `set` of test compression gives a value");
+                   "to which `set` of test compression also gives a value");
     testing::write_text(folder_ / "curve.csv", "strain,stress\n0,0\n1,1\n");
     expect_refused(tests_ + target_ + free + "[[curve]]\ntest = \"tension\"\nfile = \"curve.csv\"\n",
                    "expected columns axial_strain and axial_stress");

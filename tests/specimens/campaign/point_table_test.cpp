@@ -118,7 +118,9 @@ TEST(Verdict, NamesWhatDominatesAndWhatWouldChangeIt) {
     EXPECT_NE(verdict_on(mean, by_step).find("it exceeds the error"), std::string::npos);
     EXPECT_NE(verdict_on(mean, by_step).find("a smaller safety_factor"), std::string::npos);
     EXPECT_NE(verdict_on(mean, by_rate).find("a lower rate or rate_tolerance"), std::string::npos);
-    EXPECT_NE(verdict_on(mean, by_rate).find("(step +1 ± 0.1 %, rate +5 ± 0.1 %; 4 packings)"), std::string::npos)
+    EXPECT_NE(
+        verdict_on(mean, by_rate).find("(due to the time step +1 ± 0.1 %, due to the rate +5 ± 0.1 %; 4 packings)"),
+        std::string::npos)
         << verdict_on(mean, by_rate);
     // Nine packings give an error of 2 %, so one gives 6 %, and 36 give 1 %.
     const MeanBias unseen{9, 0.1, 2.0, 0.1, 2.0, 0.2, 2.0};

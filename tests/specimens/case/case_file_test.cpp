@@ -290,7 +290,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"BondThicknessOfADerivedGap", "[loading]",
                 "tensile_strength = 1\ncohesion = 2\n[mesh]\nkind = \"voronoi\"\n[bond]\nlaw = \"coulomb\"\nthick = "
                 "1e-3\n[loading]",
-                "bond.thick cannot be given here: mesh.thick is derived"},
+                "bond.thick cannot be given here: mesh.thick is not given and is therefore derived"},
         Refusal{"NotToml", "[packing]", "[packing", ":1: not valid TOML"},
         Refusal{"Twice", "count = 50", "count = 50\ncount = 51", ":3: not valid TOML"}),
     [](const auto& refused) { return refused.param.name; });

@@ -111,7 +111,7 @@ TEST(CellSizes, OutOfReachAreRefusedWithTheirKey) {
               std::string::npos)
         << refusal(0.02, RadiusLaw::uniform);
     EXPECT_NE(refusal(0.3, RadiusLaw::uniform)
-                  .find("expected 0.037 to 0.211 for Voronoi cells of uniform circles; "
+                  .find("expected 0.037 to 0.211 for Voronoi cells made from circles of uniform sizes; "
                         "sizes = \"lognormal\" reaches 0.536"),
               std::string::npos)
         << refusal(0.3, RadiusLaw::uniform);

@@ -100,7 +100,7 @@ TEST_F(CrackleElastic, RefusesWhatItCannotUse) {
     expect_refused("absent.toml", "absent.toml");
     expect_refused("case.toml -q --strain 0 --bonds full.csv", "--strain: found 0, expected a number > 0");
     expect_refused("case.toml -q --modes -1", "--modes: found -1");
-    expect_refused("case.toml -q --modes 100000", "ask for fewer");
+    expect_refused("case.toml -q --modes 100000", "request fewer modes");
     expect_refused("case.toml -q --bonds mine.csv", "mine.csv: found an existing file");
 }
 

@@ -79,7 +79,8 @@ TEST_F(CracklePack, RefusesBadInputInOneMessage) {
     expect_refused(count + " --radius-min 0.03 --radius-max 0.02" + target_, "radius_max: found 0.02");
     expect_refused(count + sizes_ + " --mean-overlap 1", "mean_overlap: found 1 m");
     expect_refused(count + sizes_ + " --void-ratio 0.6", "void_ratio: found 0.6, expected");
-    expect_refused("--width 0.05 --height 0.05" + sizes_ + target_, "expected at least two of the largest circles");
+    expect_refused("--width 0.05 --height 0.05" + sizes_ + target_,
+                   "expected room for at least two of the largest circles");
     expect_refused(count + sizes_ + target_ + " --threads 0", "threads");
     expect_refused(count + sizes_ + target_ + " --seed -1", "seed: found -1");
     expect_refused(count + sizes_ + target_ + " --colour red", "--colour");

@@ -123,7 +123,7 @@ TEST_F(PlotDecks, RefusesWhatARunHasNot) {
     expect_refused("wave -o figure.pdf --bodies 12",
                    "--bodies: found 12, expected a body for which the run of wave wrote rows: 11, 13, 15, 17");
     expect_refused("falling -o figure.pdf --what displacement",
-                   "falling: found no rows in f-d_curve.dat, expected those of bodies");
+                   "falling: found no rows in f-d_curve.dat, expected rows of the bodies");
     expect_refused("wave -o figure.pdf --what energy --bodies 11", "--bodies: found with --what energy");
     expect_refused("wave -o figure.pdf --at end", "--at: found with runs of decks");
     expect_refused("wave -o figure.pdf --units feet", "--units: found 'feet', expected one of si, cgs, mm-g-s");

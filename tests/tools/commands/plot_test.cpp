@@ -602,7 +602,7 @@ TEST_F(PlotCommand, RefusesWhatItCannotDrawAndLeavesTheFigureThatIsThere) {
     expect_refused("pulled -o figure", "found '', expected svg, pdf or png");
     expect_refused("nowhere --force -o figure.pdf", "nowhere: found no such folder");
     expect_refused("pulled --force -o figure.pdf --what cracks",
-                   "--what: found 'cracks', expected curve, ae, emission, strain, specimen or all");
+                   "--what: found 'cracks', expected curve, ae, emission, strain, specimen, forces or all");
     expect_refused("pulled --force -o figure.pdf --at 0.5",
                    "--at: found 0.5, expected 0 to 0.0015, the last strain of pulled");
     expect_refused("pulled --force -o figure.pdf --at soon",

@@ -303,17 +303,17 @@ def _folder(one):
     raise InputError(f"results: found a {type(one).__name__}, expected Results, Campaigns or paths of folders")
 
 
-def envelope(*folders: _Results, figure: str | None = None, strain: float | None = None, output: _Path | None = None,
-             columns: int | None = None, width: float | None = None, font: str | None = None,
+def envelope(*folders: _Results, figure: str | None = None, strain: float | None = None, measured: _Path | None = None,
+             output: _Path | None = None, columns: int | None = None, width: float | None = None, font: str | None = None,
              font_size: float | None = None, dpi: int | None = None, title: str | None = None,
              force: bool = False) -> dict[str, Any]:
     """Fits Mohr-Coulomb and Hoek-Brown to tests and campaigns at several confinements, like `crackle envelope --json`.
 
     folders: paths, Results or Campaigns. figure: key of summary.json whose stress is used as the strength: "peak_stress", or
-    "largest_stress" for specimens that harden. strain: use the stress at this axial strain as the strength instead. output: a figure to
-    write, .svg, .pdf or .png. Returns a dict, which states units.
+    "largest_stress" for specimens that harden. strain: use the stress at this axial strain as the strength instead.
+    measured: a table of measured strengths. output: a figure to write, .svg, .pdf or .png. Returns a dict, which states units.
     """
-    options = dict(figure=figure, strain=strain, output=output, columns=columns, width=width, font=font,
+    options = dict(figure=figure, strain=strain, measured=measured, output=output, columns=columns, width=width, font=font,
                    font_size=font_size, dpi=dpi, title=title, force=force, json=True)
     _, text = _run("envelope", [_folder(one) for one in folders], options)
     return json.loads(text)
@@ -329,7 +329,7 @@ def plot(*results: _Results, output: _Path, what: str | Sequence[str] | None = N
     """Draws a figure for a paper (.svg, .pdf or .png), like `crackle plot OUT... -o FIGURE`.
 
     results: Results, Campaigns or their folders, or folders of decks' runs. what: words among "curve", "ae",
-    "emission", "strain" and "specimen". A campaign has "curve", "axes" and "scatter"; a deck has "energy", "displacement",
+    "emission", "strain", "specimen" and "forces". A campaign has "curve", "axes" and "scatter"; a deck has "energy", "displacement",
     "height", "velocity", "force" and "curve". at: strains, or "start", "peak", "end". width in mm. magnify:
     magnification of displacements. For the run of a deck, units ("si", "cgs" or "mm-g-s") names its units, and bodies lists the
     ids of the bodies to draw.
