@@ -114,6 +114,8 @@ Recording unlike_in_everything(std::vector<RecordedFrame>& all) {
             fill(*of_cells, 3);
         fill(frame.normal_force, 2);
         fill(frame.shear_force, 2);
+        fill(frame.stress_begin, 2);
+        fill(frame.stress_end, 2);
         frame.fragment = {0.0, 1.0, 2.0};
         frame.state = {0.0, 2.0};
         frame.contacts.i = {0, 1};
@@ -174,6 +176,7 @@ TEST(PageData, HoldsEveryArrayUnderItsName) {
         {"sxx", &RecordedFrame::stress_xx},   {"syy", &RecordedFrame::stress_yy},
         {"sxy", &RecordedFrame::stress_xy},   {"fragment", &RecordedFrame::fragment},
         {"fn", &RecordedFrame::normal_force}, {"fs", &RecordedFrame::shear_force},
+        {"sb", &RecordedFrame::stress_begin}, {"se", &RecordedFrame::stress_end},
         {"state", &RecordedFrame::state}};
     for (const auto& [name, field] : fields)
         for (std::size_t f = 0; f < 2; ++f) near(name, shown.row(name, f), all[f].*field);
