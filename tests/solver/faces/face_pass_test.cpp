@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "solver/geometry/face_motion.hpp"
@@ -167,6 +168,26 @@ TEST(FaceForces, HaveNoResultantAndNoMoment) {
         EXPECT_TRUE(within("resultant of the largest force", std::hypot(sum.fx, sum.fy) / scale, 0.0, 1e-13));
         EXPECT_TRUE(within("moment of that force, m", sum.torque / scale, 0.0, 1e-13));
     }
+}
+
+TEST(FaceForces, OfBrokenFacesAreContinuousWhereABodyHasTurnedByHalfATurn) {
+    Disturbed d = disturbed(1.0, true);
+    World& world = d.cells.world;
+    compute_face_forces(world);
+    ASSERT_EQ(world.faces.broken.size(), world.faces.size());
+    BodyState& body = world.bodies.state[world.faces.bodies[0].body_j];
+    const double angle = body.angle - world.faces.motion[0].turn;  // without rotation relative to body i
+    const auto motion_at = [&](double turn) {
+        body.angle = angle + turn;
+        body.shape[0] = std::cos(body.angle), body.shape[1] = std::sin(body.angle);
+        compute_face_forces(world);
+        return BondFaceMotion{world.faces.motion[0]};
+    };
+    constexpr double step = 1e-3;
+    const BondFaceMotion before = motion_at(std::numbers::pi - step), after = motion_at(std::numbers::pi + step);
+    EXPECT_TRUE(within("rotation of the normal, half of that of the body", norm(after.normal - before.normal), step,
+                       1e-6 * step));
+    EXPECT_LT(std::abs(after.opening - before.opening), 4.0 * step) << "m; cells are about a metre wide";
 }
 
 TEST(FaceForces, AreNoneAfterARigidMotionThroughAnyAngle) {
