@@ -75,6 +75,19 @@ TEST(FaceRock, HasTheArealModulusOfItsKeysWithTheCorrectionOfItsMesh) {
     }
 }
 
+TEST(FaceRock, HasTheFrictionOfItsParticlesIfTheCaseStatesNone) {
+    const testing::ScratchFolder scratch;
+    const ResolvedCase test = face_case(scratch, FaceRock{});
+    Specimen specimen = make_specimen(test, test, {});
+    World world = bond_alone(specimen, test.bond, test);
+    specimen.material.friction_angle.reset();
+    for (Material& material : world.settings.materials) material.friction_angle = 27.0;
+    const FaceLaw law =
+        face_bonding_of(world, specimen, test.bond, PlatenKind::bonded, specimen.mesh_gap).materials.front().law;
+    EXPECT_EQ(law.friction, friction_coefficient(27.0));
+    EXPECT_EQ(law.residual_friction, friction_coefficient(27.0));
+}
+
 TEST(TestWithFaces, BreaksInTensionAndClosesItsEnergyAccount) {
     const testing::ScratchFolder scratch;
     FaceRock rock;
