@@ -134,7 +134,7 @@ test('the cursor reads the stress off the curve', async () => {
     const place = await cursor.boundingBox();
     assert.ok(place.y >= box.y + box.height - 0.5, `the values stand below the curves: expected from ${box.y + box.height} px on, got ${place.y}`);
     assert.equal(await page.locator('[data-panel="Tension"] .panel > div[style*="pointer-events"]').count(), 0, 'no box over the curves');
-    const strain = 1e-3 * Number((await cursor.locator('div div').first().textContent()).match(/strain ([\d.]+)×10⁻³/)[1]);
+    const strain = 1e-3 * Number((await cursor.locator('div div').first().textContent()).match(/strain ([\d.]+)\u202f‰/)[1]);
     const row = await cursor.locator('tr', {hasText: 'Voronoi'}).locator('td').first().textContent();
     const [, number, prefix] = row.match(/([\d.]+)\s?(k?)N\/m/);
     const got = Number(number) * (prefix ? 1000 : 1);
@@ -292,7 +292,7 @@ test('slips have a strip of their own below the breaks, with a bar for each inte
     const text = await panel.textContent();
     assert.ok(text.includes(`${events.length} breaks`) && text.includes(`${slips.length} slips`), `expected ${events.length} breaks and ${slips.length} slips`);
     assert.doesNotMatch(text, /(^|\D)0 slips/, 'a test that had no slips has no strip of them');
-    const width = 1e-3 * Number(text.match(/bars: breaks or slips in each ([\d.]+)×10⁻³/)[1]);
+    const width = 1e-3 * Number(text.match(/bars: breaks or slips in each ([\d.]+)\u202f‰/)[1]);
     const counts = new Map();
     for (const {axial_strain: strain} of slips) counts.set(Math.ceil(strain / width - 1e-9), (counts.get(Math.ceil(strain / width - 1e-9)) ?? 0) + 1);
     const bars = await filledHeights(panel, slipFill.light), highest = Math.max(...bars), fullest = Math.max(...counts.values());
@@ -305,7 +305,7 @@ test('slips have a strip of their own below the breaks, with a bar for each inte
     await page.mouse.move(box.x + 0.5 * box.width, box.y + 180);
     await page.mouse.move(box.x + 0.5 * box.width + 3, box.y + 180);
     await panel.locator('.cursor table').waitFor({state: 'visible', timeout: 5000});
-    const strain = 1e-3 * Number((await panel.locator('.cursor div div').first().textContent()).match(/strain ([\d.]+)×10⁻³/)[1]);
+    const strain = 1e-3 * Number((await panel.locator('.cursor div div').first().textContent()).match(/strain ([\d.]+)\u202f‰/)[1]);
     const rows = await panel.locator('.cursor tr').evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
     assert.deepEqual(rows[0], ['', 'stress', 'breaks here', 'so far', 'slips here', 'so far']);
     const soFar = Number(rows.find(([name]) => name === 'Voronoi')[5]), expected = slips.filter((one) => one.axial_strain <= strain).length;

@@ -12,7 +12,7 @@ import {expose} from './controls/test_access';
 import {Viewer} from './controls/viewer';
 import {ViewerControls} from './controls/viewer_controls';
 import {particleCount} from './data/cells';
-import {hasSlips, inArea, readReport, stressUnitOf, type CurvedTest, type Report, type TestData} from './data/report';
+import {hasSlips, inArea, numberOf, readReport, stressUnitOf, type CurvedTest, type Report, type TestData} from './data/report';
 import {labelTests, sortedBy, withCurve, type LabelledTest} from './data/test_labels';
 import {SpecimenView} from './drawing/specimen_view';
 import {button, checkbox, choice, element, saveFile} from './elements/dom';
@@ -20,15 +20,18 @@ import {breakCard, type MapSettings} from './panels/breaks';
 import {directionWidth} from './panels/crack_directions';
 import {CurvePanel, readoutOf} from './panels/curves';
 import {DeckCurveFigure, deckPanels, withDeckCurves} from './panels/deck_curves';
+import {findings} from './panels/findings';
 import {fragmentCard} from './panels/fragments';
 import {panels, viewsFor, type Panel, type View} from './panels/grouping';
-import {drawings, momentsOf, type Moments, magnifications} from './panels/specimen_cards';
+import {brokenSpecimen, drawings, momentsOf, type Moments, magnifications} from './panels/specimen_cards';
 import {summaryTable} from './panels/summary_table';
-import {counted, strainFactor, useFileUnits, useStressUnits} from './quantities/units';
+import {counted, quantity, strainFactor, useFileUnits, useStressUnits} from './quantities/units';
 
 const viewNames: Record<View, string> = {kind: 'Kind of test', specimen: 'Specimen', test: 'Each test'};
 
 const leastBeside = 700; // px, least width of the viewer for a curve beside the specimen
+const mostBroken = 4; // tests of a panel whose broken specimens are drawn beside their curves
+const brokenHeight = {alone: 430, below: 190}; // px, of these drawings
 
 interface State {
     view: View;
@@ -77,6 +80,7 @@ class Page {
         this.drawBreaks();
         this.watch();
         for (const view of this.views) this.moments.push(await momentsOf(view));
+        this.drawBroken();
         this.drawFragments();
         this.drawSpecimens();
     }
@@ -92,7 +96,7 @@ class Page {
             element('header', {}, element('div', {}, element('h1', {}, this.report.title), element('p', {class: 'about'}, this.about())), this.themeButton()),
             ...(unfinished.length === 0 ? [] : [element('p', {class: 'notice warning', role: 'note'},
                 `Not failed: ${unfinished.map(({label, test}) => label + endedBy(test.summary['ended_by'])).join('; ')}. What is shown as the peak of ${unfinished.length === 1 ? 'this test' : 'these tests'} is the peak so far.`)]),
-            ...(this.report.view === 'view' ? [viewer, ...curves] : [...curves, viewer]),
+            ...(this.report.view === 'view' ? [viewer, ...curves] : [...this.findingsSection(curved), ...curves, viewer]),
             ...this.deckSection(),
             ...(this.tests.some(({test}) => onMap(test)) ? [this.breakSection()] : []),
             this.fragmentSection,
@@ -118,15 +122,21 @@ class Page {
         return tests.every(inArea) ? 'stresses and moduli are those of a slice, in Pa.' : `${length}; ${area}`;
     }
 
+    private findingsSection(curved: LabelledTest<CurvedTest>[]): HTMLElement[] {
+        if (curved.length === 0) return [];
+        return [element('section', {id: 'findings'}, ...findings(sortedBy('kind', curved) as LabelledTest<CurvedTest>[]))];
+    }
+
     private curveSection(curved: LabelledTest<CurvedTest>[]): HTMLElement {
         const views = viewsFor(curved.map(({test}) => test)).map((value) => ({value, text: viewNames[value]}));
         return element('section', {id: 'curves'},
             element('h2', {}, 'Stress, strain and bond breaks'),
-            element('div', {class: 'controls'}, ...(views.length > 1 ? [choice('One panel for each', views, this.state.view, (value) => {
+            ...(views.length > 1 ? [element('div', {class: 'controls'}, choice('One panel for each', views, this.state.view, (value) => {
                 this.state.view = value;
                 this.drawCurves();
-            })] : []), element('span', {class: 'hint'}, 'A click shows the specimens at that strain. Shift and wheel zoom the strain axis, dragging moves it, a double click resets it.')),
+            }))] : []),
             this.panelHolder,
+            element('p', {class: 'hint'}, 'A click on a curve shows the specimens at that strain. Shift and wheel zoom the strain axis, dragging moves it, a double click resets it.'),
             element('p', {class: 'caption'},
                 'Stress is the mean of the two platens’ forces over the initial width, strain the platen displacement over the initial height (for tests without platens, they are defined by the kind of test: Hondros’ stress for a disc, fibre stress for a beam). Both are positive in ',
                 'the loading direction. Below the curves: bonds broken in each interval of strain, by mode (', mark('tension'), ' tension, ', mark('shear'), ' shear), ',
@@ -222,7 +232,8 @@ class Page {
         const count = this.tests.length;
         const curved = withCurve(this.tests).length;
         if (curved === 0) return this.tests.map(({test}) => `${test.name}: ${countOf(particleCount(test.cells), 'particle')}, ${countOf(test.frames.length, 'frame')}`).join(' · ');
-        return `${count} virtual ${count === 1 ? 'test' : 'tests'}: ${this.tests.map(({label}) => label).join(' · ')}`;
+        if (count === 1) return `Virtual test: ${this.tests[0]!.label} of ${countOf(particleCount(this.tests[0]!.test.cells), 'particle')}${sizeOf(this.tests[0]!.test)}`;
+        return `${count} virtual tests: ${this.tests.map(({label}) => label).join(' · ')}`;
     }
 
     private themeButton(): HTMLElement {
@@ -266,22 +277,38 @@ class Page {
         const holders = shown.map((panel) => {
             const figure = element('div', {class: 'panel'});
             const save = element('button', {type: 'button', class: 'save', title: 'Save this figure as SVG'}, 'SVG');
-            const holder = element('div', {class: 'frame', 'data-panel': panel.title}, element('div', {class: 'chart'}, figure, save));
-            return {panel, figure, save, holder};
+            const chart = element('div', {class: 'chart'}, figure, save);
+            const drawn = panel.members.length <= mostBroken ? panel.members.filter(({test}) => test.frames.some(({roles}) => roles)) : [];
+            const broken = drawn.map(({test, shortLabel}) => element('div', {class: 'broken', 'data-test': test.name, 'data-name': shown.length === 1 && drawn.length === 1 ? '' : shortLabel}));
+            const curve = element('div', {class: 'curve'}, chart);
+            const holder = element('div', {class: broken.length === 0 ? 'frame' : 'frame with-broken', 'data-panel': panel.title},
+                curve, ...(broken.length === 0 ? [] : [element('div', {class: 'broken-row'}, ...broken)]));
+            return {panel, figure, save, holder, curve};
         });
         this.panelHolder.replaceChildren(...holders.map(({holder}) => holder));
-        this.charts = holders.map(({panel, figure, save, holder}) => {
+        this.charts = holders.map(({panel, figure, save, curve}) => {
             const drawn = new CurvePanel(figure, panel, theme, (value) => {
                 this.goToStrain(panel, value * strainFactor);
                 this.showViewer();
             });
             save.addEventListener('click', () => saveFile(`${panel.title.toLowerCase()}.svg`, 'image/svg+xml', drawn.asSvg()));
-            holder.append(readoutOf(drawn, theme));
+            curve.append(readoutOf(drawn, theme));
             drawn.chart.on('datazoom', () => this.moveCursors());
             return drawn;
         });
         this.drawBeside();
+        this.drawBroken();
         this.moveCursors();
+    }
+
+    /// Draws the specimens at the end of their tests beside the curves.
+    private drawBroken(): void {
+        const theme = currentTheme();
+        for (const holder of this.panelHolder.querySelectorAll<HTMLElement>('.broken')) {
+            const moments = this.moments.find(({view}) => view.test.name === holder.dataset['test']);
+            const name = holder.dataset['name']!, height = name === '' ? brokenHeight.alone : brokenHeight.below;
+            if (moments) holder.replaceChildren(brokenSpecimen(moments, height, holder.clientWidth, name, theme));
+        }
     }
 
     /// Draws the curve of a test that is shown alone, in the free space beside its specimen.
@@ -401,6 +428,12 @@ function onMap(test: TestData): boolean {
 
 function countOf(count: number, what: string): string {
     return `${counted(count)} ${what}${count === 1 ? '' : 's'}`;
+}
+
+/// Width and height of a specimen, such as ", 50 mm × 100 mm"; empty if the summary lacks them.
+function sizeOf({summary}: TestData): string {
+    const width = numberOf(summary, 'initial_width'), height = numberOf(summary, 'initial_height');
+    return width === undefined || height === undefined ? '' : `, ${quantity(width, 'm')} × ${quantity(height, 'm')}`;
 }
 
 function endedBy(reason: unknown): string {

@@ -97,7 +97,7 @@ export class Inspector {
             animation: false, grid: {left: chartLeft, right: 18, top: chartTop, bottom: chartBottom},
             xAxis: {
                 type: 'value', max: 'dataMax', axisLine: line, splitLine: {show: false}, axisLabel: {...text, hideOverlap: true, showMaxLabel: false}, splitNumber: 3,
-                name: {strain: 'Strain [10⁻³]', share: 'Strain / strain at peak', time: 'Time [s]', frame: 'Frame'}[axis], nameLocation: 'middle', nameGap: 19, nameTextStyle: text,
+                name: {strain: 'Strain [‰]', share: 'Strain / strain at peak', time: 'Time [s]', frame: 'Frame'}[axis], nameLocation: 'middle', nameGap: 19, nameTextStyle: text,
             },
             yAxis: {
                 type: 'value', axisLine: line, splitLine: {lineStyle: {color: theme.grid}}, axisLabel: text, splitNumber: 3, scale: true,

@@ -10,7 +10,7 @@ import {counted, quantity, strain, stressText} from '../quantities/units';
 import type {SpecimenView} from './specimen_view';
 import type {Pane, Placing} from './stage';
 
-/// Text such as "ε = 1.94×10⁻³ σ = 67.2 kN/m"; the time if the frame has no strain.
+/// Text such as "ε = 1.94 ‰ σ = 67.2 kN/m"; the time if the frame has no strain.
 export function momentText(frame: Frame, test: TestData): string {
     if (frame.strain === undefined) return `t = ${quantity(frame.time, 's')}`;
     const stress = frame.entry.axial_stress;

@@ -56,6 +56,16 @@ function card({view, frames}: Moments, seen: readonly InView[], pixelsPerMetre: 
         row);
 }
 
+/// The specimen of a test at its last moment. @param height, width  px, of the space for it @param name  of the test in the caption
+export function brokenSpecimen({view, frames}: Moments, height: number, width: number, name: string, theme: Theme): HTMLElement {
+    const frame = frames[frames.length - 1]!, {labelled, test, cracks} = view;
+    const seen = viewsOfMoments(test, [frame], 1)[0]!, {extent} = seen;
+    const pixelsPerMetre = Math.min(height / (extent.y2 - extent.y1), Math.max(width, 120) / (extent.x2 - extent.x1));
+    return element('figure', {},
+        drawSpecimen({test, cracks, frame, view: seen, pixelsPerMetre, magnification: 1, scaleBar: true}, theme),
+        element('figcaption', {}, element('b', {}, name || rolesText(labelled, frame.entry.roles ?? [])), element('br'), `ε = ${strain(frame.strain)}`));
+}
+
 export function drawings(moments: Moments[], magnification: number, theme: Theme): HTMLElement[] {
     const order = sortedBy('specimen', moments.map(({view}) => view.labelled)).map(({test}) => test);
     const drawn = moments.filter(({frames}) => frames.length > 0).sort((a, b) => order.indexOf(a.view.test) - order.indexOf(b.view.test));

@@ -6,6 +6,7 @@ import {capitalised, sortedBy, specimenName, type LabelledTest} from '../data/te
 import {element} from '../elements/dom';
 import {counted, missing, scaleFor, significant, strainFactor, strainUnit, unitOf} from '../quantities/units';
 import {modeCounts} from './event_histogram';
+import {verdictOf} from './findings';
 
 type Read = (test: TestData) => number | undefined;
 
@@ -85,13 +86,9 @@ function numberIn(test: TestData, table: string, name: string): number | undefin
     return typeof value === 'number' ? value : undefined;
 }
 
-/// Whether the test is valid for its kind, and which conditions it does not meet.
-function verdictOf(test: TestData): string | undefined {
-    const valid = test.summary['valid'], claims = test.summary['validity'];
-    if (!Array.isArray(claims)) return undefined;
-    const broken = (claims as {holds: boolean | null; sentence?: string}[]).filter(({holds}) => holds === false);
-    if (broken.length > 0) return `no: ${broken.map(({sentence}) => sentence).join('; ')}`;
-    return valid === true ? 'yes' : 'not known yet';
+function verdictText(test: TestData): string | undefined {
+    const found = verdictOf(test);
+    return found && (found.reasons.length > 0 ? `no: ${found.reasons.join('; ')}` : found.valid ? 'yes' : 'not known yet');
 }
 
 /// Row with a value for each unloading, in order.
@@ -191,7 +188,7 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         measured('Notch', 'm', key('notch')),
         plain('Notch over a particle', key('notch_over_particle')),
         measured('Fracture toughness K_I at the peak', '', either('fracture_toughness', 'fracture_toughness_so_far'), 'stress times √m'),
-        {name: 'Valid', cells: (tests) => ({unit: '', values: tests.map((test) => verdictOf(test))})},
+        words('Valid', verdictText),
         {name: 'Failed', cells: (tests) => ({unit: '', values: tests.map((test) => (test.failed ? 'yes' : 'no: peak so far'))})},
     ]},
     {title: 'Breakage', rows: [

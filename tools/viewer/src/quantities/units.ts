@@ -129,10 +129,10 @@ export function stressText(value: number | undefined, peak: number | undefined):
     return value !== undefined && Math.abs(value) < leastStress * (peak ?? 0) ? '≈ 0' : quantity(value, ofStress);
 }
 
-/// Strains are shown in thousandths, such as 1.94×10⁻³.
+/// Strains are shown in thousandths, such as 1.94 ‰.
 export const strainFactor = 1e-3;
-export const strainUnit = '10⁻³';
+export const strainUnit = '‰';
 export function strain(value: number | undefined, digits = 3): string {
     if (value === undefined) return missing;
-    return value === 0 ? '0' : `${significant(value / strainFactor, digits)}×10⁻³`;
+    return value === 0 ? '0' : significant(value / strainFactor, digits) + thinSpace + strainUnit;
 }
