@@ -27,21 +27,21 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int most_rounds = 10;
-// The centre of a round is accepted if every mean is within this fraction of its tolerance, or within one standard
-// error.
+// The search accepts a point if the deviation of every mean is at most this fraction of its tolerance, or at most one
+// standard error.
 constexpr double met_share = 0.5;
 // A round makes no progress if the solution moved by less than no_way half-widths of the design. It also makes none if
 // the largest deviation exceeds no_gain times that of the previous round.
 constexpr double no_way = 0.15, no_gain = 0.9;
 constexpr double widest_design = 0.8;
-// The search has converged if the best point predicted by the response surfaces is at most this many design half-widths
-// from x_.
+// The search has converged if the best point predicted by the response surfaces is close to the current point: at most
+// this many design half-widths away.
 constexpr double reach_at_rest = 1.0;
-// If a correction changes a search variable, mostly the logarithm of a key, by more than this, the means are measured
-// again.
+// If a correction changes a search variable by more than this, the means are measured again. Most search variables are
+// logarithms of keys.
 constexpr double large_correction = 0.1;
 constexpr int most_corrections = 3;
-// Weights, relative to the other targets, of the target with the largest deviation; each gives one compromise.
+// Weights of the target with the largest deviation; all other targets have weight 1. Each value gives one compromise.
 constexpr double frontier_weights[]{0.03, 0.3, 1.0, 3.0, 30.0};
 
 double t_95(Index count) {
@@ -278,7 +278,7 @@ class Calibration {
                 search_.options().folder.string()));
     }
 
-    /// Final corrections, from means over `Rock::polish` packings instead of `Rock::fit`.
+    /// Applies the final corrections, based on means over `Rock::polish` packings instead of `Rock::fit`.
     void polish() {
         for (int k = 0; k < most_corrections; ++k) {
             begin(fmt::format("correction on {}", counted(rock_.polish, "packing")));
@@ -292,8 +292,8 @@ class Calibration {
             linear_.learn(middle, polished_.means);
             if (!surfaces_.empty()) x_ = surfaces_.solve(middle, narrow_design, VectorXd::Ones(space_.targets));
             x_ = linear_.solve(x_);
-            // Means are not measured again after a small correction, nor if they agree with the targets within their
-            // errors.
+            // The means are measured again only if they did not meet the targets and the correction of a variable was
+            // large.
             if (is_met(polished_) || (x_ - middle).cwiseAbs().maxCoeff() < large_correction) break;
         }
     }
@@ -333,8 +333,8 @@ class Calibration {
         return off;
     }
 
-    /// Computes compromises between the target with the largest deviation and the others. Moduli are left out: they
-    /// depend only on the elastic keys, so the point nearest to their targets is the only compromise.
+    /// Computes and measures compromises between the target with the largest deviation and the others. Moduli are left
+    /// out: they depend only on the elastic keys, so the point nearest to their targets is the only compromise.
     void draw_frontier() {
         Index worst = -1;
         double most = 0.0;
@@ -374,8 +374,8 @@ class Calibration {
     void state_keys() {
         MatrixXd slopes = surfaces_.slopes(x_);
         if (!linear_.empty()) slopes(space_.linear_targets, space_.linear_keys) = linear_.slopes();
-        // Covariance of the targets' residuals, in tolerances: scatter of the corrected means plus the laboratory
-        // errors.
+        // Covariance of the targets' residuals, in squared tolerances: the scatter of the means plus the errors of the
+        // laboratory values.
         const auto n = static_cast<double>(polished_.rows.rows());
         MatrixXd relative(polished_.rows.rows(), space_.targets);
         for (Index t = 0; t < space_.targets; ++t)

@@ -2,12 +2,12 @@
 // Calibrates a rock to laboratory values: adjusts the free keys of its cases until the results, averaged over packings,
 // reach the targets.
 //
-// Elastic keys (contact_modulus, stiffness_ratio, …) are found first, from moduli that sparse linear solves give
-// without any loading. The ratio of each modulus measured in a test to the linear one is updated during the search. The
+// Elastic keys (contact_modulus, stiffness_ratio, …) are found first, from moduli computed by sparse linear solves
+// without loading. The ratio of each modulus measured in a test to the linear one is updated during the search. The
 // other keys are found from a response surface (surface.hpp) of the logarithms of the results. It is fitted over a wide
-// design around the last solution, with the same packings and the same random factors at every point. If
-// tensile_strength, and cohesion as a ratio to it, are free, strengths are proportional to tensile_strength. The last
-// correction uses many packings; the reported results are measured on new packings.
+// design around the last solution, with the same packings and random factors at every point. Strengths scale with
+// tensile_strength if it is free and cohesion is calibrated as a ratio to it. The last correction uses many packings;
+// the reported results are measured on new packings.
 //
 // All tests are run as campaigns, whose ledgers record them. After an interrupt, the same call resumes. A call with
 // other targets reuses tests that have already been run.
@@ -55,7 +55,7 @@ struct FoundKey {
     /// if the targets do not determine the key.
     double low = 0.0, high = 0.0;
     bool determined = true;
-    /// Whether the scatter between packings alone leaves the key undetermined: its interval fills the bounds.
+    /// Whether the targets depend on the key, but scatter and errors are so large that its interval fills the bounds.
     bool lost_in_scatter = false;
     bool at_bound = false;
 };

@@ -17,7 +17,7 @@ bool fills(double low, double high, double least, double most) {
 }
 
 Determination determine(const MatrixXd& slopes, const MatrixXd& covariance, double step) {
-    constexpr double least_change = 0.5;  // in tolerances
+    constexpr double least_change = 0.5;  // smallest change of a target that determines a direction, in tolerances
     // A key is determined if its component in each open (undetermined) direction is at most this fraction of the
     // largest component.
     constexpr double small_part = 0.1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which keys the targets determine near a solution: combinations of keys that remain undetermined (open directions),
-// and the standard error of each key apart from these.
+// Finds out which keys the targets determine near a solution. Combinations of keys that remain undetermined are called
+// open directions. The standard error of each key ignores them.
 // Tested by tests/specimens/calibration/determination_test.cpp.
 #pragma once
 

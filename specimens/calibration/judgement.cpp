@@ -14,7 +14,7 @@ void judge(ReachedTarget& target, double value, double tolerance, const SearchEn
         target.verdict = TargetVerdict::unresolved;
     else if (std::abs(target.off) <= tolerance)
         target.verdict = TargetVerdict::reached;
-    else if (!end.within_reach)  // applies even if the scatter of a few packings could explain the deviation
+    else if (!end.within_reach)  // even if the scatter between packings could explain the deviation
         target.verdict = end.at_rest ? TargetVerdict::out_of_reach : TargetVerdict::not_found;
     else
         target.verdict =

@@ -27,7 +27,7 @@ constexpr auto list_names(TargetVerdict) {
     return in_order("reached", "reached within its error", "missed", "out of reach", "not found", "unresolved");
 }
 
-/// A target, and the means measured for it.
+/// The means measured for a target, and the verdict on it.
 struct ReachedTarget {
     /// Mean over the fresh packings that have results for all targets; none of them was used for fitting.
     MeanFigure fresh;
@@ -44,7 +44,7 @@ struct ReachedTarget {
     bool reached() const { return verdict == TargetVerdict::reached || verdict == TargetVerdict::reached_within_error; }
 };
 
-/// What the search knows about a target, apart from its two means.
+/// State at the end of the search, as far as the verdict on a target depends on it.
 struct SearchEnd {
     bool enough = true;        ///< whether enough fresh packings have results for all targets
     bool within_reach = true;  ///< whether the surfaces predict that the target is reached at the solution

@@ -51,7 +51,7 @@ Plan plan_of(const LinearRequest& request, std::span<const double> values) {
     return plan;
 }
 
-/// A worker's answer. @param solve returns moduli @param said returns the text for the reason of a failure
+/// Builds a worker's answer. @param solve  computes the moduli @param said  formats the reason for a failure
 std::string answer_of(const auto& solve, const auto& said) {
     const auto answer = [&](char kind, const char* why) { return kind + said(why); };
     try {
@@ -70,8 +70,8 @@ std::string answer_of(const auto& solve, const auto& said) {
     }
 }
 
-/// Means for each test over the packings that have the result. A mean is NaN if fewer than half of the packings have
-/// it, as for the results of loaded tests. @param found  moduli by packing, then by test @param fit  number of packings
+/// Mean moduli of each test, over the packings that have a value. A mean is NaN if fewer than half of the packings have
+/// one. @param found  moduli by packing, then by test @param fit  number of packings
 std::vector<std::vector<double>> means_of(const std::vector<LinearFigures>& found, std::size_t tests,
                                           std::int64_t fit) {
     std::vector<std::vector<double>> means(tests, std::vector<double>(linear_figures, std::nan("")));

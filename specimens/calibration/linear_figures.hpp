@@ -29,7 +29,7 @@ struct LinearRequest {
     int workers = 1;
     std::function<bool()> interrupted;
 };
-/// Means over the packings used for fitting. @param values  values of all free keys
+/// Mean moduli over the packings used for fitting. @param values  values of all free keys
 /// @return one vector per requested test, indexed by LinearFigure
 /// @throws InputError if a packing has no moduli; TestInterrupted
 std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& request, std::span<const double> values);

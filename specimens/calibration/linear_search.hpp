@@ -14,7 +14,7 @@ namespace crackle {
 
 class LinearSearch {
   public:
-    /// @param request  request whose `tests` are set by the constructor
+    /// @param request  request for linear solves; the constructor sets its `tests`
     LinearSearch(const SearchSpace& space, LinearRequest request);
 
     bool empty() const { return space_.linear_keys.empty(); }

@@ -24,10 +24,10 @@ double number_in(const std::vector<LedgerCell>& row, std::size_t column) {
     return number != nullptr ? *number : std::nan("");
 }
 
-/// Columns of a table of results that targets need.
+/// Indices of the columns of a results table that hold the values for the targets.
 struct TargetColumns {
     std::size_t failed, state, pressure;
-    std::vector<std::size_t> figures, divisors;  // by target; a divisor is the denominator of a ratio
+    std::vector<std::size_t> figures, divisors;  // one per target; divisor: the denominator of a ratio
 };
 
 TargetColumns columns_of(const LedgerTable& results, const std::vector<Target>& targets) {
@@ -42,13 +42,13 @@ TargetColumns columns_of(const LedgerTable& results, const std::vector<Target>& 
     return all;
 }
 
-/// Whether a target has no figure in a test without a peak. @param value what the test states
+/// Whether a target has no value if the test has no peak. @param value  value recorded for the test; may be NaN
 bool needs_peak(const Target& target, double value) {
     if (refers_to_peak(target.figure) || refers_to_peak(target.over)) return true;
     return !std::isfinite(value) && (target.figure.starts_with("peak_") || target.over.starts_with("peak_"));
 }
 
-/// Error for a target without a figure in any test. @param done whether its test was done
+/// Error for a target that has no value in any test. @param done  whether any of its tests finished
 InputError no_figure(const Target& target, const std::vector<PlannedTest>& tests, bool done,
                      const std::filesystem::path& folder) {
     return InputError(fmt::format(

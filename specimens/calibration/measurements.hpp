@@ -28,7 +28,7 @@ class Measurements {
     Measurements(const Rock& rock, Keep keep, CampaignOptions options, CampaignHooks hooks);
 
     /// Runs those tests that have not been run yet. @param points  values of all free keys, one vector per point
-    /// @throws InputError if the test does not have a requested result; TestInterrupted
+    /// @throws InputError if no test has a result for one of the targets; TestInterrupted
     /// @throws SystemFailure if tests failed for a reason outside the case: means without them would be biased
     void measure(const std::vector<std::vector<double>>& points, PackingRange packings);
 

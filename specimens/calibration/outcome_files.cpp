@@ -80,8 +80,8 @@ std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
     return text;
 }
 
-/// Describes packings that are left out of all means, and targets whose limit is set by scatter rather than by the
-/// tolerance.
+/// Describes packings that are left out of all means, and targets that were judged by the scatter between packings
+/// because it exceeds the tolerance.
 std::string packings_text(const Rock& rock, const CalibrationOutcome& outcome) {
     std::string text;
     const auto complete = static_cast<std::int64_t>(outcome.targets.front().fresh.count);

@@ -3,11 +3,11 @@
 //
 //   title = "…"
 //   [[test]]     name, case, set                              as in a campaign's plan
-//   [[target]]   test, figure, value, tolerance, error        a figure of summary.json whose mean is to reach the value
-//                over                                         or its ratio to another figure of the same test
+//   [[target]]   test, figure, value, tolerance, error        a figure of summary.json whose mean should reach `value`,
+//                over                                         or its ratio to another figure of the same test,
 //                tests, figure                                or a constant of a law fitted to several compressions
-//   [[free]]     key, of, from, to, start                     a key to be found between bounds; with `of`, its ratio to
-//                                                             another key
+//   [[free]]     key, of, from, to, start                     a key to be calibrated within bounds; with `of`, its
+//                                                             ratio to another key
 //   [[curve]]    test, file                                   a measured curve, plotted with those of fresh packings
 //   [packings]   fit, polish, fresh, first_seed
 //   [run]        time_limit
@@ -29,8 +29,8 @@ namespace crackle {
 /// A result that the calibrated rock should reproduce.
 struct Target {
     std::size_t test = 0;  ///< index into Rock::tests
-    /// Tests to whose strengths, as a function of confinement, a law is fitted; begins with `test`. Empty if the target
-    /// is a result of a single test.
+    /// Tests under different confining pressures; a law is fitted to their strengths. The first one is `test`. Empty if
+    /// the target is a result of a single test.
     std::vector<std::size_t> tests = {};
     std::string figure;  ///< name in summary.json, or a constant of the law: "friction_angle", "hoek_brown_m"
     /// Name in summary.json of the result to divide by; if empty, `figure` itself is the target.
@@ -53,7 +53,7 @@ struct Target {
 /// A key to be found. The search uses a logarithmic scale if the lower bound is positive, otherwise a linear one.
 struct FreeKey {
     std::string key;
-    /// Another free key to which the ratio is calibrated; if empty, the key's own value is calibrated.
+    /// Another free key: the ratio to its value is calibrated. If empty, the key's own value is calibrated.
     std::string of = {};
     double from = 0.0, to = 0.0, start = 0.0;
     bool start_given = true;  ///< false: `start` is the middle of the bounds; starting_values() may replace it

@@ -18,9 +18,9 @@ struct SearchSpace {
     Eigen::Index keys = 0, targets = 0;
     Eigen::VectorXd low, high, start;  ///< bounds and start of the variables
     Eigen::VectorXd logs, widths;      ///< logarithm of each target, and of 1 + its tolerance
-    /// The targets in linear_targets are moduli, which linear_keys determine; both lists are empty unless the rock has
-    /// both. other_keys determine other_targets. Without other targets, other_keys is empty, and the remaining keys
-    /// keep their start values.
+    /// Indices of keys and targets. The targets in linear_targets are moduli and depend only on linear_keys. Without
+    /// elastic keys or without moduli, both lists are empty. The other_keys are fitted to the other_targets; without
+    /// other targets, other_keys is empty, and the remaining keys keep their start values.
     std::vector<Eigen::Index> linear_keys, linear_targets, other_keys, other_targets;
     /// Index of tensile_strength if all strengths are proportional to it (apart from the effect of the ratio of
     /// strength to modulus); otherwise -1. This requires cohesion given as a ratio to tensile_strength, and Coulomb

@@ -7,9 +7,9 @@
 //   cohesion          UCS (1 - sin φ)/(2·0.7 cos φ): seven tenths of the Mohr-Coulomb strength of the bonds
 //   friction angle    1.1 times Hoek and Brown's m, in degrees
 //
-// m is a target itself, or follows from UCS and a strength σ1 under the pressure p: ((σ1 - p)² - UCS²)/(UCS p). The
-// start values of the shipped rocks are within a factor of 1.5 of their keys, so the first round of a search is near
-// its solution.
+// m is a target itself, or follows from UCS and a strength σ1 under the pressure p: ((σ1 - p)² - UCS²)/(UCS p). For the
+// shipped rocks, the start values are within a factor of 1.5 of the calibrated ones, so the first round of a search is
+// near its solution.
 // Tested by tests/specimens/calibration/starting_guess_test.cpp.
 #pragma once
 

@@ -19,8 +19,8 @@ constexpr double reach_of_points = 2.5;
 // Largest step of a solution along the level key, in logarithms. It may be large, since strengths are known to be
 // proportional to that key.
 constexpr double reach_of_level = 3.0;
-// Weight of the penalty that holds keys not constrained by the targets near their start values: residual, in units of
-// the tolerance, per unit change of a key's logarithm. It exceeds the noise but is small compared with the weight of a
+// Weight of the penalty that keeps a key near its start value if the targets do not constrain the key: residual in
+// tolerances, per unit change of the key's logarithm. It exceeds the noise but is small compared with the weight of a
 // target.
 constexpr double pull_of_start = 0.1;
 // A point needs results for all targets in at least this fraction of its packings, and in at least fewest_done of them.

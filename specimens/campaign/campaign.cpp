@@ -34,8 +34,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-/// How often a test is tried if a signal kills its process. SIGKILL may have a cause other than the test. Any other
-/// signal comes from the program itself and is likely to recur.
+/// Largest number of attempts at a test whose process is killed by a signal. SIGKILL may have a cause other than the
+/// test. Any other signal comes from the program itself and is likely to recur.
 constexpr int most_tries(int signal) { return signal == SIGKILL ? 3 : 2; }
 // The campaign stops after as many consecutive system failures as there are workers, plus this number: further tests
 // would fail in the same way.
@@ -84,7 +84,7 @@ RowResult unpacked(const Json& json) {
     return r;
 }
 
-/// Processes one piece of work in a worker process. The answer is a result in CBOR, or the reason why the whole
+/// Runs a test or makes a packing in a worker process. The answer is a result in CBOR, or the reason why the whole
 /// campaign must stop.
 class RowWorker {
   public:
@@ -115,7 +115,7 @@ class RowWorker {
                 packing_of(test, 1, test.places, hooks);  // a worker process uses one processor and starts no threads
             } catch (const OutputError&) {
                 throw;
-            } catch (const std::exception&) {  // each test with this packing will report the reason
+            } catch (const std::exception&) {  // each test that needs this packing will report the error
                 return std::string();
             }
             return std::string();
@@ -343,7 +343,7 @@ class CampaignRun {
         if (hooks_.progress) hooks_.progress(progress);
     }
 
-    /// A sentence about a test without results.
+    /// Message about a test that ended without results.
     std::string told(std::size_t task, const RowResult& result) const {
         const PlanRow& row = plan_.rows[tasks_.tasks[task].row];
         std::string at;
@@ -372,8 +372,8 @@ class CampaignRun {
     CampaignOutcome outcome_;
     std::string host_ = host_name();
     Clock::time_point loading_;
-    std::map<std::pair<std::size_t, int>, int> killed_;  // number of kills, by piece and signal
-    std::string stop_, stop_by_system_;                  // why the campaign stops
+    std::map<std::pair<std::size_t, int>, int> killed_;  // how often a signal killed a task's process
+    std::string stop_, stop_by_system_;                  // reason for stopping the campaign; empty while it runs
     std::int64_t failures_in_a_row_ = 0;
     int workers_ = 1;
 };

@@ -120,7 +120,7 @@ class Worker {
     std::optional<std::size_t> before() const { return before_; }
     double seconds() const { return seconds_since(begun_); }
 
-    /// Sends a piece to the worker. @return false if the worker's process has ended in the meantime
+    /// Sends a work item to the worker. @return false if the worker's process has ended in the meantime
     bool give(std::size_t piece) {
         piece_ = piece;
         begun_ = Clock::now();
@@ -170,7 +170,7 @@ class Crew {
     }
 
   private:
-    /// Gives a worker a piece if there is one; a worker whose process has ended in the meantime is replaced.
+    /// Gives an idle worker the next work item, if there is one. Replaces a worker whose process has ended.
     void give(std::unique_ptr<Worker>& worker) {
         while (!worker->at_work()) {
             const std::optional<std::size_t> piece = crew_.next(worker->before());

@@ -18,11 +18,11 @@ namespace crackle {
 /// Exit code of a worker that ran out of memory.
 inline constexpr int worker_without_memory = 71;
 
-/// How the work on a piece ended.
+/// How the processing of a work item ended.
 struct PieceEnd {
     /// Whether the worker returned an answer, ended by itself, was killed by a signal, or took too long.
     enum class How : std::uint8_t { answered, ended, killed, timed_out } how = How::answered;
-    std::string answer;  ///< result of an answered piece
+    std::string answer;  ///< the worker's answer, if it returned one
     int code = 0;        ///< exit code if the process ended by itself; signal if it was killed
     double seconds = 0.0;
 };
@@ -32,20 +32,20 @@ std::string spoken_end(const PieceEnd& end);
 
 /// Callbacks and limits of run_crew().
 struct CrewWork {
-    /// Processes a piece and returns the answer. Runs in the worker.
+    /// Processes a work item and returns the answer. Runs in the worker.
     std::function<std::string(std::size_t piece)> work;
-    /// Returns the next piece for a worker; empty if there is currently none. Runs in the parent process.
-    /// @param before  last piece of that worker
+    /// Returns the next work item for a worker; empty if none is available at present. Runs in the parent process.
+    /// @param before  previous work item of that worker
     std::function<std::optional<std::size_t>(std::optional<std::size_t> before)> next;
-    /// Called when a piece has ended. Runs in the parent process.
+    /// Called when the processing of a work item has ended. Runs in the parent process.
     std::function<void(std::size_t piece, const PieceEnd& end)> ended;
-    /// Polled several times a second; once it returns true, the workers are killed and their pieces abandoned.
+    /// Polled several times a second; once it returns true, the workers are killed and their work items abandoned.
     std::function<bool()> interrupted;
-    double time_limit = 0.0;  ///< largest time per piece, s; 0: no limit
+    double time_limit = 0.0;  ///< largest time per work item, s; 0: no limit
 };
 
-/// Processes the pieces from `next` until it returns no piece and none is running, or until interrupted() returns true.
-/// @return whether all pieces were processed @throws std::system_error if a process cannot be created
+/// Processes work items until `next` returns no more and all workers are idle, or until interrupted() returns true.
+/// @return whether all work items were processed @throws std::system_error if a process cannot be created
 bool run_crew(int workers, const CrewWork& crew);
 
 }  // namespace crackle

@@ -22,8 +22,8 @@ std::string kept_name(const Plan& plan, const PlanRow& row, const std::string& i
 /// was renamed in the plan since. Earlier versions named files by the identity alone.
 class KeptTests {
   public:
-    /// @param hashes  hashes in the ledger (CampaignLedger::kept_hashes()); files of tests without hashes are read
-    /// unchecked
+    /// @param hashes  hashes in the ledger (CampaignLedger::kept_hashes()); without a hash, a test's files are read
+    /// without a check
     explicit KeptTests(const std::filesystem::path& folder, std::map<std::string, KeptHashes> hashes = {});
 
     /// Base name of a test's files; empty if there are no files.

@@ -344,7 +344,7 @@ std::int64_t CampaignLedger::gather(const std::filesystem::path& other, bool its
             if (figure_columns_.insert(name).second)
                 db.exec(fmt::format("ALTER TABLE main.figures ADD COLUMN {} ANY", quoted(name)));
         }
-        // A finished test is replaced only by one that kept more files, and a system failure by a verdict on the case.
+        // A result replaces failures and results without kept files; a verdict on the case replaces a system failure.
         const auto rank = [](const char* row) {
             return fmt::format(
                 "CASE WHEN {0}.state = '{1}' THEN 3 + ({0}.curve_sha256 IS NOT NULL OR "

@@ -56,8 +56,8 @@ struct LedgerCounts {
 /// Location of SQLite's journal until a transaction is complete.
 enum class Journal : std::uint8_t {
     beside,  ///< a second file, which readers also read, so that they see each change at once; on local discs only
-    /// For network file systems: readers wait during a change; after a power failure, the ledger may have to be made
-    /// again.
+    /// For network file systems: readers wait during a change; a power failure may damage the ledger, which must then
+    /// be created again.
     within,
 };
 
@@ -83,7 +83,7 @@ class CampaignLedger {
     /// Records the result of a test. If the test was recorded before, its row is updated and its number of tries
     /// incremented.
     void record(const RowResult& result, const std::string& host);
-    /// Adds tests of another ledger that are missing here, not done here, or done here with fewer kept files. Both
+    /// Adds tests of another ledger that are missing here, not done here, or done here without kept files. Both
     /// ledgers must have been checked before.
     /// @param its_plan  whether to copy the other ledger's plan as well @return number of tests added
     std::int64_t gather(const std::filesystem::path& other, bool its_plan);

@@ -21,7 +21,7 @@ namespace {
 // that need not exist.
 constexpr std::array causes{ENOSPC, EDQUOT, EFBIG, ENOMEM, EMFILE, ENFILE, ENOLCK, EROFS, EPERM, EACCES};
 
-/// errno behind a failure of SQLite. @param kept  errno kept by SQLite, or 0 @param last  errno of the last failed call
+/// Error number (errno) that explains a failure of SQLite. @param kept errno kept by SQLite, or 0 @param last errno now
 int reason_of(int code, int kept, int last) {
     if (code == SQLITE_FULL) return ENOSPC;
     if (code == SQLITE_IOERR) {
@@ -29,7 +29,7 @@ int reason_of(int code, int kept, int last) {
             if (std::find(causes.begin(), causes.end(), error) != causes.end()) return error;
         return EIO;
     }
-    // After it has been refused access, SQLite looks for further files, so ENOENT does not explain the refusal.
+    // When access to a file is denied, SQLite looks for further files. ENOENT therefore does not explain the failure.
     return code == SQLITE_CANTOPEN && last != 0 && last != ENOENT ? last : EACCES;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a failure of SQLite means for a ledger: a failure of the operating system, another program, or a damaged file.
+// Translates failures of SQLite into errors: a failed system call, a lock held by another program, or a damaged file.
 // Tested by tests/specimens/campaign/ledger_test.cpp.
 #pragma once
 

@@ -18,10 +18,10 @@ class PackingStore {
     /// @param folder  folder that is created when the first packing is stored
     PackingStore(std::filesystem::path folder, FileHashes& files) : folder_(std::move(folder)), files_(files) {}
 
-    /// The packing for a case, read from the store or newly made. Both give the same bits. @throws OutputError
+    /// The packing for a case, read from the store or newly made; both are identical bit by bit. @throws OutputError
     Packing get(const ResolvedCase& test, const PackingRequest& request, const std::function<Packing()>& make);
-    /// Returns get() for one case, to be used as a hook of its test. The store and the case must outlive the returned
-    /// function.
+    /// Returns a function that calls get() for the given case; it serves as a hook of the case's test. The store and
+    /// the case must outlive this function.
     auto keeping(const ResolvedCase& test) {
         return [this, &test](const PackingRequest& request, const std::function<Packing()>& make) {
             return get(test, request, make);

@@ -5,7 +5,7 @@
 //   [[test]]     name, case, set      tests, each a case file with keys that override it
 //   [[axis]]     key, values | from, to, count, spacing; tests
 //   [design]     points, sequence     for the axes that have from and to but no count
-//   [packings]   count, first_seed    seeds for everything random in a case; without it, each case keeps its own seeds
+//   [packings]   count, first_seed    seeds for all random numbers; without this table, each case keeps its own seeds
 //   [run]        keep, time_limit
 //
 // A point is one of the plan's tests at one combination of axis values. The rows of a point run its test on each of the

@@ -212,7 +212,7 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
 }
 
 std::string unit_of_figure(const std::string& column, bool area_units) {
-    std::string figure = column;  // keys of list elements are listed once for all elements
+    std::string figure = column;  // as in summary_keys(): without the index of a list element
     for (std::size_t at = figure.find('['); at != std::string::npos; at = figure.find('[', at + 1)) {
         const std::size_t end = figure.find(']', at);
         if (end != std::string::npos) figure.erase(at + 1, end - at - 1);
