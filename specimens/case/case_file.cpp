@@ -280,7 +280,7 @@ void take_setting(TestCase& test, const CaseSetting& setting) {
     take_value(test, setting.where, table, key, *node_of(setting.value), entry);
 }
 
-/// Whether the case gives the same quantity by an alternative key.
+/// Whether the case states the quantity of a key by an alternative key.
 bool said_otherwise(const TestCase& test, const std::string& full_key) {
     const auto is_written = [&](const std::string& key) { return test.position.contains(key); };
     for (const Alternatives& ways : case_alternatives()) {
@@ -314,8 +314,8 @@ void fill_defaults(TestCase& test) {
         const std::size_t entries = table.repeated() ? table.count(test) : 1;
         for (std::size_t entry = 0; entry < entries; ++entry) fill_default(test, p, entry);
     }
-    // By default, platens that pull are glued, since a real grip is stronger than the rock. So are pads, jaws and
-    // boxes, since they are not made of rock.
+    // By default, only platens that press are not glued. A real grip is stronger than the rock, and pads, jaws and
+    // boxes are not made of rock.
     const TestKind& kind = test_kind(test.loading.kind);
     if (!kind.presses() && !test.position.contains("loading.platens")) test.loading.platens = PlatenKind::glued;
     if (test.loading.platens == PlatenKind::glued && !test.loading.grip)
@@ -412,7 +412,7 @@ bool left_out(const TestCase& test, const std::string& table) {
     return (table == "packing" || table == "mesh") && !test.has_table(table);
 }
 
-/// The keys of a case as they are after reading, and after the specimen has been made.
+/// The keys of a case with their values, including values that are known only after the specimen has been made.
 std::vector<ResolvedKey> keys_with(const ResolvedCase& resolved, const MadeValues& made) {
     TestCase test = *written_case(resolved);
     test.numerics.threads = resolved.numerics.threads;

@@ -206,8 +206,8 @@ class ConsistencyCheck {
     template <class Key>
     void face_numbers(const TestCase::MaterialKeys& m, const Key& key) const {
         try {
-            // Values must also be possible without the correction c_κ, which was measured for meshes of packed circles
-            // only: values that only the correction makes possible give k_t close to 0.
+            // The values must be possible with and without the correction c_κ, which was measured only for meshes of
+            // packed circles. Values that are possible only with it give a shear stiffness k_t close to 0.
             for (const double correction : {0.0, test_.face_correction()}) {
                 parts::MaterialValues rock = m;
                 rock.mesh_correction = correction;

@@ -247,8 +247,8 @@ class JointAgainstRock {
             fmt::format("{}: found {}, expected {}; {}", test_.at(table_.label + "." + name), found, expected, remedy));
     }
 
-    /// Joint properties require a bond law that can apply them, and stiffnesses per area, because faces then have a
-    /// length.
+    /// Checks that the bond law supports the joint's properties, and that stiffnesses are given per area
+    /// (material.units = "area").
     void laws() const {
         const bool across_joints = test_.bond_facts().across_joints, by_faces = test_.bond_facts().by_faces;
         for (const char* key : {"residual_cohesion", "softening_slip"})

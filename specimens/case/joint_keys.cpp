@@ -10,7 +10,7 @@
 namespace crackle {
 namespace {
 
-/// @param list  a function that returns the list of tables in a case whose entries contain JointKeys
+/// Joint keys of a repeated table. @param list  function that returns the table's entries, which contain JointKeys
 template <class List>
 std::vector<Parameter> mechanics_in(const char* table, List list) {
     using Keys = TestCase::JointKeys;

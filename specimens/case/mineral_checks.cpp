@@ -122,7 +122,7 @@ class MineralCheck {
         }
     }
 
-    /// Dashpots and damping ratios cannot be combined in series.
+    /// Checks that [material] and minerals use the same kind of damping: either dashpots or damping ratios.
     void damping() const {
         const TestCase::MaterialKeys& rock = test_.material;
         const bool dashpots = rock.normal_damping || rock.shear_damping;

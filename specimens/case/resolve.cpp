@@ -255,7 +255,7 @@ parts::Loading loading_of(const TestCase::Loading& keys) {
     return loading;
 }
 
-/// Adds the path of the file that `parts` names if the variant `parts` holds a Part.
+/// If the variant `parts` holds a Part, which names a file, adds the path of that file to `files`.
 template <class Part, class Variant>
 void add_file(std::vector<std::filesystem::path>& files, const Variant& parts) {
     if (const auto* part = std::get_if<Part>(&parts)) files.push_back(part->path);

@@ -18,8 +18,8 @@ ResolvedCase resolve(const std::shared_ptr<const TestCase>& written);
 /// @throws InputError if planes of joints do not intersect the section
 JointCase resolve_joints(const std::shared_ptr<const TestCase>& written);
 
-/// Returns the case from which the parts were resolved, so that it can be written. The parts may have another number of
-/// threads, another value of numerics.allow_unstable, and another step_scale.
+/// Returns the case from which the parts were resolved, so that it can be written. Only the number of threads,
+/// numerics.allow_unstable and step_scale may have been changed since.
 /// @throws InputError if the parts were not made by resolve(), or if they were changed
 std::shared_ptr<const TestCase> written_case(const ResolvedCase& test);
 

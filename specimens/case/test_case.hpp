@@ -74,7 +74,7 @@ struct TestCase : WrittenPlaces {
         std::optional<double> inset;  // m
     } mesh;
 
-    /// Keys of [material], which minerals and pairs of minerals have, too.
+    /// Keys of [material]. Tables of minerals and of mineral pairs may contain them as well.
     struct MaterialKeys : parts::MaterialValues {
         StiffnessUnits units = StiffnessUnits::point;  // area: a modulus and stiffness_ratio replace stiffnesses
         std::optional<double> contact_modulus;         // Pa
@@ -220,7 +220,7 @@ struct TestCase : WrittenPlaces {
     bool uniaxial() const { return test_kind(loading.kind).uniaxial; }
     /// Properties of the case's bond law.
     const BondLawFacts& bond_facts() const { return bond.facts(); }
-    /// c_κ of faces (solver/laws/face_bond.hpp): mean values of boxes of cells that were meshed around packed circles.
+    /// Correction factor c_κ of faces (solver/laws/face_bond.hpp): the mean over meshes of packed circles in a box.
     double face_correction() const { return has_table("mesh") && mesh.kind == MeshKind::delaunay ? 0.79 : 0.3; }
     /// Whether stiffness and strengths are given per area, in Pa.
     bool area_units() const { return material.units == StiffnessUnits::area; }

@@ -95,7 +95,7 @@ std::optional<FirstEvent> first_of(const std::vector<LinearBond>& bonds, double 
     return first;
 }
 
-/// Sign of the linear solution's strain, which is tensile, when strain is positive in the direction of loading.
+/// Sign of the linear solution, which has a tensile strain of 1, relative to the direction of loading.
 double sense_of(const PlacedApparatus& apparatus) { return apparatus.compression ? -1.0 : 1.0; }
 
 /// Rates at all points per unit of strain in the direction of loading.

@@ -22,7 +22,7 @@
 
 namespace crackle {
 
-/// A bonded point in the linear solution. `closing` and the forces refer to the axial strain `ElasticAnalysis::strain`.
+/// A bonded point or intact face in the linear solution. `closing` and forces refer to ElasticAnalysis::strain.
 struct LinearBond {
     int body_i = 0, body_j = 0;  ///< input ids
     Vec2 position;               // m

@@ -29,7 +29,7 @@ struct Side {
     double outwards;       // 1 or -1
 };
 
-/// For each body, the number of its bonds that a linear solution includes.
+/// For each body, the number of its bonded or closed contact points with other bodies.
 std::vector<int> bonds_of_bodies(const World& world) {
     std::vector<int> bonds(world.bodies.size(), 0);
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
@@ -41,9 +41,9 @@ std::vector<int> bonds_of_bodies(const World& world) {
     return bonds;
 }
 
-/// The faces of bodies on a side, extended to meet each other and the corners, as they did before the inset. A circle
-/// that reaches the side has a face as wide as its diameter, unless it has a single bond and therefore cannot carry a
-/// load.
+/// The faces of bodies on a side of the box. They are extended until they meet each other and the corners. A circle
+/// that reaches the side has a face as wide as its diameter. Circles with fewer than two bonds are left out, since they
+/// cannot carry a load.
 std::vector<OuterFace> faces_on(const World& world, const Side& side, double inset) {
     const double near = inset + 1e-6 * (side.high - side.low);
     std::vector<OuterFace> faces;

@@ -28,7 +28,7 @@ inline ClosedPoints closed_points(const PlacedApparatus& apparatus) {
 }
 
 /// Nominal stress, N/m: half the difference between the axial force on the driving part and that on the supports,
-/// divided by the section.
+/// divided by `apparatus.section`.
 /// @param reaction  reactions of prescribed_parts(), in the same order
 inline double nominal_stress(const PlacedApparatus& apparatus, const std::vector<BodyMotion>& reaction) {
     double sum = 0.0;

@@ -42,7 +42,7 @@ double distance_from_law(std::span<const double> above, double mean) {
     return largest;
 }
 
-/// Whether a distance is below Stephens' 5 % point for an exponential law whose mean is that of the sample.
+/// Whether a distance is below Stephens' critical value at 5 %, for an exponential law with the mean of the sample.
 bool passes(double distance, double count) {
     constexpr double five_percent = 1.094;
     const double root = std::sqrt(count);

@@ -31,9 +31,9 @@ struct BValue {
     double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
     /// log10 of the number of events above magnitude 0 according to the fitted line.
     double a = std::numeric_limits<double>::quiet_NaN();
-    /// Largest difference between the observed fraction of events above a magnitude and that of the fitted law
-    /// (Kolmogorov-Smirnov). `straight`: whether events that follow such a law exceed this distance in at least one
-    /// case of 20 (Stephens, J. Am. Stat. Assoc. 69, 1974; slope estimated from the same events).
+    /// Largest difference between the observed fraction of events above a magnitude and the fitted one
+    /// (Kolmogorov-Smirnov). `straight`: whether samples from such a law would exceed this distance with a probability
+    /// of at least 5 % (Stephens, J. Am. Stat. Assoc. 69, 1974; slope estimated from the same events).
     double distance = std::numeric_limits<double>::quiet_NaN();
     bool straight = false;
 
@@ -53,7 +53,7 @@ enum class Completeness {
     least_distance
 };
 /// Magnitude of completeness Mc; NaN for fewer than 50 magnitudes. With `least_distance`, at least 50 magnitudes lie
-/// above it.
+/// above Mc, unless fewer than 50 exceed the smallest one; Mc is then the smallest magnitude.
 double completeness_of(std::span<const double> magnitudes, Completeness rule);
 
 /// b of the events above Mc, which is found by the given rule. With `least_distance`, errors, interval and `straight`

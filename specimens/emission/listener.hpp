@@ -111,13 +111,13 @@ class EmissionListener {
     std::size_t end_all();
 
   private:
-    /// A point on the surface of a source.
+    /// A contact point between a source and its surroundings.
     struct SurfacePoint {
         PointIndex point;
         bool of_i;           ///< whether body_i belongs to the source
         std::size_t before;  ///< index into OpenEvent::before; npos if the point carried no force before the break
     };
-    /// Surface of an open event; found again when the contact list has been rebuilt or a body has joined the event.
+    /// Surface of an open event's source. It is updated when the contact list is rebuilt or a body joins the event.
     struct Surface {
         bool found = false;
         std::vector<SurfacePoint> points;

@@ -163,7 +163,7 @@ class Collection {
     std::map<std::pair<std::string, std::string>, int> left_out_;
 };
 
-/// Whether the gap in the resolved case was derived, since the original case did not state it.
+/// Whether the gap in a resolved case equals the default, which is derived from the number of cells.
 bool is_derived_gap(double thick, const SpecimenFigures& specimen) {
     constexpr double rounding = 1e-9;
     const double area = specimen.initial_width.or_nan() * specimen.initial_height.or_nan();

@@ -33,7 +33,7 @@ struct StrengthMeasure {
 struct MeasuredStrengths {
     StrengthMeasure measure;
     std::vector<StrengthPoint> compressions;  ///< strengths of compression tests (confinement 0) and biaxial tests
-    /// Tensile strengths, positive, of specimens that separated within the gauge length.
+    /// Tensile strengths, positive. Specimens that separated outside the gauge length are left out.
     std::vector<double> tensions;
     std::vector<std::string> left_out;  ///< one sentence for each test without a strength, giving the reason
     /// Number of tests in `left_out` that a campaign recorded as system failures (RowKind::failure).

@@ -10,9 +10,9 @@
 // strength at its confinement)². The Hoek-Brown fit starts from the straight line of (σ1 - σ3)² against σ3, with slope
 // m C and intercept C². Intervals come from 10,000 bootstrap fits. Each draws as many packings as there are, with
 // replacement and with all their tests. The percentiles are chosen so that the interval is as wide as Student's t
-// (statistics/mean.hpp). With fewer than eight packings, bootstrap draws cannot leave their range. Student's t is then
-// used with the standard error of the jackknife (fits that each leave out one packing). Two packings carry little
-// information, and their intervals are accordingly wide.
+// (statistics/mean.hpp). Since bootstrap draws cannot leave the range of the packings, fewer than eight packings get an
+// interval from Student's t and the jackknife (fits that each leave out one packing). With only two packings, the
+// intervals are wide.
 // All stresses have one unit, N/m or Pa, compression positive.
 // Tested by tests/specimens/envelope/strength_envelope_test.cpp.
 #pragma once
