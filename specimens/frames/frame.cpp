@@ -102,7 +102,7 @@ void take(const World& world, const BondRecord& bonds, const ContactHistory& his
         const PointIndex last = bonds.kind_begin[static_cast<std::size_t>(K) + 1];
         PointIndex next = first;
         for (PointIndex k = begin; k < end; ++k) {
-            // The sorted order of the points starts again at this index, within the same kind.
+            // Points of this kind are sorted in two parts; the second part begins at this index.
             if (k == world.points.fours_end) next = first;
             const ContactPoint point = world.points.contact.at<K>(k);
             const auto flags = world.points.state[k].flags;

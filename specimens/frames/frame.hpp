@@ -83,8 +83,8 @@ class FrameOnDisc {
 };
 
 /// Takes a frame of the current state. Call compute_forces() and look_at_contacts() first. The cost is linear in the
-/// numbers of bodies and listed points. The expensive part, the normal forces of contacts, is left to the painter:
-/// every row is a new peak while the stress rises, and few of these frames are kept.
+/// numbers of bodies and listed points. The expensive part, the normal forces of contacts, is left to find_forces().
+/// While the stress rises, a frame is taken at every row, but most of these frames are never written.
 /// @param frame  receives the data; its memory is reused
 void take_frame(const World& world, const BondRecord& bonds, const ContactHistory& history, const CurveRow& row,
                 std::int64_t row_index, Frame& frame);

@@ -37,7 +37,7 @@ std::vector<BodyIndex> drawing_order(const World& world, const PlacedApparatus& 
 }
 
 /// Writes the element Points with `count` points.
-/// @param add  is called with a function, which it must call for each position
+/// @param add  function that passes each position to the function that it receives as an argument
 template <class Add>
 void write_points(std::ostream& out, FramePrecision precision, std::size_t count, const Add& add) {
     begin_element(out, "Points");
@@ -73,18 +73,18 @@ const char* of_contacts(std::string_view name) { return declared(contact_arrays(
 const char* of_cracks(std::string_view name) { return declared(crack_arrays(), name).name; }
 const char* of_joints(std::string_view name) { return declared(joint_arrays(), name).name; }
 
-/// First of the bonds that are faces, which are the last ones.
+/// Index of the first bond that is a face; these bonds are last in the list.
 PointIndex first_face_of(const BondRecord& bonds) {
     return bonds.kind_begin[static_cast<std::size_t>(PointKind::bonded_face)];
 }
 
-/// Motion of a bond that is a face since it was bonded.
+/// Relative motion of the two sides of a bonded face, or of a broken one, since bonding.
 BondFaceMotion motion_of_face(const PlacedFrame& placed, PointIndex bond) {
     const ContactPoint point = placed.setup().bonds.points[bond];
     return motion_of(placed.world().faces.place[point.element_i], placed.body(point.body_i), placed.body(point.body_j));
 }
 
-/// A bond that is a face, with its normal stress. @param normal N, compression positive
+/// Traction on a face that is bonded or was bonded. @param normal  normal force, N, compression positive
 FaceTraction traction_of(const PlacedFrame& placed, PointIndex bond, double normal) {
     const World& world = placed.world();
     const FaceSprings springs = world.faces.springs[placed.setup().bonds.points[bond].element_i];
@@ -134,7 +134,7 @@ FramePainter::FramePainter(const World& world, const TestSetup& setup, FramePrec
 }
 
 /// Calls visit(body, its first element, number of corners, radius or 0) for each cell in the file. Each circle of a
-/// clump is a cell. Of a platen, only the face is a cell, because only the face touches the specimen.
+/// clump is a cell. A platen is represented by its face alone, because only the face touches the specimen.
 template <class Visit>
 void FramePainter::visit_cells(const Visit& visit) const {
     const BodyView bodies(world_);

@@ -77,7 +77,7 @@ class PackedArray {
     std::streampos header_at_;
 };
 
-/// Writes a whole array. @param add  is called with a function, which it must call for each value
+/// Writes a whole array. @param add  function that passes each value to the function that it receives as an argument
 template <class T, class Add>
 void write_array(std::ostream& out, const char* name, std::size_t values, const Add& add) {
     PackedArray<T> array(out, name, 1, values);
@@ -85,7 +85,7 @@ void write_array(std::ostream& out, const char* name, std::size_t values, const 
     array.finish();
 }
 
-/// Writes an array of indices, as Int32 if `largest` fits.
+/// Writes an array of indices, as Int32 if `largest` fits into that type, otherwise as Int64.
 template <class Add>
 void write_indices(std::ostream& out, const char* name, std::size_t values, std::size_t largest, const Add& add) {
     constexpr std::size_t most_in_int32 = std::numeric_limits<std::int32_t>::max();
@@ -105,7 +105,7 @@ inline void write_pairs_as_lines(std::ostream& out, std::size_t lines) {
     end_element(out, "Lines");
 }
 
-/// A file of a collection, with the time that it shows.
+/// A file in a collection, and the simulated time of its contents.
 struct CollectionEntry {
     double time = 0.0;
     int part = 0;

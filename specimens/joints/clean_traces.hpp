@@ -5,12 +5,12 @@
 // have to fill. A single tolerance, snap, controls the cleaning:
 //     - points of a trace within snap/4 of a straight line between other points are removed (Douglas & Peucker 1973);
 //     - an end is extended along its own line to the trace or wall to which the mesher would extend it;
-//     - points and crossings within snap/2 of a wall or of an earlier node are moved there;
+//     - points and crossings within snap/2 of a wall or of an earlier node are moved onto it;
 //     - a trace that passes within snap/2 of a node is routed through the node; if two traces run that close together,
 //       the later one follows the earlier, and leaves it at an angle that cells can fill.
 // Displacements are measured from the original trace: no point moves farther than snap, however long a chain of nearby
 // nodes is. Nodes are at least snap/2 apart, so their number is bounded and the iteration ends. The points of a trace
-// that needs no cleaning stay bit-identical. The result depends on the order of the traces, but not on any other order.
+// that needs no cleaning stay bit-identical. The result depends on the order of the traces.
 // Tested by tests/specimens/joints/clean_traces_test.cpp.
 #pragma once
 

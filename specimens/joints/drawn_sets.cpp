@@ -50,7 +50,7 @@ class LengthStrata {
         return {std::min(law_.exceeded_by(share), longest_[k]), longest_[k]};
     }
 
-    /// Number of draws divided by the number of midpoints per area, m2.
+    /// Number of draws required for a density of one midpoint per unit area, m2.
     double draws_of_a_midpoint() const { return sum_; }
 
   private:
@@ -159,8 +159,8 @@ class SetDrawing {
         take({{part->first, part->second}, number_, whole_length, centred});
     }
 
-    /// @throws InputError if traces are so short that rounding reduces them to points, which do not count towards the
-    /// amount
+    /// Checks the lengths of traces. @throws InputError if they are so short that rounding reduces traces to points,
+    /// which do not count towards the amount
     void refuse_points(CaseKey key, double found, double typical) const {
         if (!(typical >= least_share * diagonal_))
             throw InputError(fmt::format(
@@ -169,7 +169,7 @@ class SetDrawing {
                 at(key), found, least_share * diagonal_, least_share));
     }
 
-    /// @throws InputError if midpoints are so widely distributed that hardly any of their traces meets the box
+    /// Checks the expected number of draws. @throws InputError if it is too large because few drawn traces meet the box
     void refuse_endless(CaseKey key, double found, const LengthLaw& law, const LengthStrata& strata) const {
         // Midpoints per area of the whole plane. The length of a trace across any scan line is at most the length of
         // the trace.
@@ -210,7 +210,7 @@ class SetDrawing {
     /// Adds one line through the plane: either a joint over its whole length, or joints alternating with gaps.
     void line(Vec2 through, double angle) {
         const Vec2 along = unit(angle);
-        // The reach extends beyond the box at both ends, whatever point of the line is given.
+        // The part of the line from middle - reach to middle + reach extends beyond the box at both ends.
         const double middle = dot(centre_ - through, along), reach = diagonal_;
         const auto* gaps = std::get_if<TracesWithGaps>(&set_.length);
         if (gaps == nullptr) {

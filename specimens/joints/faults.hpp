@@ -19,8 +19,8 @@ struct Fault {
 };
 
 /// Joins rows into faults, ordered by their first rows. If exactly two rows meet at a node, they form one fault unless
-/// the second runs back alongside the first. If more rows meet, the straightest pair forms one fault if it bends by at
-/// most 60 degrees.
+/// the second runs back alongside the first. If more rows meet, they are joined in pairs, the straightest pair first;
+/// no pair bends by more than 60 degrees.
 /// @param reach  m; ends within this distance are at one node; 0: ends must coincide exactly
 std::vector<Fault> joined_rows(const std::vector<std::vector<Vec2>>& rows, double reach);
 

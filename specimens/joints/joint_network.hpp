@@ -38,8 +38,8 @@ struct JointNetwork {
 /// Draws the sets until the requested amounts are reached, and reads the measured traces. Both are clipped to the box
 /// and end exactly on its faces. Each set uses its own random numbers, so adding a set does not change the others.
 ///
-/// Traces of finite length are placed as if midpoints were distributed over the whole plane (Poisson), so the rim of
-/// the box does not differ from its middle. The largest length limits how far outside the box a midpoint may be, but
+/// Traces of finite length are placed as if midpoints were distributed over the whole plane (Poisson), so traces are as
+/// dense near the walls as in the middle. The largest length limits how far outside the box a midpoint may be, but
 /// some distributions have no upper limit. Lengths are therefore drawn in strata, each with its own largest length;
 /// from one stratum to the next, the fraction of longer traces is halved. Spaced lines that scatter about their mean
 /// direction are also drawn outside the box, up to a limit. This makes P10 perpendicular to that direction too small by

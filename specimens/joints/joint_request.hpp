@@ -77,7 +77,7 @@ struct MeasuredTraces {
     bool operator==(const MeasuredTraces&) const = default;
 };
 
-/// Values of joints that are used as a case states them.
+/// Values that apply to all joints and are used as stated in the case.
 struct JointValues {
     /// Shortest trace that is kept, m; empty: the mean spacing of the cells, if cells follow the traces.
     std::optional<double> shortest;

@@ -12,7 +12,7 @@ namespace {
 
 namespace cr = correctly_rounded;
 
-/// (e^(bL) - 1)/b, or its limit L for b = 0.
+/// (e^(bL) - 1)/b with L = log_ratio, or its limit L for b = 0.
 double grown(double b, double log_ratio) { return b == 0.0 ? log_ratio : cr::expm1(b * log_ratio) / b; }
 
 }  // namespace

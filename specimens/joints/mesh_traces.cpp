@@ -43,7 +43,7 @@ std::string shape_text(const Mesh& with, const std::vector<CellCentre>& centres,
             "mean area {:.2g} ({:.2g}), ratio of shortest to mean edge {:.2g} ({:.2g})",
             shape.smallest_angle, plain.smallest_angle, shape.smallest_area, plain.smallest_area, shape.shortest_edge,
             plain.shortest_edge);
-        // The centres are not suited to a mesh without traces, since they include those that were removed for traces.
+        // Meshing without traces may fail, because the centres include some that were removed for traces.
     } catch (const MeshError&) {
         return fmt::format(
             "cells: smallest angle {:.3g} degrees, ratio of smallest to mean area {:.2g}, ratio of shortest to mean "

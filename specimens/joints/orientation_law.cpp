@@ -120,10 +120,10 @@ double OrientationLaw::draw(std::mt19937_64& generator) const {
 }
 
 /// Upper bound on the fraction of lines that deviate from the mean by an angle d whose cosine is less than c:
-///       von Mises  2 asin(c) e^(-2κ(1 - c²)) over ∫ e^(-κ(1 - cos ψ)) dψ from 0 to π, ψ = 2d, which is at least
+///       von Mises  2 asin(c) e^(-2κ(1 - c²))/I, where I = ∫ e^(-κ(1 - cos ψ)) dψ from 0 to π, ψ = 2d. I is at least
 ///                  e^(-1/2) min(π, 1/√κ)
-///       Fisher     normals outside the cone δ about the mean one, sin δ = sin γ sin d, γ between that and the
-///                  section's normal: e^(-K(1 - cos δ)), over the mean weight, which is at least sin γ K/(3 + K)
+///       Fisher     e^(-K(1 - cos δ))/w for normals at more than δ from the mean normal, sin δ = sin γ sin d. Here γ is
+///                  the angle between the mean normal and the section's; the mean weight w is at least sin γ K/(3 + K)
 double OrientationLaw::share_beyond(double cosine) const {
     if (kind_ == Kind::von_mises) {
         const double least = std::min(pi, 1.0 / std::sqrt(spread_)) * cr::exp(-0.5);

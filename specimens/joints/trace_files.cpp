@@ -343,14 +343,14 @@ std::string ending(const std::string& name) {
     return text;
 }
 
-/// Whether the first lines are those of a DXF drawing, whatever the name of the file.
+/// Whether the text begins like a DXF drawing; the name of the file does not matter.
 bool begins_as_drawing(std::string_view text) {
     TextLines lines("", text);
     const auto code = lines.next(), value = lines.next();
     return code && value && stripped(*code) == "0" && stripped(*value) == "SECTION";
 }
 
-/// Whether the first line with values consists of names.
+/// Whether the first line with values begins with a name, as in the header of a table.
 bool begins_with_names(const std::string& name, std::string_view text) {
     TableReader reader(name, text, TableReader::Form::table);
     if (!reader.next()) return false;

@@ -26,7 +26,7 @@ constexpr double quarter = 0.5 * std::numbers::pi;
 // Radius of a curved jaw divided by that of the disc (ISRM 1978); half-width of the jaw's face divided by its radius.
 constexpr double jaw_radius = 1.5, jaw_half_width = 0.5;
 constexpr int jaw_sides = 40;
-constexpr double jaw_depth = 0.2;  // thickness of a jaw behind the ends of its face, relative to the disc's radius
+constexpr double jaw_depth = 0.2;  // height of the back of a jaw above the disc, relative to the disc's radius
 constexpr double flat_jaw_half_width = 0.75;  // half-width of a flat jaw, relative to the disc's radius
 
 Vec2 on_circle(Vec2 centre, double radius, double angle) {

@@ -80,7 +80,7 @@ struct Apparatus {
     double span = 0.0;              ///< distance between the supports, m; 0 without supports
 };
 
-/// A corner or circle of the specimen. A face touches it if closer than `reach`.
+/// A corner or circle of the specimen. The face of a part touches it if the distance is less than `reach`.
 struct SurfacePoint {
     Vec2 place;          // m
     double reach = 0.0;  // m
@@ -103,7 +103,7 @@ struct KindRequest {
 
 /// Diameter of the disc, m. @param room  default diameter, m: the largest disc that fits into the packing
 double disc_diameter(const KindRequest& request, double room);
-/// Half of the arc over which a jaw presses, rad.
+/// Half the angle of the arc over which a jaw presses, rad.
 double half_angle(const KindRequest& request);
 /// Width of the pads that support and load the specimen, m. @param size  depth of a beam or radius of a half disc, m
 double pad_width(const KindRequest& request, double size);

@@ -18,7 +18,7 @@
 namespace crackle {
 namespace {
 
-// Long enough that another program cannot halve the measured speed, yet short compared with making the specimen.
+// Duration of the speed measurement: so long that another program cannot halve the result, but short enough to wait.
 constexpr double seconds_of_steps = 0.5;
 constexpr int steps_at_once = 64;
 

@@ -2,9 +2,9 @@
 // Predicts the result and cost of a case without loading it. The check reports small-strain moduli, the first bonds to
 // fail, a rough strength estimate, the number of steps, run time and memory, and likely problems.
 //
-// The strength estimate is E times the strain at which a given fraction of the breakable bonded points would have
-// broken if the linear solution held up to there (bond_break_share). The fraction was calibrated on supplied cases and
-// others; specimens/loading/METHODS.md lists them with the errors of the estimate.
+// The strength estimate is E times a strain. At this strain, a given fraction of the breakable bonded points is broken
+// according to the linear solution (bond_break_share). The fraction was calibrated on supplied cases and others;
+// specimens/loading/METHODS.md lists them with the errors of the estimate.
 // Tested by tests/specimens/loading/check_test.cpp.
 #pragma once
 
@@ -32,7 +32,7 @@ struct StrengthEstimate {
     double stress = 0.0, strain = 0.0;  ///< see FirstLoss
     /// Fraction of the breakable points that are assumed to be broken at the strength.
     double share = 0.0;
-    /// Largest ratio between estimate and result in the calibration tests, either way.
+    /// Largest factor by which the estimate was too high or too low in the calibration tests.
     double factor = 1.0;
 };
 
@@ -63,9 +63,9 @@ struct TestCheck {
     std::optional<RunEstimate> to_strength;
     RunEstimate to_end;   ///< estimate up to max_axial_strain
     double memory = 0.0;  ///< peak memory of this process up to now, bytes
-    /// The corner that a platen presses in deepest at the estimated strength, according to the linear solution: its
-    /// displacement towards the platen, and its initial distance to the platen's face, m. Both are 0 for circles, in
-    /// tension, and without an estimate.
+    /// Displacement of a cell's corner towards a platen, and its initial distance to the platen's face, m. The corner is
+    /// the one that comes closest to passing through a platen at the estimated strength, in the linear solution. Both
+    /// values are 0 for circles, in tension, and without an estimate.
     double corner_closing = 0.0, corner_distance = 0.0;
     std::vector<std::string> warnings;  ///< likely problems, one sentence each
 };

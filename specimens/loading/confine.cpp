@@ -21,7 +21,7 @@ namespace crackle {
 namespace {
 
 constexpr int most_rounds = 100, steps_of_relaxation = 2000;
-// Dynamic steps follow a linear solution unless it reduces the largest force to less than this fraction.
+// Dynamic steps follow a linear solution unless it reduces the largest residual force to less than this fraction.
 constexpr double most_left_by_a_solution = 0.5;
 // The stage gives up after most_rounds_in_vain consecutive rounds in which the residual does not fall to half its
 // smallest value.

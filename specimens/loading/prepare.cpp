@@ -47,8 +47,8 @@ constexpr double first_yield_share = 0.02;
 // failed.
 constexpr double first_yield_share_uneven = 0.001;
 
-// Solving 50,000 cells takes 27 s and 3 GB; both grow faster than the number of bodies. Larger worlds than this are
-// therefore solved only on request.
+// Solving 50,000 cells takes 27 s and 3 GB; both grow faster than the number of bodies. Worlds with more bodies than
+// this limit are therefore solved only on request.
 constexpr std::size_t most_bodies_solved = 200'000;
 
 void note_no_small_strain(VirtualTest& test, const std::string& why) {

@@ -19,7 +19,7 @@ namespace crackle {
 RateRule rate_rule_of(const VirtualTest& test, double tolerance);
 
 /// Sets the specimen in motion at the initial loading rate that rate_rule_of() gives. Bodies that carry no load move in
-/// proportion to their height. If the platens are not bonded, all bodies move in this way.
+/// proportion to their height. If the platens are frictional, all bodies do.
 /// @throws InputError if there is no linear solution from which to derive the rate
 void start_by_tolerance(VirtualTest& test);
 

@@ -88,7 +88,7 @@ class SpecimenFiles {
     std::vector<std::pair<std::string, std::string>> files_;
 };
 
-/// @param made  the same test after its specimen was made
+/// Text of case.toml in the output folder. @param made  the same test after its specimen was made
 std::string case_text(const ResolvedCase& test, const ResolvedCase& made, const fs::path& folder) {
     std::ostringstream text;
     text << resolved_case_mark << project_version
@@ -157,8 +157,8 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
     return outcome;
 }
 
-/// Adds to an error, if new results are to replace earlier ones, where the earlier results are and whether they are
-/// complete.
+/// Runs `work`. If it fails while new results are replacing earlier ones, the error also states where the earlier
+/// results are and whether they are complete.
 template <class Work>
 TestOutcome naming_the_fate(const OutputFolder& folder, const Work& work) {
     try {
