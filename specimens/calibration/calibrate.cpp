@@ -30,8 +30,8 @@ constexpr int most_rounds = 10;
 // The search accepts a point if the deviation of every mean is at most this fraction of its tolerance, or at most one
 // standard error.
 constexpr double met_share = 0.5;
-// A round makes no progress if the solution moved by less than no_way half-widths of the design. It also makes none if
-// the largest deviation exceeds no_gain times that of the previous round.
+// A round makes no progress if the solution moves by less than no_way half-widths of the design. The same holds if no
+// point is predicted to reach all targets and the largest deviation exceeds no_gain times that of the previous round.
 constexpr double no_way = 0.15, no_gain = 0.9;
 constexpr double widest_design = 0.8;
 // The search has converged if the best point predicted by the response surfaces is close to the current point: at most

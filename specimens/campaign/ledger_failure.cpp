@@ -21,7 +21,7 @@ namespace {
 // that need not exist.
 constexpr std::array causes{ENOSPC, EDQUOT, EFBIG, ENOMEM, EMFILE, ENFILE, ENOLCK, EROFS, EPERM, EACCES};
 
-/// Error number (errno) that explains a failure of SQLite. @param kept errno kept by SQLite, or 0 @param last errno now
+/// errno that explains a failure. @param kept  errno kept by SQLite, or 0 @param last  errno of the last failed call
 int reason_of(int code, int kept, int last) {
     if (code == SQLITE_FULL) return ENOSPC;
     if (code == SQLITE_IOERR) {

@@ -17,8 +17,8 @@
 namespace crackle {
 namespace {
 
-// Columns of the view `results` before the axes, and those between axes and figures. Some of the latter differ from run
-// to run.
+// Number of columns before the axes in the view `results`, and names of the columns between axes and figures. Some of
+// the named columns differ from run to run.
 constexpr std::size_t axes_begin = 2;  // the columns before the axes are row and test
 constexpr std::array<std::string_view, 5> behind_axes{"seed", "variant", "identity", "state", "processor_seconds"};
 

@@ -14,8 +14,8 @@
 
 namespace crackle {
 
-/// Shard `number` of `of` shards of a plan's tests. Packings are assigned to the shards in turn, or single tests if
-/// there are too few packings. Even a single shard, 1 of 1, has its own ledger.
+/// One of `of` shards of a plan's tests; `number` counts from 1. Packings are assigned to the shards in turn, or single
+/// tests if there are too few packings. Even a single shard, 1 of 1, has its own ledger.
 struct Shard {
     int number = 0, of = 0;
     bool whole() const { return of == 0; }  ///< whether this is the whole plan rather than a shard

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks of a case's keys against each other.
+// Checks whether the keys of a case are consistent with each other.
 // Tested by tests/specimens/case/case_file_test.cpp.
 #pragma once
 

@@ -13,8 +13,8 @@
 // bodies cancel. The tensor with the largest scalar moment during the event is kept. The method follows Hazzard & Young
 // (Int. J. Rock Mech. Min. Sci. 37, 2000; 41, 2004).
 //
-// Forces are recorded after every force pass, so no break is missed. In the pass that detects a break, all other forces
-// are still those before the break. The force of the broken bond itself is taken from the record of the break. The
+// Forces are recorded each time they have been computed, so no break is missed. When a break is detected, all other
+// forces are still those before the break. The force of the broken bond is taken from the record of the break. The
 // window is meaningful only if masses are physical and damping is light. Otherwise particles do not vibrate, and waves
 // are damped out within the source.
 // Tested by tests/specimens/emission/listener_test.cpp.
@@ -100,12 +100,12 @@ class EmissionListener {
     EmissionListener(const World& world, const TestSetup& setup, Emission& emission)
         : world_(world), setup_(setup), emission_(emission), surfaces_(emission.open.size()) {}
 
-    /// Whether listen() must be called after a force pass. @param broke  whether the pass found a break
+    /// Whether listen() must be called after forces were computed. @param broke  whether a break was found
     bool hears(bool broke) const { return emission_.rule.on() && (broke || !emission_.open.empty()); }
 
-    /// Updates the events after a force pass; bodies may have moved since. @param breaks  breaks found in the pass
-    /// @param axial_strain  axial strain at the time of the pass
-    /// @return number of events that ended before the pass; they are the last ones in Emission::events
+    /// Updates the events after forces were computed; bodies may have moved since. @param breaks  breaks found then
+    /// @param axial_strain  axial strain at which forces were computed
+    /// @return number of events that ended before that time; they are the last ones in Emission::events
     std::size_t listen(std::span<const BreakEvent> breaks, double axial_strain);
     /// Ends all open events. @return number of events ended
     std::size_t end_all();

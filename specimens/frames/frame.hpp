@@ -105,7 +105,7 @@ std::string contacts_file(std::int64_t row);
 std::string cracks_file(std::int64_t row);
 /// Name of the file of joint faces, e.g. "joints_00042.vtp"; jointed specimens only.
 std::string joints_file(std::int64_t row);
-/// Whether a file name in frames/ is that of a frame.
+/// Whether a file with this name in frames/ belongs to a frame.
 bool is_picture(const std::string& name);
 
 }  // namespace crackle

@@ -43,7 +43,7 @@ class RowJoiner {
   private:
     Vec2 place(std::size_t end) const { return end % 2 == 0 ? rows_[end / 2].front() : rows_[end / 2].back(); }
 
-    /// The ends at each node, in row order. An end belongs to the first node that is near.
+    /// The ends at each node, in row order. An end belongs to the nearest node within the reach.
     std::vector<std::vector<std::size_t>> ends_by_node() const {
         double length = 0.0;
         for (const std::vector<Vec2>& row : rows_) length += length_of(row) / static_cast<double>(rows_.size());

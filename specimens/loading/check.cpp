@@ -18,7 +18,7 @@
 namespace crackle {
 namespace {
 
-// Duration of the speed measurement: so long that another program cannot halve the result, but short enough to wait.
+// Duration of the speed measurement: another program cannot halve the result, and making the specimen takes longer.
 constexpr double seconds_of_steps = 0.5;
 constexpr int steps_at_once = 64;
 

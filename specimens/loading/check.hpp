@@ -63,9 +63,9 @@ struct TestCheck {
     std::optional<RunEstimate> to_strength;
     RunEstimate to_end;   ///< estimate up to max_axial_strain
     double memory = 0.0;  ///< peak memory of this process up to now, bytes
-    /// Displacement of a cell's corner towards a platen, and its initial distance to the platen's face, m. The corner is
-    /// the one that comes closest to passing through a platen at the estimated strength, in the linear solution. Both
-    /// values are 0 for circles, in tension, and without an estimate.
+    /// Displacement of a cell's corner towards a platen, and its initial distance to the platen's face, m. At the
+    /// estimated strength, this corner comes closest to passing through a platen, according to the linear solution.
+    /// Both values are 0 for circles, in tension, and without an estimate.
     double corner_closing = 0.0, corner_distance = 0.0;
     std::vector<std::string> warnings;  ///< likely problems, one sentence each
 };
