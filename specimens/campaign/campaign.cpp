@@ -37,8 +37,8 @@ using Clock = std::chrono::steady_clock;
 /// Largest number of attempts at a test whose process is killed by a signal. SIGKILL may have a cause other than the
 /// test. Any other signal comes from the program itself and is likely to recur.
 constexpr int most_tries(int signal) { return signal == SIGKILL ? 3 : 2; }
-// The campaign stops after as many consecutive system failures as there are workers, plus this number: further tests
-// would fail in the same way.
+// The campaign stops when the number of consecutive system failures reaches the number of workers plus this value,
+// because further tests would fail in the same way.
 constexpr std::int64_t most_failures_in_a_row = 3;
 
 std::string host_name() {

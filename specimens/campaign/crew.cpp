@@ -53,8 +53,8 @@ bool receive_all(int from, void* bytes, std::size_t size) {
     return true;
 }
 
-/// Closes all descriptors of a worker except its socket `line`. An inherited lock would outlive the process that took
-/// it, and so would the sockets of other workers.
+/// Closes all file descriptors of a worker except its socket `line`. Otherwise, a worker would keep inherited locks and
+/// the sockets of other workers open after their own processes have ended.
 void keep_only(int line) {
     constexpr unsigned first = STDERR_FILENO + 1;
     const auto own = static_cast<unsigned>(line);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A crew of worker processes, each of which handles one work item (`piece`) at a time. A piece that crashes its process
+// A crew of worker processes, each of which handles one work item (`piece`) at a time. An item that crashes its process
 // or takes too long is reported and does not affect the others.
 //
 // Workers are forked from the calling process and see its data as of that time; it must not have started any threads

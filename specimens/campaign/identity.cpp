@@ -40,7 +40,8 @@ std::string hash_of(const std::string& text) {
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-/// Lines "key = value" of the wanted keys. The length of each value precedes it, so that the text is unambiguous.
+/// Version of the results, then a line "KEY LENGTH VALUE" for each key that `wanted` accepts. The length of the value
+/// makes the text unambiguous.
 template <class Wanted>
 std::string listed(const ResolvedCase& test, FileHashes& files, const Wanted& wanted) {
     std::string text = fmt::format("results {}\n", results_version);

@@ -162,7 +162,7 @@ Numbers numbers_of(const WeightedPoints& points) {
     return {line.intercept, line.slope, friction_angle(line.slope), cohesion(line), law.strength, law.m};
 }
 
-/// Computes intervals by bootstrap: draws as many packings as there are, with replacement, and fits again.
+/// Computes intervals by bootstrap: fits samples of packings of the original size, drawn with replacement.
 /// @param numbers_with  fits the packings whose indices are given
 void state_by_drawing(const FittedNumbers& fitted, std::size_t packings, auto&& numbers_with) {
     std::mt19937_64 generator(bootstrap_seed);

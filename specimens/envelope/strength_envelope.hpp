@@ -8,11 +8,11 @@
 // Both are fitted by least squares in σ1. The scatter between packings is assumed to be proportional to the strength,
 // with the same coefficient of variation at every confinement (pooled). The weight of a test is therefore 1/(mean
 // strength at its confinement)². The Hoek-Brown fit starts from the straight line of (σ1 - σ3)² against σ3, with slope
-// m C and intercept C². Intervals come from 10,000 bootstrap fits. Each draws as many packings as there are, with
-// replacement and with all their tests. The percentiles are chosen so that the interval is as wide as Student's t
-// (statistics/mean.hpp). Since bootstrap draws cannot leave the range of the packings, fewer than eight packings get an
-// interval from Student's t and the jackknife (fits that each leave out one packing). With only two packings, the
-// intervals are wide.
+// m C and intercept C². Intervals come from 10,000 bootstrap fits. Each uses a sample of packings of the original size,
+// drawn with replacement and with all their tests. The percentiles are chosen so that the interval is as wide as one
+// from Student's t (statistics/mean.hpp). Bootstrap samples cannot leave the range of the packings. For fewer than
+// eight packings, intervals therefore come from Student's t and the jackknife (fits that each leave out one packing).
+// With only two packings, they are wide.
 // All stresses have one unit, N/m or Pa, compression positive.
 // Tested by tests/specimens/envelope/strength_envelope_test.cpp.
 #pragma once

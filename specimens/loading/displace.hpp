@@ -11,8 +11,8 @@
 namespace crackle {
 
 /// Moves all bodies, including platens, and updates the shear springs, in steps of the integrator without forces. Each
-/// of these moves bodies by at most a tenth of the displacement allowed in a step. All velocities are 0 afterwards;
-/// time and step number do not change.
+/// step moves bodies by at most a tenth of the displacement allowed in a step. All velocities are 0 afterwards; time
+/// and step number do not change.
 /// @param way  displacement of each body, m and rad
 void displace(World& world, const std::vector<BodyMotion>& way);
 

@@ -53,7 +53,7 @@ FileOptions file_options(const VirtualTest& test) {
             .jointed = !test.setup.bonds.traces.empty()};
 }
 
-/// Sets the number of threads: at most as many as are requested and worthwhile.
+/// Sets the number of threads to `asked`, limited by options.most_threads and by the number of bodies.
 void choose_threads(World& world, const TestOptions& options, int asked, const TestHooks& hooks) {
     const auto worth = static_cast<std::int64_t>(world.bodies.size()) / options.fewest_bodies_a_thread;
     const int most = static_cast<int>(std::clamp<std::int64_t>(worth, 1, options.most_threads));
