@@ -125,7 +125,7 @@ class Calibration {
         hooks_.stage("  off by: " + text);
     }
 
-    /// Reports in how many packings a target has no peak, because the stress was still increasing when the test ended.
+    /// Reports the number of packings without a peak, in which the stress was still increasing when the test ended.
     void say_without_peak(const Measurements& tests, const VectorXd& x, PackingRange packings) const {
         if (!hooks_.stage) return;
         for (std::size_t t = 0; t < rock_.targets.size(); ++t) {

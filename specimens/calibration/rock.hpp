@@ -56,7 +56,7 @@ struct FreeKey {
     /// Another free key: the ratio to its value is calibrated. If empty, the key's own value is calibrated.
     std::string of = {};
     double from = 0.0, to = 0.0, start = 0.0;
-    bool start_given = true;  ///< false: `start` is the middle of the bounds; starting_values() may replace it
+    bool start_given = true;  ///< if false, `start` is the middle of the bounds, and starting_values() may replace it
     std::string where = {};
 
     /// Whether the key is searched on a logarithmic scale.

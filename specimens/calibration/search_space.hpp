@@ -16,7 +16,7 @@ struct SearchSpace {
 
     const Rock& rock;
     Eigen::Index keys = 0, targets = 0;
-    Eigen::VectorXd low, high, start;  ///< bounds and start of the variables
+    Eigen::VectorXd low, high, start;  ///< bounds and start values of the variables
     Eigen::VectorXd logs, widths;      ///< logarithm of each target, and of 1 + its tolerance
     /// Indices of keys and targets. The targets in linear_targets are moduli and depend only on linear_keys. Without
     /// elastic keys or without moduli, both lists are empty. The other_keys are fitted to the other_targets; without

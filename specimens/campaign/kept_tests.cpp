@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t identity_digits = 12, all_digits = 32;
 
-/// Digits of the identity in the name of an entry in curves/ or tests/.
+/// Leading digits of a test's identity, taken from the name of its file in curves/ or its folder in tests/.
 std::string digits_of(const std::string& name) {
     const std::size_t dash = name.rfind('-');
     if (dash != std::string::npos) return name.substr(dash + 1);

@@ -41,7 +41,7 @@ class KeptTests {
     /// The curve of a finished test; empty if no curve was kept.
     /// @throws InputError if the file is not as the test wrote it; the message names the file and how to restore it
     std::optional<Curve> read_curve(const std::string& identity) const;
-    /// Checks whether all files to be kept of a finished test exist and are as the test wrote them.
+    /// Checks whether all files that should be kept of a finished test exist and are unchanged.
     /// @return description of what is missing or changed; empty if nothing is
     std::string fault_of(const std::string& identity, Keep keep) const;
 

@@ -156,7 +156,7 @@ RowResult run_row(const ResolvedCase& test, const RowNames& names, Keep keep, co
         throw;
     } catch (const TestInterrupted&) {
         throw;
-    } catch (const UnreadableFile& error) {  // the file existed when the plan was checked
+    } catch (const UnreadableFile& error) {  // the file could be read when the plan was checked
         went_wrong(row_failed, 4, error.what());
     } catch (const InputError& error) {
         went_wrong(row_refused, 2, error.what());

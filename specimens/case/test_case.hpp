@@ -135,8 +135,8 @@ struct TestCase : WrittenPlaces {
     struct JointSet {
         std::string name;
         JointOrientation orientation = JointOrientation::fixed;
-        std::optional<double> angle, angle_deviation, kappa;  // degrees counter-clockwise from +x; degrees; -
-        std::optional<double> dip, dip_direction, fisher_k;   // degrees; degrees from north, clockwise; -
+        std::optional<double> angle, angle_deviation, kappa;  // angles in degrees, counter-clockwise from +x
+        std::optional<double> dip, dip_direction, fisher_k;   // degrees; dip direction clockwise from north
         JointLength length = JointLength::persistent;
         std::optional<double> length_mean, length_deviation;  // m
         std::optional<double> length_min, length_max;         // m

@@ -95,7 +95,7 @@ std::optional<FirstEvent> first_of(const std::vector<LinearBond>& bonds, double 
     return first;
 }
 
-/// Sign of the linear solution, which has a tensile strain of 1, relative to the direction of loading.
+/// Converts the linear solution, whose strain is tensile, to the direction of loading: -1 in compression, otherwise 1.
 double sense_of(const PlacedApparatus& apparatus) { return apparatus.compression ? -1.0 : 1.0; }
 
 /// Rates at all points per unit of strain in the direction of loading.

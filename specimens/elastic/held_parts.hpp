@@ -40,7 +40,7 @@ inline double nominal_stress(const PlacedApparatus& apparatus, const std::vector
     return 0.5 * sum / apparatus.section;
 }
 
-/// The bodies of all parts.
+/// Bodies of all parts that hold or drive the specimen.
 inline std::vector<BodyIndex> bodies_of_parts(const PlacedApparatus& apparatus) {
     std::vector<BodyIndex> bodies;
     bodies.reserve(apparatus.parts.size());

@@ -53,7 +53,7 @@ struct Frame {
     std::vector<double> shear_force;
     std::vector<ContactState> states;  ///< states of the bonds, in the order of BondRecord::points
     LooseContacts loose;               ///< contacts that were never bonded
-    /// Number of cracks at this moment: the first ones in ContactHistory::cracks.
+    /// Number of cracks at this moment; they are the first entries of ContactHistory::cracks.
     std::uint64_t cracks = 0;
     std::vector<JointForce> joint_forces;  ///< ordered by bond
 

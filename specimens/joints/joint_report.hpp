@@ -34,7 +34,7 @@ struct SourceReport {
     double scan_line = none;
     std::optional<Asked> amount;  ///< amount requested for a set; empty if none
     double mean_length = none;    ///< mean length before clipping of the traces whose midpoint lies in the box, m
-    /// Requested values: m, degrees from 0 to 180, dimensionless.
+    /// Requested mean length (m), direction (degrees from 0 to 180) and concentration (dimensionless).
     double mean_length_asked = none, direction_asked = none, kappa_asked = none;
     /// Length of the longest trace in the box, m.
     double longest = 0.0;

@@ -20,7 +20,7 @@ namespace crackle {
 /// Distribution of lengths, m.
 class LengthLaw {
   public:
-    /// A single length. @param mean  m
+    /// All lengths are equal. @param mean  m
     static LengthLaw fixed(double mean) { return {Kind::fixed, mean, 0.0, 0.0}; }
     /// Uniform distribution. @param mean  m @param deviation  half of the range, m
     static LengthLaw uniform(double mean, double deviation) { return {Kind::uniform, mean, deviation, 0.0}; }

@@ -38,7 +38,7 @@ struct Section {
 /// Distribution of the directions of traces.
 class OrientationLaw {
   public:
-    /// A single direction. @param mean  rad
+    /// All directions are equal. @param mean  rad
     static OrientationLaw fixed(double mean);
     /// Uniform distribution. @param mean  rad @param deviation  half of the range, rad
     static OrientationLaw uniform(double mean, double deviation);

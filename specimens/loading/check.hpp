@@ -2,8 +2,8 @@
 // Predicts the result and cost of a case without loading it. The check reports small-strain moduli, the first bonds to
 // fail, a rough strength estimate, the number of steps, run time and memory, and likely problems.
 //
-// The strength estimate is E times a strain. At this strain, a given fraction of the breakable bonded points is broken
-// according to the linear solution (bond_break_share). The fraction was calibrated on supplied cases and others;
+// The strength estimate is Young's modulus times the strain at which a given fraction of the breakable bonded points is
+// broken according to the linear solution (bond_break_share). The fraction was calibrated on supplied cases and others;
 // specimens/loading/METHODS.md lists them with the errors of the estimate.
 // Tested by tests/specimens/loading/check_test.cpp.
 #pragma once

@@ -90,7 +90,7 @@ CompanionFigures what_it_did(const VirtualTest& test, const VirtualTest& other) 
     return c;
 }
 
-/// @return empty if interrupted
+/// Runs one companion. @return its results; empty if interrupted
 std::optional<CompanionFigures> run_one(const CompanionPlan& plan, const VirtualTest& test, const TestHooks& hooks) {
     TestHooks quiet;
     quiet.interrupted = hooks.interrupted;

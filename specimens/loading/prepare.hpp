@@ -21,7 +21,7 @@ namespace crackle {
 /// frictional, a copy with bonded platens.
 using SolutionVisitor = std::function<void(const World&, const TestSetup&, const Moduli&)>;
 
-/// A test whose bonds have been made, and what it was made from.
+/// A test whose bonds have been made, with the specimen and the platens from which it was made.
 struct BondedTest {
     VirtualTest test;
     Specimen specimen;
