@@ -40,8 +40,7 @@ std::string hash_of(const std::string& text) {
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
-/// Version of the results, then a line "KEY LENGTH VALUE" for each key that `wanted` accepts. The length of the value
-/// makes the text unambiguous.
+/// Results version, then a line "KEY LENGTH VALUE" for each key that `wanted` accepts; LENGTH avoids ambiguity.
 template <class Wanted>
 std::string listed(const ResolvedCase& test, FileHashes& files, const Wanted& wanted) {
     std::string text = fmt::format("results {}\n", results_version);
