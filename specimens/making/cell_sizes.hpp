@@ -3,8 +3,8 @@
 //
 // A cell of area A before the inset has the equivalent diameter D = sqrt(4A/π). For N cells that fill a box of width W
 // and height H, with mean diameter D̄ and coefficient of variation s, D̄² (1 + s²) = 4 W H/(π N) holds exactly. Scaling
-// all radii therefore gives the requested mean. The spread of the cells is related to that of the radii by measurements
-// (specimens/making/METHODS.md).
+// all radii therefore gives the requested mean. How the spread of the cells depends on the spread of the radii has been
+// measured (specimens/making/METHODS.md).
 // Tested by tests/specimens/making/cell_sizes_test.cpp.
 #pragma once
 
@@ -23,7 +23,7 @@ struct CellSizes {
 };
 
 /// Default gap between cells, relative to the mean cell size sqrt(area/cells). At 0.02, 99 % of the faces have both
-/// contact points (solver/MODEL.md 5.2), and no cell of a usual packing is destroyed.
+/// contact points (solver/MODEL.md 5.2), and the inset destroys no cell of a usual packing.
 inline constexpr double derived_gap_share = 0.02;
 /// Gap for a case that states none, m. @param area  area of the box, m2 @param cells  number of cells in the box
 double derived_gap(double area, double cells);

@@ -29,7 +29,7 @@ Scene disordered_discs(const DisorderedDiscs& request, const Material& material)
 /// Request for polygons on a perturbed grid.
 struct ShakenCells {
     int columns = 4, rows = 4;  ///< number of grid cells along x and y; about half of them are split into two triangles
-    double size = 0.04;         ///< m, grid spacing
+    double size = 0.04;         ///< grid spacing, m
     double gap = 1e-3;  ///< distance between facing edges, m: every cell is inset by half of it; also Scene::thick
     /// Largest displacement of a grid node along each axis, relative to the grid spacing; below 0.25.
     double shake = 0.2;

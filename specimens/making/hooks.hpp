@@ -44,13 +44,13 @@ struct TestHooks {
     /// May be called by any thread; once it has returned true, it must keep doing so.
     std::function<bool()> interrupted;
     std::function<void(const std::string& name, const Scene&)>
-        made;  ///< called with the circles, then with the polygons, as they are tested
+        made;  ///< called after the cut: with the circles, if any, then with the polygons, if any
 
-    /// Called during loading, when the current forces are known and nothing has moved yet: at each row from which peak
-    /// and failure are determined, or every `look_every` steps. World::bonds.events contains the breaks since the last
-    /// call. The callback may set the platen's speed (specimens/loading/own_loading.hpp).
+    /// Called during loading, when the current forces are known and nothing has moved yet: at each row of the curve,
+    /// including rows that are not written, or every `look_every` steps. World::bonds.events contains the breaks since
+    /// the last call. The callback may set the platen's speed (specimens/loading/own_loading.hpp).
     std::function<AfterLook(VirtualTest&)> look;
-    std::int64_t look_every = 0;  ///< number of steps between calls of `look`; 0: called at those rows
+    std::int64_t look_every = 0;  ///< number of steps between calls of `look`; 0: called at rows of the curve
 
     /// Returns the packing for a request, either from a store or made by calling `make`. If the callback is empty,
     /// every packing is made.

@@ -57,7 +57,7 @@ Box box_of(const Scene& scene, const Body& body) {
     return box;
 }
 
-// Largest number of pixels read into memory, 600 MB. A compressed blank image of a few kilobytes can have more.
+// Largest number of pixels read into memory; they take 600 MB. A blank image of a few kilobytes can have more.
 constexpr std::uint64_t most_pixels = 100'000'000;
 
 // Cairo's limit for width and height.
@@ -108,8 +108,8 @@ bool lacks_room(std::string_view bytes) {
     return cairo_surface_status(surface.get()) == CAIRO_STATUS_NO_MEMORY;
 }
 
-/// Describes the defect of a PNG file that could not be read, because Cairo reports insufficient memory for every
-/// defect. Empty if memory is insufficient.
+/// Describes the defect of a PNG file that Cairo could not read. Cairo itself reports every defect as insufficient
+/// memory. Empty if memory really is insufficient.
 std::string flaw_of_png(std::string_view bytes) {
     if (!bytes.starts_with(signature)) return "other data";
     constexpr std::size_t frame = 12;  // bytes of a chunk besides its data: length, name, checksum

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A PNG image whose colours are labels. It covers a box: the lowest pixel row is at y1, the left column at x1.
+// A PNG image whose colours are labels. It covers the domain: the bottom row of pixels is at y1, the left column at x1.
 // Tested by tests/specimens/making/minerals_test.cpp.
 #pragma once
 

@@ -76,8 +76,8 @@ void bring_to_rest(Scene& scene, std::vector<std::string>& notices) {
     }
 }
 
-/// Checks that the bodies are all circles (or clumps) or all polygons, because the two kinds are bonded to platens
-/// differently.
+/// Determines the kind of the specimen. All bodies must be circles (or clumps), or all must be polygons, because the
+/// two are bonded to platens differently.
 void classify(Specimen& specimen, const Places& places) {
     std::size_t circles = 0, polygons = 0, triangles = 0;
     for (const Body& body : specimen.scene.bodies) {
@@ -116,7 +116,7 @@ void measure_circles(Specimen& specimen) {
 }
 
 // Deviations of the cells from the requested sizes above which a notice is given. The limit for the spread is twice the
-// error of the fit.
+// error of the measured spreads in cell_sizes.cpp.
 constexpr double noticed_diameter_share = 0.01, noticed_spread = 0.02;
 
 /// Adds the sizes of the cells to the description of the packing.
@@ -134,7 +134,7 @@ void record_cells(Specimen& specimen, const parts::Packing& packing, const CellS
     specimen.notices.push_back(text + "; more circles would come closer to the requested sizes");
 }
 
-/// Adds traces to a specimen of circles; circles on a trace get flat faces along it.
+/// Adds the traces of joints to a specimen of circles; circles on a trace get flat faces along it.
 void joint_circles(Specimen& specimen, const JointRequest& asked, const Places& places, const TestHooks& hooks) {
     Scene& scene = specimen.scene;
     const auto refuse = [&](const char* found) {
@@ -165,8 +165,8 @@ void measure_polygons(Specimen& specimen) {
     specimen.right_ids = polygons_on_side(specimen.scene, Wall::right);
 }
 
-/// Replaces the materials with those of the minerals, followed by [material], which the platens keep. Each grain gets
-/// its mineral's material.
+/// Replaces the scene's materials with one for each mineral, followed by [material], which the platens keep. Each grain
+/// gets its mineral's material.
 void take_minerals(Specimen& specimen, const parts::Minerals& asked, const Places& places, const TestHooks& hooks) {
     Scene& scene = specimen.scene;
     specimen.platen_material = scene.bodies.front().material;
@@ -189,7 +189,7 @@ void take_minerals(Specimen& specimen, const parts::Minerals& asked, const Place
     hooks.report_stage(mineral_shares_text(specimen.minerals));
 }
 
-/// Mean size of the bodies to be made, m. @param mesh  the mesh to be made; null if the bodies are tested as they are
+/// Mean size of the tested bodies, m. @param mesh  the requested mesh; null if the bodies are tested as they are
 double particle_size(const Specimen& specimen, const parts::Mesh* mesh) {
     const Domain& box = specimen.scene.domain;
     if (mesh == nullptr && !specimen.polygons) return 2.0 * specimen.mean_radius;

@@ -80,7 +80,7 @@ double derived_mesh_thick(const Specimen& specimen, const parts::Mesh& asked, co
     return thick;
 }
 
-/// Meshes the circles, and reports what becomes of the traces of joints.
+/// Meshes the circles, and reports how the mesh follows the traces of joints.
 Mesh mesh_along_joints(Specimen& specimen, const MeshRequest& request, const JointNetwork& joints, const Places& places,
                        const TestHooks& hooks) {
     const Scene& circles = specimen.scene;

@@ -14,7 +14,7 @@ namespace crackle {
 
 /// Places joints among the particles, and reports how their traces were cleaned.
 JointNetwork joints_of(Specimen& specimen, const JointRequest& asked, const TestHooks& hooks);
-/// Lists the traces of the joints in the specimen.
+/// Records the name and length of each trace in Specimen::traces.
 void name_traces(Specimen& specimen, const JointNetwork& joints);
 
 /// Cells meshed from circles, without gaps between the cells. @throws InputError; TestInterrupted

@@ -10,7 +10,7 @@
 namespace crackle {
 
 /// Packs the circles that a case requests, or obtains the packing through hooks.keep_packing if that is set.
-/// @param places  where the values were written, for errors
+/// @param places  where the case states its values, for error messages
 /// @throws InputError that names the case's key if the circles cannot be packed; TestInterrupted
 Packing packing_of(const parts::Particles& particles, int threads, const Places& places, const TestHooks& hooks);
 

@@ -29,13 +29,13 @@ struct Specimen {
     double mesh_thick = 0.0;
     double mesh_gap = 0.0;  ///< m, gap between neighbouring polygons; 0 for circles
     Shape shape;            ///< the shape that was cut from the packing
-    /// Size of the tested shape, m; if the whole packing is tested, that of the domain.
+    /// Size of the tested shape, m; the size of the domain if the whole packing is tested.
     double width = 0.0, height = 0.0;
     double area = 0.0;      ///< area of the tested shape, m2
     double particle = 0.0;  ///< m, mean size: square root of a cell's area, or diameter of a circle
     std::vector<std::pair<std::string, double>>
         packing;                        ///< quantities that describe the packing, by name; empty for a particle file
-    double mean_radius = 0.0;           ///< mean radius, m, of the circles, or of those from which polygons were meshed
+    double mean_radius = 0.0;           ///< mean radius, m, of the circles, or of the circles that were meshed
     std::int64_t segments = 0;          ///< number of edges of all polygons
     std::int64_t centres = 0;           ///< number of circles from which polygons were meshed; 0 if none were meshed
     std::vector<SpecimenTrace> traces;  ///< ordered by index
@@ -43,7 +43,7 @@ struct Specimen {
     parts::Minerals mineral_parts;      ///< minerals of the rock, if it has any
     /// Minerals in the order in which the case lists them; empty for a rock with a single material.
     std::vector<MineralShare> minerals;
-    /// m, by body of the scene: the centre around which a Voronoi cell was formed; NaN for triangles, and for cells
+    /// The centre around which each Voronoi cell was formed, m, by body of the scene; NaN for triangles, and for cells
     /// that traces have cut. Empty if no polygons were meshed.
     std::vector<Vec2> cell_centres;
     int platen_material = 0;  ///< index of [material] in scene.materials

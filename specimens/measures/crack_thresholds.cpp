@@ -63,7 +63,7 @@ double departure(Rows rows, double quiet_stress, Strain&& strain) {
     const double mean = sum / static_cast<double>(quiet);
     for (const CurveRow& row : rows.first(quiet)) squares += (strain(row) - mean) * (strain(row) - mean);
     const double band = deviations_of_noise * std::sqrt(squares / static_cast<double>(quiet - 1));
-    // Opening cracks make the area larger than that of an elastic specimen.
+    // If cracks open, the area is larger than in an elastic specimen.
     std::size_t last = rows.size();
     while (last > quiet && strain(rows[last - 1]) < mean - band) --last;
     return last < rows.size() ? rows[last].axial_stress : none;
@@ -86,7 +86,7 @@ double farthest_from_chord(Rows rows) {
     return std::isfinite(slope) ? farthest_below(rows, slope) : none;
 }
 
-/// Inelastic part of the lateral strain at equally spaced stresses between that of the first row and the largest one.
+/// Inelastic part of the lateral strain at equally spaced stresses from the first row's stress to the largest stress.
 /// Each value is taken where the stress is first reached.
 /// @param compliance  elastic lateral strain divided by the stress
 std::array<double, opening_places + 1> inelastic_lateral_strain(Rows rows, double compliance, double largest) {
@@ -116,8 +116,8 @@ double opening(Rows rows, double compliance) {
     const auto strains = inelastic_lateral_strain(rows, compliance, largest);
     double all = 0.0;
     for (const double strain : strains) all += strain * strain;
-    // Sum of squared residuals of the fit c max(0, k - place)² with the best c, which must be positive: cracks widen
-    // the specimen.
+    // Sum of squared residuals of the fit c max(0, k - place)² with the best c, which must be positive because cracks
+    // widen the specimen.
     const auto left = [&](std::size_t place) {
         double fits = 0.0, squares = 0.0;
         for (std::size_t k = place + 1; k <= opening_places; ++k) {

@@ -8,8 +8,8 @@
 // given as a second value.
 //
 // Crack initiation has no such distinct feature, so it is determined in six ways:
-//   opening             the stress beyond which the lateral strain exceeds the elastic one, ν(σ-p)/E with the exact E
-//                       and ν, by the parabola c (σ-σ_ci)² that fits best up to the largest ε_A; preferred
+//   opening             the stress σ_ci beyond which the lateral strain exceeds its elastic value ν(σ-p)/E, with the
+//                       exact E and ν, by the parabola c (σ-σ_ci)² that fits best up to the largest ε_A; preferred
 //   lateral compliance  the stress beyond which the lateral strain grows at more than 1.2 times its elastic rate
 //                       (inverse tangent lateral stiffness: Ghazvinian et al., 46th US Rock Mech. Symp., 2012). It is
 //                       found without a window, as the stress up to the largest ε_A at which the lateral strain is
@@ -25,7 +25,7 @@
 // `lateral compliance` do not depend on the peak.
 //
 // A value that cannot be determined is NaN. This occurs if there are no side particles, if no bond breaks up to the
-// largest ε_A, or if the largest ε_A is among the first ten rows. The break of counts needs ten bursts of breakages.
+// largest ε_A, or if the largest ε_A is among the first nine rows. The break of counts needs ten bursts of breakages.
 // Stresses are in N/m, or Pa in area units.
 // Tested by tests/specimens/measures/crack_thresholds_test.cpp.
 #pragma once
@@ -47,7 +47,7 @@ struct CrackThresholds {
     double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
     double crack_strain = std::numeric_limits<double>::quiet_NaN();
     double lateral_strain = std::numeric_limits<double>::quiet_NaN();
-    double damage = std::numeric_limits<double>::quiet_NaN();  ///< crack damage stress, as defined above
+    double damage = std::numeric_limits<double>::quiet_NaN();  ///< crack damage stress (preferred estimate)
     double damage_error = std::numeric_limits<double>::quiet_NaN();
     double damage_strain = std::numeric_limits<double>::quiet_NaN();  ///< axial strain at crack damage
     double reversal = std::numeric_limits<double>::quiet_NaN();       ///< stress at the largest area strain

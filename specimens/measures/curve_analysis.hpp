@@ -32,7 +32,7 @@ Tangent initial_tangent(std::span<const CurveRow> rows, std::int64_t peak_row, b
 Tangent tangent_at_half_peak(std::span<const CurveRow> rows, std::int64_t peak_row, bool compression);
 
 /// Tangent over the window below the peak in which a straight line fits best. The window spans 30 % of the peak stress
-/// and may start at any hundredth of it (ISRM's average modulus, Int. J. Rock Mech. Min. Sci. 16, 1979).
+/// and may start at any whole percent of it (ISRM's average modulus, Int. J. Rock Mech. Min. Sci. 16, 1979).
 Tangent tangent_of_straightest(std::span<const CurveRow> rows, std::int64_t peak_row, bool compression);
 
 /// ISRM's secant modulus, and the ratio of the strains, from the first row to where the stress first reaches half the
@@ -40,11 +40,11 @@ Tangent tangent_of_straightest(std::span<const CurveRow> rows, std::int64_t peak
 Tangent secant_to_half_peak(std::span<const CurveRow> rows, std::int64_t peak_row, bool compression);
 
 /// Slope after the peak, from where the stress has first fallen to 90 % of the peak to where it has fallen to 60 %. It
-/// is negative if the strain increases meanwhile (class I), and NaN if the stress does not fall that far.
+/// is NaN if the stress does not fall that far, or if the slope is not negative.
 Tangent tangent_beyond_peak(std::span<const CurveRow> rows, std::int64_t peak_row, bool compression);
 
 /// Brittleness index (M - E)/M, where M is the post-peak modulus: rupture energy divided by stored energy. It is 1 for
-/// a vertical drop, and larger the more gently the curve falls (Tarasov & Potvin, IJRMMS 59, 2013).
+/// a vertical drop, and larger if the curve falls more gently (Tarasov & Potvin, IJRMMS 59, 2013).
 double brittleness_index(double youngs_modulus, double modulus_beyond_peak);
 
 /// Largest difference between the stresses of the two platens up to the peak, divided by the peak stress. It shows the

@@ -29,7 +29,7 @@ LoadingCycle cycle_of(std::span<const CurveRow> rows, bool ended, bool compressi
                });
     c.loop = ended ? 0.0 : std::numeric_limits<double>::quiet_NaN();
     for (std::size_t k = 1; k < rows.size(); ++k) {
-        // The last piece is cut off where the loop closes.
+        // The last segment is cut at the strain at which the loop closes.
         const CurveRow &a = rows[k - 1], &b = rows[k];
         if (a.axial_strain == b.axial_strain) continue;
         const double to = std::min(b.axial_strain, turn.axial_strain);

@@ -6,11 +6,11 @@
 // strain or slightly before. The values of a cycle refer to its start and to its lowest strain (Martin & Chandler, Int.
 // J. Rock Mech. Min. Sci. 31, 1994):
 //       modulus            (stress - stress at the lowest strain)/(strain - lowest strain)
-//       Poisson's ratio    the same difference of lateral strain divided by that of axial strain, widening positive
-//       permanent strain   lowest strain - stress there/modulus: the strain that would remain at zero stress
+//       Poisson's ratio    lateral strain change/axial strain change between the same two rows, widening positive
+//       permanent strain   lowest strain - (stress at it)/modulus: the strain that would remain at zero stress
 //       loss               work that is not recovered: the loop's area times the specimen's section and length
-// Damage is 1 - modulus/E, where E is the modulus of the intact specimen by the linear solution. If no bond has broken
-// by the end of the cycle, damage is set to 0: at the reversal the platens' stresses include dashpot and inertia
+// Damage is 1 - modulus/E, where E is the modulus of the intact specimen from the linear solution. If no bond has
+// broken by the end of the cycle, damage is set to 0: at the reversal the platens' stresses include dashpot and inertia
 // forces, which are not damage. If, in addition, nothing has slid or come into contact, the linear solution still
 // holds: the modulus is E and the permanent strain is 0. For other cycles the inertia error is given. It is half the
 // difference between the stresses of the two platens, summed over the start and the lowest strain, and divided by the
@@ -28,7 +28,7 @@ namespace crackle {
 
 /// One cycle of unloading and reloading.
 struct LoadingCycle {
-    double strain = 0.0, stress = 0.0;          ///< strain and stress at which unloading starts; N/m
+    double strain = 0.0, stress = 0.0;          ///< strain, and stress in N/m, when unloading starts
     double low_strain = 0.0, low_stress = 0.0;  ///< strain and stress at the lowest strain
     double modulus = 0.0;                       // N/m
     double poissons_ratio = 0.0;
@@ -36,18 +36,18 @@ struct LoadingCycle {
     double loop = 0.0;           ///< area of the hysteresis loop, N/m; NaN if the curve ends within the cycle
     double modulus_error = 0.0;  ///< relative error, from the difference between the stresses of the two platens
     bool unbroken = false;       ///< whether no bond had broken by the end of the cycle
-    bool linear = false;         ///< whether, up to then, no contact had slid or formed either
+    bool linear = false;         ///< whether, in addition, no contact had slid or formed by the end of the cycle
 };
 
 /// The cycles in order; strains and stresses are positive in the direction of loading.
 std::vector<LoadingCycle> find_cycles(std::span<const CurveRow> rows, bool compression);
 
-/// The rows whose strain exceeds that of all rows before them: the curve without its cycles.
+/// The rows whose strain exceeds the strain of all earlier rows: the curve without its cycles.
 struct FirstLoading {
     std::vector<CurveRow> rows;
     std::int64_t peak_row = -1;  ///< index of the peak in these rows
 };
-/// @param peak_row  index of the peak in `rows`, at which the strain exceeds that of all rows before it; -1: no peak
+/// @param peak_row  index of the peak in `rows`, where the strain exceeds the strain of all earlier rows; -1: no peak
 FirstLoading first_loading(std::span<const CurveRow> rows, std::int64_t peak_row);
 
 }  // namespace crackle

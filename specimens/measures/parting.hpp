@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a specimen broke apart, which shows whether its strength is that of the rock or of the platens' bonds.
+// Where a specimen broke apart. This shows whether the rock or the bonds to the platens limit its strength.
 // Tested by tests/specimens/measures/parting_test.cpp.
 #pragma once
 

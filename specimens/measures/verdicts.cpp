@@ -20,7 +20,7 @@ constexpr double fewest_across = 20.0;
 // Smallest stress drop that counts as the first drop, relative to the largest stress before it.
 constexpr double first_drop = 0.01;
 constexpr double centre_share = 0.5, jaw_share = 0.8,
-                 jaw_energy = 0.25;  // limits: the first two relative to the radius, the third to the energy
+                 jaw_energy = 0.25;  // limits: two distances relative to the radius, and a fraction of the energy
 // Limits for the largest crack: slant in degrees; extent relative to the diameter or height.
 constexpr double largest_slant = 20.0, split_share = 0.5;
 constexpr double midspan_share = 0.25;  // largest distance of a crack from midspan, relative to the height

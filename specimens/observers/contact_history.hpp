@@ -3,7 +3,7 @@
 //
 // The step of each break is known exactly. Contacts are only updated at curve rows, of which a test has at least 2000,
 // whether they are written to curve.csv or not. The age of a contact counts from the row in which it was first seen. A
-// contact that opens and closes between two rows counts as uninterrupted. Steps between rows take no extra time.
+// contact that opens and closes between two rows counts as uninterrupted. Steps between rows cost no extra time.
 #pragma once
 
 #include <array>
@@ -60,7 +60,7 @@ struct ContactHistory {
 
 /// Records a break.
 void note_break(const BondRecord& bonds, const BreakEvent& event, ContactHistory& history);
-/// Records the points that currently touch without a bond. Requires compute_forces(). Takes a time proportional to the
+/// Records the points that currently touch without a bond. Requires compute_forces(). The cost is proportional to the
 /// number of listed points.
 void look_at_contacts(const World& world, ContactHistory& history);
 

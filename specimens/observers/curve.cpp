@@ -21,7 +21,7 @@ constexpr double least_sliding_force = 1e-9;
 
 namespace {
 
-/// Forces of the specimen on its platens, without those of the membrane.
+/// Forces of the specimen on its platens, without the forces of the membrane.
 PartForces specimen_forces(const World& world, const PlacedApparatus& apparatus) {
     PartForces forces = forces_on_parts(world, apparatus);
     if (apparatus.confined()) {

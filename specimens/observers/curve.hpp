@@ -4,8 +4,8 @@
 // Stress is the force of the specimen on a platen (dashpots included), divided by the initial width. Axial strain is
 // the displacement of the upper platen divided by the initial height. Both are positive in the direction of loading:
 // compressive in compression, tensile in tension. Lateral strain is the change in distance between the mean x of the
-// left and right side particles, divided by its initial value; positive when the specimen widens. Strictly 2D: stress
-// in N/m.
+// left and right side particles, divided by its initial value; positive when the specimen widens. The model is strictly
+// 2D, so stress is in N/m.
 // Tested by tests/recount/recount_test.py.
 #pragma once
 
@@ -44,7 +44,7 @@ struct CurveRow {
     double gauge_strain = 0.0;
     std::int64_t bonds_slid = 0;
     double confinement_work =
-        0.0;  ///< J, work of membrane, walls or normal force; a column only in tests that have these
+        0.0;  ///< J, work of membrane, walls or normal force; written only in tests with one of these
     std::int64_t contacts_gained =
         0;  ///< points that touch without a bond; kept for the summary, not written as a column
 

@@ -14,7 +14,7 @@
 
 namespace crackle {
 
-/// A column of events.csv: either one that every record of breaks has (solver/measure/breaks.hpp), or one that is added
+/// A column of events.csv: either a column of every record of breaks (solver/measure/breaks.hpp), or one added only
 /// in tests.
 struct EventColumn {
     Quantity what;
@@ -38,7 +38,7 @@ std::string slip_line(const SlipEvent& event, double axial_strain);
 
 /// @param jointed  whether the specimen has joint traces
 std::string events_header(bool jointed);  ///< header line, including the line end
-/// @param trace  index of the trace on which the bond broke, -1 if on no trace; empty if the specimen has no traces
+/// @param trace  index of the trace on which the bond broke, -1 if not on a trace; empty if the specimen has no traces
 std::string event_line(const BreakEvent& event, double axial_strain, std::optional<std::int32_t> trace);
 
 }  // namespace crackle

@@ -7,10 +7,10 @@
 // shortly after loading begins, a tenth of the strain is tiny and stresses may fluctuate if the platens only just touch
 // the specimen.
 //
-// Later stresses may be larger: rubble carries load again once it is wedged. Until such a drop has followed, the peak
-// is the largest stress up to the current row; afterwards the peak is final (`failed`). The test ends (`collapsed`)
-// when the stress stays below another fraction of its largest value (half by default) in the same way. Whether the test
-// ends does not depend on strength_drop.
+// Later stresses may be larger: rubble carries load again once it is wedged. Until a lasting drop has followed, the
+// peak is the largest stress up to the current row; afterwards the peak is final (`failed`). The test ends
+// (`collapsed`) when the stress stays below another fraction of its largest value (half by default) in the same way.
+// Whether the test ends does not depend on strength_drop.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,7 @@ struct FailureTracker {
     double share_of_peak = 0.5;  ///< fraction of the largest stress below which the test ends
     double peak_stress = 0.0;    // N/m
     double peak_strain = 0.0;
-    std::int64_t peak_row = -1;   ///< row of the peak; -1 if no stress was positive yet
+    std::int64_t peak_row = -1;   ///< row of the peak; -1 if no stress has been positive yet
     double largest_stress = 0.0;  // largest stress up to the last row added, N/m
     double strain_at_largest = 0.0;
     double travel_at_largest = 0.0;
