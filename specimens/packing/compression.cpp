@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Implementation of compression.hpp. Frictionless discs jam at a well-defined density: they then fill about 0.84 of the
-// plane, less beside walls. Above it, the mean overlap grows almost in proportion to the pressure, and the void ratio
-// falls linearly. These two relations give the next pressure.
+// plane, less beside walls. Above this density, the mean overlap grows almost in proportion to the pressure, and the
+// void ratio falls linearly. These two relations give the next pressure.
 
 #include "specimens/packing/compression.hpp"
 
@@ -28,8 +28,8 @@ constexpr double early_imbalance[] = {3e-2, 3e-3};
 constexpr double working_imbalance = 1e-3;
 constexpr int final_corrections = 12;
 
-// Fraction of the box that discs fill when they are quenched; above jamming for all known sizes and walls. If the discs
-// do not jam, or if the overlap is still below the target, the box is narrowed in steps.
+// Fraction of the box that discs fill when they are quenched; above the jamming density for all known sizes and walls.
+// If the discs do not jam, or if the overlap is still below the target, the box is narrowed in steps.
 constexpr double quench_fill = 0.86;
 constexpr double narrowing = 0.995;
 constexpr int narrowings = 200;
@@ -38,7 +38,7 @@ constexpr double quench_imbalance = 0.1;
 constexpr int quench_passes = 20'000, relax_passes = 400'000;
 
 constexpr double wanted_anisotropy = 0.003;
-// Anisotropies above this value, up to 0.01, are accepted only in the last corrections.
+// Anisotropy above which the shape of the box may change, if the request leaves it free.
 constexpr double needed_anisotropy = 0.006;
 constexpr int exchange_rounds = 12;
 
@@ -46,7 +46,7 @@ constexpr int exchange_rounds = 12;
 constexpr double floating_gap = 1e-3;
 constexpr int floating_sweeps = 2000;
 // About one floating disc in 20,000 has no room for the gap. In packings with fewer discs than put_back_from, the
-// attempt is discarded, as was done for the published packings. In larger packings, hardly any attempt would pass, so
+// attempt is discarded, as was done for the published packings. In larger packings, almost every attempt would fail, so
 // the disc is put back.
 constexpr std::size_t put_back_from = drag_from;
 
@@ -154,7 +154,7 @@ class Compressor {
         const double lowest = pressure * smallest_overlap() / overlap, highest = pressure * largest_overlap() / overlap;
         const double next = pressure + (*target_.void_ratio - now) / slope;
         // In two successive corrections, a pressure outside the possible range is clamped; in the third, the target
-        // counts as out of reach.
+        // counts as unreachable.
         beyond_range_ = next < lowest || next > highest ? beyond_range_ + 1 : 0;
         if (beyond_range_ > 2) refuse_void_ratio(lowest, highest);
         set_pressure(std::clamp(next, lowest, highest));
@@ -184,7 +184,7 @@ class Compressor {
         }
     }
 
-    /// Moves discs that carry no load away from those that do. Their remaining overlaps result only from the tolerance
+    /// Moves discs that carry no load away from discs that do. Their remaining overlaps result only from the tolerance
     /// of the equilibrium, but they would be bonded later.
     bool settle_floating() {
         const std::vector<Disc> in_equilibrium = assembly_.discs;

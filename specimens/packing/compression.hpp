@@ -16,7 +16,7 @@ namespace crackle {
 
 /// Target of a compression; exactly one of the two values is set.
 struct CompressionTarget {
-    std::optional<double> mean_overlap;  ///< mean overlap of all contacts except those of the side walls, m
+    std::optional<double> mean_overlap;  ///< mean overlap of all contacts except contacts with side walls, m
     std::optional<double> void_ratio;
     /// Width to which the finished packing will be scaled, m; mean_overlap refers to the scaled packing. 0: no scaling.
     double final_width = 0.0;
@@ -35,7 +35,7 @@ struct Compression {
     AssemblySums sums;
     double aspect_error = 0.0;  ///< height / width / requested aspect - 1; nonzero only if exchanging radii could not
                                 ///< make the stress isotropic
-    bool converged = false;     ///< equilibrium and target were reached; otherwise the attempt is discarded
+    bool converged = false;     ///< whether equilibrium and target were reached; if not, the attempt is discarded
 };
 
 /// Makes one attempt. @param free_box  whether the shape may change if the stress cannot be made isotropic otherwise

@@ -5,8 +5,8 @@
 //
 // The box spans 0..width × 0..height. Each disc sums its own forces over a full neighbour list (every pair is computed
 // from both sides). This takes twice the arithmetic of a half list but needs no scatter, so the result is bit-identical
-// for any number of threads. The neighbours of a disc are computed in SIMD lanes (solver/base/lanes.hpp) but added one
-// by one in list order. The result therefore does not depend on the number of lanes either.
+// for any number of threads. The forces of a disc's neighbours are computed in SIMD lanes (solver/base/lanes.hpp) but
+// added one by one in list order. The result therefore does not depend on the number of lanes either.
 // Tested by tests/specimens/packing/packing_test.cpp.
 #pragma once
 
@@ -38,14 +38,14 @@ struct AssemblySums {
     double overlap = 0.0;                                       // m, Σ δ over all contacts
     double contacts = 0.0;                                      // number of contacts, including walls
     double platen_overlap = 0.0;                                // m, Σ δ, excluding contacts with side walls
-    double platen_contacts = 0.0;                               // number of contacts, excluding those with side walls
+    double platen_contacts = 0.0;                               // number of contacts, except with side walls
     double largest_force = 0.0;                                 // m, largest unbalanced force on a disc
     double power = 0.0, speed_square = 0.0, pull_square = 0.0;  // Σ F·v, Σ v², Σ (F/m)²; 0 without DiscMotion
     double speed_pull = 0.0;                                    // Σ v·F/m
 
-    /// Mean over all contacts, m; 0 if there are none.
+    /// Mean over all contacts, m; 0 without contacts.
     double mean_overlap() const { return contacts > 0.0 ? overlap / contacts : 0.0; }
-    /// Mean over all contacts except those with side walls, m; 0 if there are none.
+    /// Mean over all contacts except contacts with side walls, m; 0 without contacts.
     double mean_platen_overlap() const { return platen_contacts > 0.0 ? platen_overlap / platen_contacts : 0.0; }
     /// Largest unbalanced force divided by the mean contact force; 0 without contacts.
     double residual() const { return contacts > 0.0 ? largest_force / mean_overlap() : 0.0; }
@@ -98,7 +98,7 @@ class DiscAssembly {
   private:
     /// Contribution of one neighbour to a disc's sums.
     struct PairPush {
-        double x, y;                // m, force towards the neighbour
+        double x, y;                // m, force on the neighbour
         double virial_x, virial_y;  // m2
     };
     struct PairSums;
@@ -122,8 +122,8 @@ class DiscAssembly {
     double listed_width_ = 0.0, listed_height_ = 0.0;
 };
 
-/// Number of discs that a thread processes at a time, and over which sums are first taken. It is constant, so sums do
-/// not depend on the number of threads.
+/// Number of discs in a block. A thread processes one block at a time, and sums are first taken over each block. The
+/// number is constant, so sums do not depend on the number of threads.
 inline constexpr std::size_t assembly_block = 256;
 
 /// Number of discs whose pairs are computed before their forces are summed. The intermediate data, about 10 kB, then

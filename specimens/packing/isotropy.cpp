@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A contact with branch d, normal n, tangent t and force f adds to the Hessian of the enthalpy the block
+// A contact with branch d, normal n, tangent t and force f adds the following block to the Hessian of the enthalpy:
 //
 //   n nᵀ - (f/|d|) t tᵀ      (stiffness 1; the second term stems from the rotation of the force with the contact)
 //
-// between its two discs. The same block applied to d couples the discs to the scale of the box. See isotropy.hpp.
+// The block couples the two discs. Applied to d, it couples the discs to the scale of the box. See isotropy.hpp.
 
 #include "specimens/packing/isotropy.hpp"
 
@@ -19,11 +19,11 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-// A contact with less than this fraction of the mean overlap counts as carrying no load, because the equilibrium is not
-// more accurate.
+// A contact with less than this fraction of the mean overlap counts as carrying no load, because the equilibrium is
+// only this accurate.
 constexpr double carrying_share = 1e-4;
-// Stiffness given to floating discs, relative to a contact's. It makes the matrix regular and does not affect other
-// discs.
+// Stiffness given to floating discs, relative to the stiffness of a contact. It makes the matrix regular and does not
+// affect other discs.
 constexpr double floating_stiffness = 0.05;
 // Shift added to all diagonal entries if a disc is about to buckle (the matrix is not positive definite). It is
 // increased until the matrix is positive definite.

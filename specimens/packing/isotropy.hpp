@@ -24,7 +24,7 @@ namespace crackle {
 double stress_anisotropy(const AssemblySums& sums);
 
 /// For each disc, whether it is floating, that is, carries no load. Discs with fewer than three carrying contacts are
-/// removed repeatedly; a contact carries load if its overlap exceeds a ten-thousandth of the mean.
+/// removed repeatedly; a contact carries load if its overlap exceeds a ten-thousandth of the mean overlap.
 std::vector<bool> find_floating(const DiscAssembly& assembly, const AssemblySums& sums);
 
 /// dT/dr_i [m], where T = virial_x - virial_y, for each disc of an assembly in equilibrium under a pressure at constant
@@ -32,7 +32,7 @@ std::vector<bool> find_floating(const DiscAssembly& assembly, const AssemblySums
 std::vector<double> anisotropy_gradient(const DiscAssembly& assembly, const BoxLoad& load, const AssemblySums& sums);
 
 /// Swaps radii so that, to first order, T = virial_x - virial_y becomes zero. The assembly must be relaxed afterwards.
-/// @return number of swaps; 0 if the sizes allow none
+/// @return number of swaps; 0 if the sizes allow no swap
 int exchange_radii(DiscAssembly& assembly, const BoxLoad& load, const AssemblySums& sums);
 
 }  // namespace crackle

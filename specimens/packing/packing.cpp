@@ -19,8 +19,8 @@ namespace crackle {
 namespace {
 
 constexpr int max_attempts = 12;
-// Initial estimate of the fraction of a box that circles fill, from packings of 304 and 5,000 circles with radii from 1
-// to 2. Walls reduce it in proportion to their length. The first packing then gives the actual value for the requested
+// Initial estimate of the fraction of a box that circles fill, from packings of 304 and 5,000 circles with radii from r
+// to 2r. Walls reduce it in proportion to their length. The first packing then gives the actual value for the requested
 // sizes.
 constexpr double fill_without_walls = 0.849, fill_lost_beside_walls = 0.2;
 constexpr int size_samples = 20'000;

@@ -7,7 +7,7 @@
 // at each pressure p, positions and box minimise the enthalpy U + p·W·H. Every contact has the same k_n, so the
 // equilibrium holds for any k_n. It also holds with friction.
 //
-// The mean overlap covers all contacts between circles and those with the bottom and top walls, which platen bonds will
+// The mean overlap covers contacts between circles, and contacts with the bottom and top walls, which platen bonds will
 // replace. The side walls are removed before a specimen is bonded, so contacts with them do not count.
 //
 // The box keeps its shape while the pressure acts. Circles of nearly equal size then swap places until the stress is
@@ -21,8 +21,8 @@
 // max_aspect_error. The circles do not depend on the material, which only determines the stresses in the report and the
 // time step in the particle file.
 //
-// The largest reachable void ratio is that at which frictionless circles jam: looser arrangements cannot carry load in
-// equilibrium.
+// The largest reachable void ratio is the ratio at which frictionless circles jam: looser arrangements cannot carry
+// load in equilibrium.
 #pragma once
 
 #include <cstdint>
@@ -63,7 +63,7 @@ struct PackingReport {
     double radius_scale = 1.0;                  ///< final radius divided by drawn radius; 1 if a count is given
     double size_distance = 0.0;                 ///< Kolmogorov-Smirnov distance of the radii from the distribution
     double void_ratio = 0.0;
-    double mean_overlap = 0.0;         ///< mean over contacts between circles and with bottom and top walls, m
+    double mean_overlap = 0.0;         ///< mean overlap of all contacts except the contacts with side walls, m
     std::int64_t circle_contacts = 0;  ///< pairs of circles with overlap > 0
     std::int64_t wall_contacts[4] = {0, 0, 0, 0};  ///< indexed by Wall
     double coordination = 0.0;                     ///< 2·circle_contacts/circles

@@ -23,7 +23,7 @@ std::string first_line(std::string_view rest) {
 bool is_length(const Json& value) { return value.is_number() && value >= smallest_length && value <= largest_length; }
 
 /// Whether the object has all entries that packing_text() writes, with values that fit a box. A text with a correct
-/// hash may still fail.
+/// hash may still fail this check.
 bool is_packing(const Json& json) {
     if (!json.is_object()) return false;
     for (const char* key : {"width", "height", "radius_scale"})

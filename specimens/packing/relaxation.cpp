@@ -20,10 +20,10 @@ namespace {
 // margin for large discs among many small ones.
 constexpr double first_step = 0.1, largest_step = 0.5, smallest_step = 0.002;
 constexpr double step_growth = 1.1, step_cut = 0.5;
-constexpr double first_turn = 0.2, turn_decay = 0.99;  // α in the papers
+constexpr double first_turn = 0.2, turn_decay = 0.99;  // α in the paper
 constexpr int passes_before_growth = 10;
-// Number of force computations between two progress reports, and number of discs computed in all of them together:
-// about a tenth of a second.
+// Largest number of force computations between two progress reports, and of discs computed in them altogether. They
+// take about a tenth of a second.
 constexpr int most_passes_between_reports = 200;
 constexpr std::size_t discs_between_reports = 1'000'000;
 
@@ -34,7 +34,7 @@ constexpr double drag_times_length = 2.0;
 // Number of force computations after which FIRE replaces the drag method; 50,000 discs take at most 5,800.
 constexpr int drag_passes = 100'000;
 
-// Mean overlap, relative to the mean radius, below which discs in a fixed box have separated or are about to.
+// Mean overlap, relative to the mean radius, below which discs in a fixed box count as separated.
 constexpr double loose_overlap = 1e-9;
 
 /// Velocity update of one step: v ← (1 - turn)(keep·v + step·a) + turn·|v|·a/|a|.
@@ -75,7 +75,7 @@ struct Dynamics {
         return {both, both};
     }
 
-    /// Takes one step. @return as in DiscAssembly::move()
+    /// Takes one step. @return the result of DiscAssembly::move()
     double advance(const AssemblySums& sums, const Vec2& on_box, const Kick& kick) {
         const double step = kick.step, turn = kick.turn, keep = kick.keep, back = kick.back;
         const double pull_square = sums.pull_square + dot(on_box, on_box);
@@ -103,7 +103,7 @@ struct Dynamics {
     }
 };
 
-/// Adapts the time step and the turning factor to the power.
+/// Adapts the time step and the turning factor of FIRE to the power F·v.
 struct Fire {
     double step = first_step, turn = first_turn;
     int downhill = 0;

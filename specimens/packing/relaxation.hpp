@@ -15,7 +15,7 @@
 // uphill. In large packings, some region is always yielding, and these stops delay all other regions. Discs in large
 // packings therefore move against a viscous drag that damps the longest waves critically. Numbers of force computations
 // with FIRE and with drag: 28,300 and 13,500 for 20,000 discs, 61,700 and 15,500 for 50,000 discs. These numbers cover
-// the path from quench to equilibrium, for radii from 1 to 2 and a mean overlap of 0.4 % of the mean radius.
+// the path from quench to equilibrium, for radii from r to 2r and a mean overlap of 0.4 % of the mean radius.
 // Tested by tests/specimens/packing/packing_test.cpp.
 #pragma once
 

@@ -57,7 +57,7 @@ CutOff cut_off(const LognormalRadii& sizes) {
             sizes.radius_max > 0.0 ? share(sizes.radius_max) : 1.0};
 }
 
-/// Number of circles between the lower end a of a sieve interval and `size`, for unit mass per area:
+/// Number of circles between the lower end a of a sieve interval and `size`, if each circle has the mass size²:
 ///     N = slope/2·(a⁻² - size⁻²)
 /// where slope is the increase of the mass fraction per unit of ln(size).
 double number_in_interval(const SievePoint& a, const SievePoint& b, double size) {
