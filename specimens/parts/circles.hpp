@@ -67,7 +67,7 @@ struct CellDiameters {
     bool operator==(const CellDiameters&) const = default;
 };
 
-/// A packing to be made.
+/// Request for a packing.
 struct Packing {
     std::variant<Box, CircleCount> box;
     std::variant<MeanOverlap, VoidRatio> target;
@@ -77,7 +77,7 @@ struct Packing {
     bool operator==(const Packing&) const = default;
 };
 
-/// A particle file to be read.
+/// A file from which the particles are read.
 struct ParticleFile {
     std::filesystem::path path;
 
@@ -89,10 +89,10 @@ struct DerivedGap {
     bool operator==(const DerivedGap&) const = default;
 };
 
-/// Distance between facing edges of a mesh, and depth by which each polygon is inset.
+/// Gap of a mesh: the value of mesh.thick, and the depth by which each polygon is inset.
 struct MeshGap {
     double thick = 0.0;           // m
-    std::optional<double> inset;  ///< m; empty: half of the distance
+    std::optional<double> inset;  ///< m; empty: half of `thick`
 
     /// Distance between facing edges of the inset polygons, m.
     double between_edges() const { return inset ? 2.0 * *inset : thick; }
@@ -100,7 +100,7 @@ struct MeshGap {
     bool operator==(const MeshGap&) const = default;
 };
 
-/// Values of a mesh that are used as a case states them.
+/// Values of a mesh that are taken from the case without change.
 struct MeshValues {
     Boundary boundary = Boundary::domain;
     bool merge_destroyed = false;

@@ -48,8 +48,8 @@ struct RateTolerance {
 /// Strains or stresses at which the specimen is unloaded and reloaded.
 struct Unloading {
     bool by_strain = false;
-    std::vector<double> at;  ///< strains, or N/m or Pa; empty: no unloading
-    double to = 0.1;         ///< fraction of the stress at which unloading began
+    std::vector<double> at;  ///< strains, or stresses in N/m or Pa; empty: no unloading
+    double to = 0.1;         ///< unloading ends at this fraction of the stress at which it began
 
     bool operator==(const Unloading&) const = default;
 };
@@ -62,7 +62,7 @@ struct Shape {
     bool operator==(const Shape&) const = default;
 };
 
-/// Values of a loading that are used as a case states them.
+/// Values of a loading that are taken from the case without change.
 struct LoadingValues {
     LoadingKind kind = LoadingKind::compression;
     double max_axial_strain = 0.0;
@@ -81,7 +81,7 @@ struct Loading : LoadingValues {
     std::variant<StrainRate, RateTolerance> rate;
     double grip = 0.0;                   ///< fraction of the height at each end; 0 unless platens are glued
     double platen_friction_angle = 0.0;  // friction angle of frictional platens, degrees
-    double half_angle = 10.0;            // degrees; half the angle spanned by a jaw's arc; ISRM's jaws have 10
+    double half_angle = 10.0;            // degrees; half the angle spanned by a jaw's arc; 10 for ISRM's jaws
     JawShape jaws = JawShape::arc;
     double normal_stress = 0.0;     // N/m, or Pa
     double normal_stiffness = 0.0;  // N/m2, or Pa/m

@@ -45,7 +45,7 @@ struct Numerics {
 /// What the test writes.
 struct Output {
     std::int64_t curve_rows = 2000;
-    std::optional<std::int64_t> frames;  ///< empty: default_frames() for the number of bodies that are made
+    std::optional<std::int64_t> frames;  ///< empty: default_frames() for the number of bodies
     FramePrecision frame_precision = FramePrecision::single_;
     bool slips = false;
     bool emission = false;
@@ -65,7 +65,7 @@ struct Particles {
     JointRequest joints;
     double damping_scale = 1.0;  ///< factor on the damping of every material, applied after packing
 
-    /// The packing to be made; null if the particles are read from a file.
+    /// The requested packing; null if the particles are read from a file.
     const Packing* packing() const { return std::get_if<Packing>(&source); }
     Packing* packing() { return std::get_if<Packing>(&source); }
     /// Whether stiffness and strengths are given per area, in Pa.
@@ -85,7 +85,7 @@ struct Procedure {
     double step_scale = 1.0;  ///< factor on the derived time step
     Places places;
 
-    /// Halves the time step. Halving the safety factor might not halve the step, which other bounds can limit.
+    /// Halves the time step. Halving the safety factor might not halve it, because other bounds may limit it.
     void halve_step() {
         if (numerics.time_step) *numerics.time_step *= 0.5;
         step_scale *= 0.5;
@@ -96,9 +96,9 @@ struct Procedure {
     /// Whether a pressure acts on the sides.
     bool confined() const { return test_kind(loading.kind).confined; }
     /// Whether a pressure or normal force does work in addition to the driving part; the curve then has a column for
-    /// it.
+    /// this work.
     bool pressed() const { return test_kind(loading.kind).pressed(); }
-    /// Whether the whole packing lies between platens, so that stress and strain are those of the rock.
+    /// Whether the whole packing lies between platens, so that stress and strain describe the rock.
     bool uniaxial() const { return test_kind(loading.kind).uniaxial; }
     /// «file:line: table.key» for errors. @param key  the value that is wrong
     std::string at(CaseKey key) const { return places.at(key); }

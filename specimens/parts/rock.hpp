@@ -33,7 +33,7 @@ inline bool operator==(const MaterialPair& one, const MaterialPair& other) {
 
 namespace parts {
 
-/// Values that replace those of a material: all that a packing needs, or those that differ from a particle file's.
+/// Values that replace the values of a material: all of them for a packing, or only those to change in a particle file.
 struct MaterialValues : BondConstants, FaceConstants {
     std::optional<double> density;                        // kg/m2
     std::optional<double> normal_stiffness;               // N/m, or Pa
@@ -47,10 +47,10 @@ struct MaterialValues : BondConstants, FaceConstants {
     FaceModuli face_moduli() const;
     /// Law of faces of this rock.
     FaceLaw face_law() const;
-    double mesh_correction = 0.0;           ///< c_κ of its mesh (solver/laws/face_bond.hpp)
+    double mesh_correction = 0.0;           ///< c_κ of the rock's mesh (solver/laws/face_bond.hpp)
     std::optional<double> stiffness_ratio;  ///< k_n over k_s of faces; empty: no pressure acts in the cells
 
-    /// Replaces the values of `material`. Bond constants that are absent become 0, or the friction angle.
+    /// Replaces the values of `material`. Absent strengths become 0; the residual angle defaults to the friction angle.
     void apply_to(crackle::Material& material) const;
 
     bool operator==(const MaterialValues&) const = default;
@@ -69,7 +69,7 @@ struct Mineral {
     std::string name;
     MaterialValues material;
     std::optional<double> asked;  ///< area fraction that the case states
-    double share = 0.0;           ///< area fraction that is requested: as stated, or the remainder left by the others
+    double share = 0.0;           ///< requested area fraction: as stated, or what the other minerals leave
 
     bool operator==(const Mineral&) const = default;
 };
@@ -96,13 +96,13 @@ struct GrainLabels {
 /// An image laid over the box, in which each mineral has a colour.
 struct GrainImage {
     std::filesystem::path path;
-    std::string name;                         ///< for messages
+    std::string name;                         ///< name of the image in messages
     std::vector<std::uint32_t> colours = {};  ///< 0xrrggbb, one per mineral
 
     bool operator==(const GrainImage&) const = default;
 };
 
-/// The minerals of the grains; none if the rock has a single material.
+/// The minerals of the grains; the list is empty if the rock has a single material.
 struct Minerals {
     std::vector<Mineral> list;
     std::vector<MaterialPair> pairs;  ///< indices into `list`
@@ -125,13 +125,13 @@ struct RandomStrengths {
     bool operator==(const RandomStrengths&) const = default;
 };
 
-/// Values of bonds that are used as a case states them.
+/// Values of bonds that are taken from the case without change.
 struct BondValues {
     BondLaw law = BondLaw::back_tension;
     std::optional<double> thick;  ///< m; empty: the gap of the mesh, or a tenth of the mean radius
     std::optional<double> gap;    ///< m; empty: a twentieth of the thickness
     double range = 0.0;           // -
-    /// Strengths as factors of the mean back-tension, which then replace those of the materials.
+    /// Strengths divided by the mean back-tension; if present, they replace the strengths of the materials.
     std::optional<double> tensile_factor, cohesion_factor;
 
     /// Properties of the bonds' law.

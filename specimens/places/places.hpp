@@ -93,7 +93,7 @@ struct WrittenPlaces {
     std::string at(const std::string& key) const;
 };
 
-/// Names the place of a value in errors. A default object belongs to parts that were not read from a case.
+/// Names the place of a value in errors. A default-constructed object belongs to parts that were not read from a case.
 class Places {
   public:
     Places() = default;

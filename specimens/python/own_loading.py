@@ -12,7 +12,7 @@ CASE = {"include": "specimens/guide_rock/circles_compression.toml",
         "packing": {"count": 150},
         "loading": {"axial_strain_rate": 0.0005, "rate_tolerance": None, "max_axial_strain": 0.02},
         "output": {"curve_rows": 2000, "frames": 1}}
-TOOTH = 5e-4  # strain, by which each tooth is higher than the one before
+TOOTH = 5e-4  # height of the first tooth, and increase from tooth to tooth, in strain
 
 
 class SawTooth:

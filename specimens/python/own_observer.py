@@ -3,10 +3,10 @@
 
   PYTHONPATH=build/release/python /usr/bin/python3 specimens/python/own_observer.py
 
-F = (1/N) sum n n over the normals n of the N intact bonds. Its anisotropy, 2 (F1 - F2), is 0 if the normals have no
-preferred direction and 2 if all are parallel (Satake, in: Deformation and Failure of Granular Materials, 1982). In
-tension, bonds along the direction of loading break first, and the major axis turns away from it. The expected output is
-at the end of this file.
+F = (1/N) sum n n over the normals n of the N intact bonds. Its anisotropy, 2 (F1 - F2) with its eigenvalues F1 >= F2,
+is 0 if the normals have no preferred direction and 2 if all are parallel (Satake, in: Deformation and Failure of
+Granular Materials, 1982). In tension, bonds along the direction of loading break first, and the major axis turns away
+from it. The expected output is at the end of this file.
 """
 import numpy
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A figure for a paper with matplotlib: curve, breaks and the broken specimen, as wide as a journal's column.
+"""A figure for a paper, made with matplotlib: curve, breaks and the broken specimen, as wide as a journal's column.
 
   PYTHONPATH=build/release/python /usr/bin/python3 specimens/python/paper_figure.py
 
