@@ -23,7 +23,7 @@ class CellFinder {
         }
     }
 
-    /// Index of a body's cell; for a clump, that of the circle nearest to `place` in the first frame.
+    /// Index of a body's cell; for a clump, the cell of the circle nearest to `place` in the first frame.
     /// @return -1 if there is no such body
     std::int32_t find(int id, Vec2 place) const {
         double nearest = std::numeric_limits<double>::infinity();

@@ -16,7 +16,7 @@ using CurvePoints = std::vector<std::pair<double, double>>;  ///< pairs of strai
 /// Points of the rows that have both values; empty if the table has no column axial_strain or axial_stress.
 CurvePoints strain_and_stress(const NumberTable& table);
 
-/// Stress where a curve first reaches a strain, linearly interpolated; NaN if it never does.
+/// Stress where a curve first reaches a strain, linearly interpolated; NaN if the curve never reaches it.
 double stress_at(std::span<const std::pair<double, double>> curve, double strain);
 
 }  // namespace crackle

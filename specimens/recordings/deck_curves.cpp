@@ -66,7 +66,7 @@ void read_rows(const fs::path& file, const Read& read) {
     }
 }
 
-/// Reads the step number of a row, which must be larger than that of the previous row.
+/// Reads the step number of a row, which must be larger than the step number of the previous row.
 std::int64_t read_step(DeckReader& words, std::int64_t& last) {
     const std::int64_t step = words.integer("step", 0, largest_step);
     if (step <= last) words.refuse("step", fmt::format("one after step {}", last));

@@ -11,7 +11,7 @@
 namespace crackle {
 
 /// A distinct name for each recording. The first naming scheme that distinguishes all of them is used: folder or file;
-/// title; title with seed; folder with seed; end of the path; folder with a number. Seeds are those of the packings.
+/// title; title with seed; folder with seed; end of the path; folder with a number. The seed is the packing's seed.
 std::vector<std::string> distinct_names(const std::vector<Recording>& recordings);
 
 }  // namespace crackle

@@ -20,7 +20,7 @@ namespace {
 
 struct NamedUnit {
     const char* name;
-    double factor;  // value in the unit's quantity without prefix
+    double factor;  // size of the unit in SI units; for strains, as a fraction
 };
 constexpr NamedUnit strain_units[]{{"-", 1.0},     {"%", 1e-2},    {"‰", 1e-3},
                                    {"mm/m", 1e-3}, {"µm/m", 1e-6}, {"1e-6", 1e-6}};
@@ -82,7 +82,7 @@ struct Quantity {
     }
 
   private:
-    /// Empty if the row lacks the value.
+    /// Converted value of a column in the current row; empty if the row lacks it.
     static std::optional<double> number(const TableReader& reader, const Column& column) {
         const std::string_view word = reader.values()[column.place];
         const std::optional<double> found = number_of(word);
@@ -182,7 +182,7 @@ LabelledCurve measured_beside(const std::vector<Recording>& tests, const std::fi
 
 void require_like_scale(const std::string& file, const char* column, double found, double computed,
                         const std::string& unit, const char* example) {
-    constexpr double most_times = 50.0;  // below the factors of % and of all SI prefixes
+    constexpr double most_times = 50.0;  // a missing % or SI prefix causes a larger factor
     if (!(found > 0.0) || !(computed > 0.0)) return;
     if (found <= most_times * computed && computed <= most_times * found) return;
     throw InputError(

@@ -32,7 +32,7 @@ struct LabelledCurve {
 /// read_measured_curve()
 LabelledCurve labelled_curve(const std::filesystem::path& file);
 
-/// Reads a curve to be drawn over those of tests. @throws InputError also if the tests are of several kinds, or if the
+/// Reads a curve to draw over the curves of tests. @throws InputError also if the tests are of several kinds, or if the
 /// scales differ
 LabelledCurve measured_beside(const std::vector<Recording>& tests, const std::filesystem::path& file);
 
@@ -46,13 +46,13 @@ struct StrengthOfCores {
 /// `strength (MPa)`; without a unit, values are in Pa. @throws InputError that names the file, and line or column
 std::vector<StrengthOfCores> read_measured_strengths(const std::filesystem::path& file);
 
-/// Requires that measured and computed values fit on the same axis, since a factor of a hundred between them means that
-/// a unit is missing. @param found, computed largest values @param unit for the message, with a leading space
+/// Requires that measured and computed values fit on the same axis, since a factor above 50 between them means that a
+/// unit is missing. @param found, computed largest values @param unit for the message, with a leading space
 /// @param example a heading with a unit, for the message @throws InputError that names the file and the column
 void require_like_scale(const std::string& file, const char* column, double found, double computed,
                         const std::string& unit, const char* example);
-/// Requires like scales on both axes of a curve. @param strain, stress largest values of the computed curves, stress in
-/// `unit`
+/// Requires similar scales on both axes of a curve. @param strain, stress largest values of the computed curves, stress
+/// in `unit`
 void require_like_scale(const std::string& file, const StrainsAndStresses& measured, double strain, double stress,
                         const std::string& unit);
 

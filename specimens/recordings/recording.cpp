@@ -36,7 +36,7 @@ Vec2 centroid(const std::vector<Vec2>& corners, bool open) {
 std::vector<std::size_t> chosen_frames(std::size_t count, std::size_t most, const std::vector<std::size_t>& kept) {
     std::set<std::size_t> chosen(kept.begin(), kept.end());
     if (count > 0) chosen.insert({0, count - 1});
-    // Frames evenly spaced from the first to the last.
+    // Adds frames that are evenly spaced from the first to the last.
     const std::size_t even = std::min(count, most > kept.size() ? most - kept.size() : 0);
     for (std::size_t k = 0; k < even; ++k) chosen.insert(even < 2 ? 0 : k * (count - 1) / (even - 1));
     return {chosen.begin(), chosen.end()};

@@ -68,7 +68,7 @@ struct FrameHead {
 /// Values at one moment, for each cell or each bond. Values that the source lacks are empty; displacements always
 /// exist.
 struct RecordedFrame {
-    std::vector<double> ux, uy, angle;  ///< m, rad; displacements of RecordedCell::centre since the first frame
+    std::vector<double> ux, uy, angle;  ///< displacement (m) and rotation (rad) since the first frame
     std::vector<double> vx, vy, rotation_rate;
     std::vector<double> stress_xx, stress_yy, stress_xy;
     std::vector<double> fragment;  ///< index of the cell's fragment
@@ -90,7 +90,7 @@ struct Recording {
         false;            ///< whether the circles come from a particle file of mode 0, which generates them from a seed
     TestResults results;  ///< results of a test; for a deck, only the breaks
     DeckCurves curves;    ///< curves of a deck
-    std::optional<std::array<double, 4>> walls;  /// x1, x2, y1, y2 of a deck's domain
+    std::optional<std::array<double, 4>> walls;  ///< x1, x2, y1, y2 of the domain of a deck or particle file
     bool mean_velocities = false;  ///< whether velocities are computed from positions instead of taken from the solver
     std::vector<RecordedCell> cells;
     std::vector<RecordedBond> bonds;
@@ -100,8 +100,8 @@ struct Recording {
 };
 constexpr auto list_names(Recording::Kind) { return in_order("test", "deck", "particles"); }
 
-/// Indices of at most `most` of `count` frames, evenly spaced. The first frame, the last one and those in `kept` are
-/// always included.
+/// Indices of about `most` of `count` frames, evenly spaced. The first frame, the last one and the frames in `kept` are
+/// always included, even if these exceed `most`.
 std::vector<std::size_t> chosen_frames(std::size_t count, std::size_t most, const std::vector<std::size_t>& kept);
 
 /// Reads the results of a test. @param folder  results of `crackle test -o`; frames/ may be missing
@@ -113,7 +113,7 @@ Recording read_test_recording(const std::filesystem::path& folder, std::size_t m
 Recording read_deck_recording(const std::filesystem::path& folder, std::size_t most_frames);
 /// Reads a particle file. @param file  in_gm.dat in either mode; in mode 0, its circles are generated from `seed`
 Recording read_particle_recording(const std::filesystem::path& file, std::uint64_t seed);
-/// If a file is an output of a deck or of a test, the folder of that run; otherwise the path itself.
+/// The folder of the run if the path is an output file of a deck or of a test; otherwise the path itself.
 std::filesystem::path folder_of_run(const std::filesystem::path& path);
 /// Reads the recording at `path`: the folder of a test or a deck, a file of such a run (folder_of_run()), or a particle
 /// file.

@@ -74,8 +74,8 @@ void append_cells(const fs::path& file, const PolyData& data, std::vector<Record
     }
 }
 
-/// Position of a contact on the line drawn for it: next to the centre if a body is a circle, else the middle of the
-/// line.
+/// Position of a contact on the line drawn for it: the point next to a circle's centre; for two polygons, the middle of
+/// the line.
 Vec2 place_of(const PolyData& data, const PolyData::Cell& line, bool first_is_circle, bool second_is_circle) {
     const auto at = [&](std::size_t corner) { return data.points[line.points[corner]]; };
     if (first_is_circle) return at(1);

@@ -56,7 +56,7 @@ NumberTable break_table(const std::filesystem::path& file, std::string_view text
                         const std::vector<const char*>& needed, const char* again, int names_line = 1);
 
 /// Reads the results of a test. @param folder  results of `crackle test -o`
-/// @throws InputError if a file is missing, invalid or not as the test wrote it (stated_files.hpp)
+/// @throws InputError if a file is missing, invalid or changed since the test wrote it (stated_files.hpp)
 TestResults read_results(const std::filesystem::path& folder);
 
 }  // namespace crackle

@@ -12,7 +12,7 @@
 namespace crackle {
 namespace {
 
-/// 1 g mm/s2 is 1e-6 N, and 1 g mm2/s2 is 1e-9 J.
+/// Unit systems by name. In mm-g-s, 1 g mm/s2 is 1e-6 N, and 1 g mm2/s2 is 1e-9 J.
 const std::vector<std::pair<std::string, UnitNames>>& sets() {
     static const std::vector<std::pair<std::string, UnitNames>> all{
         {"si", {"m", "m/s", "N", "J", "N/m", true}},

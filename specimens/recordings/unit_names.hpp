@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Names of units for particle files and decks, which may use any consistent unit system and do not state it. Times are
-// in s and angles in rad in all systems. Since models are two-dimensional, forces, energies and masses are those of a
-// slice of unit thickness.
+// in s and angles in rad in all systems. Since models are two-dimensional, forces, energies and masses refer to a slice
+// of unit thickness.
 // Tested by tests/tools/commands/plot_decks_test.cpp.
 #pragma once
 

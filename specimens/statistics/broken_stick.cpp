@@ -14,7 +14,7 @@
 namespace crackle {
 namespace {
 
-/// Sums over all points from a given one to the last; x from 0 to 1.
+/// Sums over the points from a given point to the last one; x is scaled to the range 0 to 1.
 struct Sums {
     double n = 0.0, x = 0.0, xx = 0.0, y = 0.0, xy = 0.0, yy = 0.0;
 

@@ -19,7 +19,7 @@ struct BrokenStick {
     double slope_above = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Fits two lines; NaN for fewer than five points. @param x  ascending values @param y  as many values as in x
+/// Fits two lines; NaN for fewer than five points. @param x  ascending values @param y  one value for each x
 BrokenStick fit_broken_stick(std::span<const double> x, std::span<const double> y);
 
 /// Several events that occur together, at the same x.
@@ -38,10 +38,10 @@ struct BurstBreak {
 inline constexpr std::size_t fewest_bursts = 10;
 
 /// Finds the value between 0 and `end` at which the slope of the cumulative count changes. The count is evaluated at
-/// 200 equally spaced values. The ends of the 95 % interval are percentiles of 1,000 bootstrap fits. Each of these is
-/// fitted to a sample of as many bursts, drawn with replacement. The same bursts always give the same interval. The
+/// 200 equally spaced values. The ends of the 95 % interval are percentiles of 1,000 bootstrap fits. Each fit uses a
+/// sample with the same number of bursts, drawn with replacement. The same bursts always give the same interval. The
 /// result is NaN if there are too few bursts.
-/// @param bursts  bursts in any range; those beyond `end` are ignored
+/// @param bursts  bursts in any range; bursts beyond `end` are ignored
 BurstBreak find_burst_break(std::span<const Burst> bursts, double end);
 
 }  // namespace crackle

@@ -37,7 +37,7 @@ double difference_half_width(const MeanFigure& a, const MeanFigure& b);
 /// Errors of a mean due to the time step and the loading rate, in the unit of the mean; positive if the mean is too
 /// large. They are estimated from companion runs of the same packings at half the step and at half the rate. A
 /// first-order error is twice the change that halving causes (Richardson). This estimate is used for both errors. For
-/// the step it is an upper bound if the second order of leapfrog prevails, for which the error is 4/3 of the change.
+/// the step it is an upper bound: if the second-order error of leapfrog dominates, the error is 4/3 of the change.
 /// Standard errors take into account that the three runs of a packing belong together.
 struct MeanBias {
     std::size_t packings = 0;  ///< number of packings with a test and both companion runs
@@ -57,8 +57,8 @@ MeanBias bias_of(std::span<const double> asked, std::span<const double> half_ste
 /// @param share  0 to 1
 double percentile(std::span<const double> sorted, double share);
 
-/// Fraction of the bootstrap means of `count` values to cut off at either end, so that the interval is as wide as that
-/// of Student's t.
+/// Fraction of the bootstrap means to cut off at each end, so that the interval is as wide as Student's t interval for
+/// `count` values.
 double expanded_tail(std::size_t count);
 
 /// Number of packings that reduces the standard error to `goal`: (deviation/goal)², at least 2.

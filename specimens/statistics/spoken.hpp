@@ -13,8 +13,8 @@ std::string counted(std::int64_t count, const char* noun);
 /// A count with its noun, for a count that is the size of a container.
 std::string counted(std::size_t count, const char* noun);
 
-/// A value below a bound, with at least three digits and as many as are needed to show that it is below the bound:
-/// "19.97" for 20.
+/// A value below a bound, with three digits, or more if they are needed to show that it is below the bound: "19.97" for
+/// 20.
 std::string spoken_below(double value, double bound);
 
 /// A stress in Pa with an SI prefix, "17.9 GPa"; in any other unit without a prefix, "5.1e+06 N/m".
