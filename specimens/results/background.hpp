@@ -23,10 +23,10 @@ class Background {
     /// Waits for the remaining jobs.
     ~Background();
 
-    /// Waits while more than `most_waiting` jobs are in the queue, so that a job's data are copied only when there is
-    /// room.
+    /// Waits while more than `most_waiting` jobs are in the queue, so that a job's data are copied only when the queue
+    /// has room.
     void make_room(std::size_t most_waiting);
-    /// Adds a job, and returns without waiting. @throws any exception that an earlier job has thrown
+    /// Adds a job and returns at once; runs it here if no thread can start. @throws any exception of an earlier job
     void add(std::function<void()> job);
     /// Waits until all jobs are done.
     void wait();

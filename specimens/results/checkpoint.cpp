@@ -26,7 +26,7 @@
 
 namespace crackle {
 
-// Version of the layout; increase it whenever a field below changes.
+// Version of the layout; increase it whenever a stored field changes.
 constexpr const char* checkpoint_version = "20";
 constexpr std::size_t hash_digits = 64;
 
@@ -56,7 +56,7 @@ struct cereal::specialize<Archive, Kind, cereal::specialization::non_member_load
 namespace crackle {
 namespace {
 
-/// Whether a point is of a kind that can occur among a specimen's bonds and contacts.
+/// Whether a point is a valid contact point between two bodies, as all bonds and contacts of a specimen are.
 bool is_between_bodies(const World& world, std::size_t kind, const ContactPoint& point) {
     return static_cast<PointKind>(kind) != PointKind::element_wall &&
            is_point_of(world, static_cast<PointKind>(kind), point);

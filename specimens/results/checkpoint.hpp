@@ -27,7 +27,7 @@ struct TestCheckpoint {
     World world;
 };
 
-/// Writes a checkpoint: title, version, hash of the case, state and world.
+/// Writes a checkpoint: title, version, hash of the case, setup, state and world.
 void save_test(std::ostream& out, const std::string& case_hash, const TestSetup& setup, const TestState& state,
                const World& world);
 

@@ -17,15 +17,15 @@
 
 namespace crackle {
 
-/// Writes summary.json. It records the given lengths and hashes of files (stated_files.hpp), and those of the
-/// checkpoint if there is one.
+/// Writes summary.json. It records the given lengths and hashes of files (stated_files.hpp), and the length and hash of
+/// the checkpoint, if it exists.
 void write_summary(const OutputFolder& folder, Summary& summary, FileMarks files);
 
 /// The files of a test while it runs.
 class TestFiles {
   public:
-    /// Starts the files of a new test. For a resumed test, continues the files from the checkpoint and removes what was
-    /// written after it.
+    /// Starts the files of a new test. For a resumed test, continues the files from the checkpoint and removes
+    /// everything written after it.
     TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, const FileOptions& options);
 
     /// Adds a row to curve.csv.
@@ -35,7 +35,7 @@ class TestFiles {
     /// Adds a line to a table, unless the test has no such table. @param line  including the line end
     void add(ResultTable table, const std::string& line);
     /// Takes a frame of the current state, as take_frame() does, and adds it to state.frames in the order of rows. The
-    /// frame's file is written in the background; it is complete before a checkpoint or a summary is written.
+    /// frame's files are written in the background; they are complete before a checkpoint or a summary is written.
     /// frames.pvd is replaced at most once a second, and before a checkpoint or a summary, because replacing a file
     /// costs more than a frame of a small specimen. World and setup must outlive this object.
     void add_frame(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,

@@ -19,8 +19,8 @@ namespace crackle {
 /// A file to which rows are appended, with a hash of its contents.
 class GrowingFile {
   public:
-    /// Keeps the first bytes of the file, whose number and hash are in `marked`, and continues after them. 0 bytes
-    /// start a new file.
+    /// Keeps the first bytes of the file, whose number and hash are in `marked`, and continues after them. If `marked`
+    /// has 0 bytes, a new file is started.
     /// @throws InputError if the file does not begin with these bytes, or cannot be written.
     GrowingFile(std::filesystem::path path, const FileMark& marked);
     ~GrowingFile();

@@ -18,7 +18,7 @@ namespace crackle {
 struct NumericalErrors;
 
 /// Wall-clock times of the whole test, including resumed parts, and the number of threads. Only summary keys made from
-/// these differ between two runs of a case.
+/// these values differ between two runs of a case.
 struct TestTiming {
     double wall_seconds = 0.0;  ///< wall-clock time of the whole test, s
     /// Wall-clock time of the stepping loop, s, with neighbour list rebuilds, bond breakage and observers.
@@ -26,8 +26,8 @@ struct TestTiming {
     int threads = 1;
 };
 
-/// The rows from which peak, moduli and thresholds are computed: all rows, or those without unloading cycles if the
-/// case unloads.
+/// The rows from which peak, moduli and thresholds are computed: all rows, or, if the case unloads, the rows outside
+/// its unloading cycles.
 FirstLoading rows_without_cycles(const parts::Loading& loading, const TestState& state);
 /// Crack thresholds of a compression test between platens; empty for other tests.
 std::optional<CrackThresholds> crack_thresholds_of(const parts::Loading& loading, const PlacedApparatus& apparatus,

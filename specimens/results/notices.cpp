@@ -23,7 +23,7 @@ constexpr double excess_to_mention = 0.1;
 
 using Notices = std::vector<std::string>;
 
-/// Notices on the peak, and on a curve that goes beyond the requested strain.
+/// Notices on the peak, and on a curve that extends beyond the requested strain.
 void note_curve(Notices& notices, const parts::Loading& loading, const char* stress_unit, const TestSetup& setup,
                 const TestState& state, const World& world) {
     const FailureTracker& f = state.failure;

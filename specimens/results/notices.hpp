@@ -12,7 +12,7 @@
 
 namespace crackle {
 
-/// All notices of a test: those from its setup, and those on its results.
+/// All notices of a test: the notices from its setup, and notices on its results.
 /// @param viscous_share  the fraction of the largest stress that dashpots carry when loading begins
 std::vector<std::string> notices_of(const parts::Loading& loading, const char* stress_unit, const TestSetup& setup,
                                     const TestState& state, const World& world, double viscous_share);

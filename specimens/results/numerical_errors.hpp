@@ -14,7 +14,7 @@ namespace crackle {
 struct NumericalErrors {
     /// Errors of the peak and, in compression tests, of crack stresses; also the results of the companions.
     ErrorsByFigure figures;
-    std::optional<bool> peak_converged;  ///< whether the peaks with other time step and rate are on the same branch;
+    std::optional<bool> peak_converged;  ///< whether runs with another time step or rate fail in the same way;
                                          ///< empty if the specimen has not failed
 };
 

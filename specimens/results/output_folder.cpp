@@ -85,8 +85,8 @@ bool begins_with(const fs::path& file, const std::string& mark) {
     return as_long && begin == mark;
 }
 
-/// Recognises a test's folder by the contents of the file written first and of the checkpoint: other programs may use
-/// the same file names.
+/// Recognises a test's folder by the contents of its case.toml or checkpoint, because other programs may use the same
+/// file names.
 bool is_of_a_test(const fs::path& folder) {
     return begins_with(folder / "case.toml", resolved_case_mark) ||
            begins_with(folder / "checkpoint", checkpoint_title);
@@ -144,8 +144,8 @@ void remove_or_throw(const fs::path& path) {
     if (error) fail_writing(error.value(), fmt::format("{}: cannot be removed ({})", path.string(), error.message()));
 }
 
-/// Replaces the frames in `to` with those in `from`; other files in `to` stay. The operation may be interrupted at any
-/// time and repeated. @param names  names of the new frames
+/// Replaces the frames in `to` with the frames in `from`; other files in `to` stay. The operation may be interrupted at
+/// any time and repeated. @param names  names of the new frames
 void replace_frames(const fs::path& from, const fs::path& to, const std::set<std::string>& names) {
     std::error_code error;
     fs::create_directories(to, error);
@@ -251,7 +251,7 @@ OutputFolder OutputFolder::create(const fs::path& wanted, Earlier earlier, std::
     if (!staged && has_only_begun(working)) remove_results(working);
     if (staged) {
         folder.locks_.emplace_back(target);
-        remove_results(working);  // results of a forced test that was never finished; those in the target folder stay
+        remove_results(working);  // results of a forced test that was never finished; the target folder is not changed
         folder.write(staged_mark, "");
     }
     probe(working);

@@ -25,14 +25,14 @@ struct ResultFile {
 /// All files and folders that a test may make.
 std::span<const ResultFile> result_files();
 
-/// Whether a name is that of a file written by a test; all other files belong to the user.
+/// Whether a test writes a file of this name; all other files belong to the user.
 bool is_result_name(const std::string& name);
 
-/// Whether a folder contains results of a test. What is left of a test that was stopped before loading began does not
-/// count: such a test is simply run again.
+/// Whether a folder contains results of a test. Files of a test that was stopped before its first row and checkpoint do
+/// not count, because they are simply written again.
 bool holds_test_results(const std::filesystem::path& folder);
 
-/// First line of a test's case.toml: distinguishes the case in a results folder from a user's own file.
+/// Start of the first line of a test's case.toml. It distinguishes this file from a case that a user wrote.
 inline constexpr const char* resolved_case_mark = "# Resolved case of crackle ";
 
 /// Whether a file must be on disk before it receives its final name.
@@ -54,14 +54,14 @@ class OutputFolder {
     static OutputFolder create(const std::filesystem::path& wanted, Earlier earlier,
                                std::span<const std::filesystem::path> inputs);
     /// Opens an existing folder to resume its test; an interrupted replacement is completed first. Results in OUT.new
-    /// replace those in OUT once they are complete.
+    /// replace the results in OUT once they are complete.
     /// @throws InputError if there is no such folder.
     static OutputFolder reopen(const std::filesystem::path& folder);
 
     /// Takes over the folder and its lock.
     OutputFolder(OutputFolder&&) = default;
     OutputFolder& operator=(OutputFolder&&) = delete;
-    /// Removes what create() made if nothing was written to it, and the folder from which results were moved.
+    /// Removes the folder that create() made if it is empty, and the folder from which results were moved.
     ~OutputFolder();
 
     const std::filesystem::path& path() const { return working_; }   ///< folder to which files are currently written

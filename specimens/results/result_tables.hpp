@@ -29,8 +29,8 @@ using TableMarks = std::array<FileMark, result_tables>;
 struct FileOptions {
     parts::Output output = {};
     bool emission = false;  ///< whether acoustic events are recorded
-    /// Whether curve.csv has the column of tests with a membrane, walls or a normal force, and whether events.csv has
-    /// that of jointed specimens.
+    /// Whether curve.csv has the column for tests with a membrane, walls or a normal force, and events.csv the column
+    /// for jointed specimens.
     bool pressed = false, jointed = false;
     std::size_t large_frame = 200'000;  ///< number of bodies from which the frame at the peak is kept on disk
 };

@@ -44,7 +44,7 @@ struct TestState {
     std::vector<CurveRow> rows;
     FailureTracker failure;
     ContactHistory history;
-    Frame peak_frame;                ///< frame at the current peak; TestFiles stores those of large specimens
+    Frame peak_frame;                ///< frame at the current peak; for large specimens, TestFiles stores it
     std::vector<FrameEntry> frames;  ///< frames that have been written
     std::int64_t next_frame =
         0;           ///< index of the next frame, which is taken at this multiple of the strain between frames
