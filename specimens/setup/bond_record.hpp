@@ -18,7 +18,7 @@ namespace crackle {
 /// Points bonded at the start of loading, and the positions of the bodies when these bonds were made.
 struct BondRecord {
     BondLaw law = BondLaw::back_tension;
-    double thick = 0.0;                 // m, of segments
+    double thick = 0.0;                 // m, thickness of segments
     double grip = 0.0;                  // m, depth at each end within which bonds never break
     std::int64_t contacts_initial = 0;  ///< number of contact points that touch when loading starts
 
@@ -59,7 +59,7 @@ struct BondRecord {
 /// @param grip  m, depth at each end within which bonds never break
 BondRecord record_bonds(const World& world, const std::vector<SpecimenTrace>& traces, double grip);
 
-/// Creates the state of a body of which only the position is known. @param angle  rad, as in BodyState
+/// Creates the state of a body from its position and angle. @param angle  rad, as in BodyState
 BodyState placed_body(const World& world, const BondRecord& bonds, BodyIndex body, double x, double y, double angle);
 
 }  // namespace crackle

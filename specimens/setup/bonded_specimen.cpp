@@ -17,7 +17,7 @@
 namespace crackle {
 namespace {
 
-// Circles bond at their overlaps, whatever the thickness; this value keeps platens thin compared with the particles.
+// Circles bond at their overlaps, whatever the segment thickness, which here affects only platens.
 constexpr double circle_thick_share = 0.1;  // thickness relative to the mean radius
 
 /// Applies the case's time step. Its stability can be checked only once there are bonds.
@@ -33,8 +33,8 @@ void apply_given_step(World& world, const parts::Procedure& test) {
     }
 }
 
-/// Allowance for the overhang of mesh corners after the inset, relative to the thickness. It is about 0.01, hardly ever
-/// more than this.
+/// Allowance for the overhang of mesh corners after the inset, relative to the thickness. The overhang is about 0.01,
+/// and rarely exceeds the allowance.
 constexpr double overhang_share = 0.05;
 
 Bonding bonding_of(const Specimen& specimen, const parts::Bonds& bonds, double thick) {
@@ -75,7 +75,7 @@ std::function<bool(Vec2, BodyIndex, BodyIndex)> grips_of(const World& world, con
     };
 }
 
-/// Polygons of a particle file are bonded if the thickness exceeds the gap that the file states.
+/// Checks that bond.thick is large enough for the gap that a particle file of polygons states.
 void check_thick(const Specimen& specimen, const parts::Bonds& bonds, const Places& places) {
     if (!specimen.polygons || specimen.centres > 0) return;
     const bool across_gaps = bonds.facts().bonds_across_gaps;
@@ -89,7 +89,7 @@ void check_thick(const Specimen& specimen, const parts::Bonds& bonds, const Plac
     }
 }
 
-/// The scene to be bonded, without platens.
+/// The scene that will be bonded, without platens.
 Scene scene_of(const Specimen& specimen, const parts::Bonds& bonds, const parts::Procedure& test) {
     check_thick(specimen, bonds, test.places);
     Scene scene = specimen.scene;

@@ -7,7 +7,7 @@
 namespace crackle {
 namespace {
 
-/// Replaces the smaller strengths of two minerals with those that are given for the pair.
+/// Replaces constants of a face law with the values that the case states for a pair of minerals.
 FaceLaw law_of_pair(FaceLaw law, const MaterialPair& pair) {
     if (pair.bond.tensile_strength) law.tensile_strength = *pair.bond.tensile_strength;
     if (pair.bond.cohesion) law.cohesion = *pair.bond.cohesion;

@@ -30,7 +30,7 @@ double axial_distance(const World& world, const Gauges& gauges) {
 }
 
 /// Side particles with centres in the middle half of the height, away from the platens. For kinds of test that define
-/// regions, all particles in them.
+/// regions, all particles in these regions.
 std::vector<BodyIndex> side_of_gauge(const World& world, const std::vector<int>& ids, bool uniaxial) {
     const Domain& domain = world.settings.domain;
     std::unordered_map<int, BodyIndex> index;

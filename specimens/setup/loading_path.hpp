@@ -22,13 +22,13 @@ struct LoadingPath {
     double chosen_at = 0.0;       // s, time at which the speed was last chosen
     double turned_at = 0.0;       ///< strain at the last reversal
     double travelled = 0.0;       ///< strain travelled, back and forth, up to the last reversal
-    bool unloading = false;       // see unloading.hpp
+    bool unloading = false;       // whether the specimen is being unloaded (unloading.hpp)
     std::int64_t unloaded = 0;    ///< number of unloadings started
     double stress_at_turn = 0.0;  // N/m, stress at the last reversal
     double lateral = std::numeric_limits<double>::quiet_NaN();  ///< smoothed lateral strain, see lateral_control.hpp
-    double lateral_target = 0.0;                                // see lateral_control.hpp
+    double lateral_target = 0.0;                                // target of the lateral strain
     double own_from =
-        std::numeric_limits<double>::infinity();  ///< strain travelled when the caller took over the speed
+        std::numeric_limits<double>::infinity();  ///< strain travelled when the caller took over the speed, if it has
     double farthest = -std::numeric_limits<double>::infinity();  ///< largest strain in the curve rows so far
 
     /// Total strain travelled, back and forth; equal to the strain if the platen never reverses.
@@ -44,7 +44,7 @@ struct LoadingPath {
                    own_from, farthest);
 };
 
-/// The acceleration a, 1/s2.
+/// Largest acceleration of the strain, a, 1/s2.
 double largest_acceleration(const RateRule& rule);
 
 }  // namespace crackle

@@ -8,13 +8,13 @@
 namespace crackle {
 namespace {
 
-// Controller for ln(rate), scaled by sqrt(tolerance): gain is the change per wave transit and unit of error/tolerance;
-// fastest_rise and fastest_fall limit it.
+// Controller for ln(rate), scaled by sqrt(tolerance): gain is the change per wave transit and unit of
+// ln(tolerance/error); fastest_rise and fastest_fall limit the change.
 constexpr double gain = 1.0, fastest_rise = 1.0, fastest_fall = 4.0;
-// Lower limit of the rate, as a fraction of its upper limit: after a breakage a specimen vibrates for a while at any
-// rate.
+// Lower limit of the rate, as a fraction of its upper limit, because after a breakage a specimen vibrates for a while
+// at any rate.
 constexpr double slowest_share = 0.15;
-// Errors are clamped to this fraction of the tolerance: smaller ones carry no further information.
+// Smallest error that the controller distinguishes, as a fraction of the tolerance.
 constexpr double least_error_share = 1e-6;
 
 }  // namespace

@@ -8,7 +8,7 @@
 // the strain at which, by the linear solution, one in fifty bonded points has slid or broken, or a joint in the shear
 // box slides. Below that limit the rate follows two measured errors, smoothed over one transit:
 //       out-of-balance   |σ_top - σ_bottom| divided by the largest stress so far
-//       kinetic share    kinetic energy beyond that of the steady loading motion, divided by the strain energy
+//       kinetic share    kinetic energy in excess of the steady loading motion, divided by the strain energy
 // The larger error, divided by the tolerance, controls ln(rate): loading is slow through bursts of breakages and faster
 // in quiet periods.
 #pragma once
@@ -24,7 +24,7 @@ namespace crackle {
 struct RateRule {
     double tolerance = 0.0;         ///< 0: the case gives the rate, and the other members are unused
     double transit_time = 0.0;      // s
-    double first_strain = 0.0;      ///< axial strain ε1 at which the specimen starts to fail by the linear solution
+    double first_strain = 0.0;      ///< axial strain ε1 at which failure starts according to the linear solution
     double stress_floor = 0.0;      // N/m, stress at the strain ε1
     double energy_floor = 0.0;      // J, strain energy at the strain ε1
     double kinetic_per_rate = 0.0;  // J s2, kinetic energy of the elastic motion at a strain rate of 1/s
@@ -35,17 +35,17 @@ struct RateRule {
 /// Current rate, and the values that determine it.
 struct RateState {
     double rate = 0.0;                    // 1/s, axial, >= 0
-    double out_of_balance = 0.0;          ///< smoothed, signed
+    double out_of_balance = 0.0;          ///< smoothed difference of the platens' stresses, relative and signed
     double largest_stress = 0.0;          // N/m, largest magnitude so far
-    double kinetic_share = 0.0;           ///< smoothed
-    double next_check = 0.0;              // s
+    double kinetic_share = 0.0;           ///< smoothed, relative to the strain energy
+    double next_check = 0.0;              // s, time of the next choice of the rate
     double slowest = 0.0, fastest = 0.0;  // 1/s
     double strain_above = 0.0;            ///< cumulative strain while the error exceeded the tolerance
 
     CRACKLE_FIELDS(rate, out_of_balance, largest_stress, kinetic_share, next_check, slowest, fastest, strain_above);
 };
 
-/// Checks per wave transit, frequent enough that the rate changes little between checks and the changes cause no shock.
+/// Checks per wave transit; with this number, the rate changes little between checks, and the changes cause no shock.
 inline constexpr double checks_per_transit = 20.0;
 
 /// The initial rate, which is never exceeded.

@@ -17,7 +17,7 @@ namespace crackle {
 /// A rigid body that holds or drives the specimen.
 struct SetupPart {
     BodyIndex body = 0;
-    std::uint32_t face = 2;  ///< number of leading corners that form its face; only the face is drawn
+    std::uint32_t face = 2;  ///< number of corners, from the first, that form its face; only the face is drawn
     bool wall = false;       ///< whether it presses on a side instead of holding or driving the specimen
 
     CRACKLE_FIELDS(body, face, wall);
@@ -27,7 +27,7 @@ struct SetupPart {
 /// stress and strain.
 struct PlacedApparatus {
     LoadingKind kind = LoadingKind::compression;
-    /// Whether stress and strain are those of the rock, as in TestKind; false for tests such as the Brazilian one.
+    /// Whether stress and strain describe the rock, as in TestKind; false for the Brazilian test, for example.
     bool uniaxial = true;
     bool compression = true;             ///< whether the driving part moves in the negative direction of its axis
     int axis = 1;                        ///< axis along which the driving part moves: 0 x, 1 y
@@ -35,13 +35,13 @@ struct PlacedApparatus {
     double stress_intensity = 0.0;       ///< sqrt(m), K_I divided by the nominal stress; 0 without a notch
     double span = 0.0;                   // m; 0 if absent
     double normal_force = 0.0;           // force on the driving part perpendicular to its motion, N
-    double normal_spring = 0.0;          // N/m; increase of the normal force per rise of that part
+    double normal_spring = 0.0;          // N/m; increase of the normal force per rise of the driving part
     int bottom_id = 0, top_id = 0;       // ids as in the outputs
     BodyIndex bottom = 0, top = 0;       // indices of the first support and the driving part in the world
     std::vector<SetupPart> parts;        ///< all parts: a support first, the driving part last
-    double top_start = 0.0;              // m, coordinate of the driving part's centroid along its axis
+    double top_start = 0.0;              // m, initial coordinate of the driving part's centroid along its axis
     double top_height = 0.0;             // m, initial y of the driving part's centroid
-    double confining_pressure = 0.0;     // pressure on the sides, N/m; 0: none
+    double confining_pressure = 0.0;     // pressure on the sides, N/m; 0: no pressure
 
     /// Whether a pressure acts on the specimen's sides.
     bool confined() const { return confining_pressure > 0.0; }

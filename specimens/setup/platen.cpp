@@ -60,7 +60,7 @@ void hold(Scene& scene, std::uint32_t body, double velocity) {
     scene.bodies[body].velocity = {0.0, velocity};
 }
 
-/// The velocity field uses the centroids of circles, clumps and polygons; their rounded corners do not matter here.
+/// Gives each body a velocity that grows linearly from the lower to the upper platen with the height of its centroid.
 void spread_velocity(Scene& scene, const Platens& platens) {
     const double height = platens.top_y - platens.bottom_y;
     for (Body& body : scene.bodies) {
@@ -105,8 +105,8 @@ void add_parts(Scene& scene, const Specimen& specimen, const parts::Procedure& t
     }
 }
 
-/// Adds the blocks beside the specimen that are driven by the pressure; they extend beyond both platens.
-/// @param sides  extent of the particles alone
+/// Adds the blocks that press on the sides of the specimen; they extend beyond both platens.
+/// @param sides  extent of the particles along x
 void add_walls(Scene& scene, const Specimen& specimen, const parts::Procedure& test, double thick,
                const Platens& platens, const Extent& sides) {
     const int material = material_with_friction(scene, specimen, 0.0);

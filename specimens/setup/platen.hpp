@@ -9,7 +9,7 @@
 //     corner;
 //   - frictional platens: just touching the outermost particle. They are not bonded, and the test starts at zero force.
 // A platen is a solid block rather than a single segment. A corner pressed into a segment by more than t would pass
-// through it and be pushed out on the other side. Up to that overlap, both exert the same force.
+// through it and be pushed out on the other side. Up to that overlap, block and segment exert the same force.
 //
 // Walls that press on the sides of a confined specimen (confinement.side = "walls") are smooth blocks. They extend
 // beyond both platens and may overlap them. Each moves along x under the confining pressure times the initial height.
@@ -28,23 +28,23 @@ namespace crackle {
 
 /// The bodies that hold and drive a specimen.
 struct Platens {
-    int bottom_id = 0, top_id = 0;  ///< ids of the first and the last part; both are larger than all ids in the input
+    int bottom_id = 0, top_id = 0;  ///< ids of the first and the last part; larger than all ids in the input
     Apparatus apparatus;  ///< parts for kinds of test without platens; reference dimensions of stress and strain
     double bottom_y = 0.0, top_y = 0.0;  ///< m, y of the faces at the start of loading
     double velocity = 0.0;               ///< velocity of the upper platen, m/s, positive upwards
     double parked = 0.0;  ///< m, distance of each platen from its initial position while the specimen is being bonded
-    double walls_parked = 0.0;  ///< distance of the walls from their initial position at that time, m
+    double walls_parked = 0.0;  ///< m, distance of each wall from its initial position during bonding
     bool bonded = true;
-    bool walls = false;  ///< whether walls press on the sides; their ids follow the lower platen's, left before right
+    bool walls = false;  ///< whether walls press on the sides; ids: lower platen, left wall, right wall, upper platen
 };
 
 /// Distance at which frictional platens are parked while a specimen is being bonded, in specimen heights.
 inline constexpr double platen_parking_distance = 1.0;
 
-/// Width of a platen relative to the specimen's; leaves room for bulging and for pieces that break off.
+/// Width of a platen relative to the specimen's width; leaves room for bulging and for pieces that break off.
 inline constexpr double platen_width_ratio = 2.0;
 
-/// Depth of a platen relative to the specimen's height; no corner is ever pressed in that far.
+/// Depth of a platen relative to the specimen's height; no corner is pressed in that far.
 inline constexpr double platen_depth_ratio = 0.05;
 
 /// Distance from a cut outline to the face bonded to it, relative to a mean circle's diameter. Circles are kept or
@@ -57,8 +57,8 @@ inline constexpr double cut_circles_offset = 0.25;
 /// @param thick  segment thickness when bonds are made, m
 Platens add_platens(Scene& scene, const Specimen& specimen, const parts::Procedure& test, double thick);
 
-/// Moves frictional platens and walls from their parked positions to those where loading starts. Bonded platens are
-/// already in place.
+/// Moves frictional platens and walls from their parked positions to the positions where loading starts. Bonded platens
+/// are already in place.
 void place_platens(World& world, const Platens& platens);
 
 }  // namespace crackle

@@ -13,7 +13,7 @@ inline constexpr double min_platen_hold = 0.5;
 
 /// @param setup  the setup of a world with bonded platens
 /// @throws InputError if a platen holds nothing or only a corner of the specimen, or if no chain of bonds connects the
-/// platens. Strength and stiffness would then be those of a few bonds.
+/// platens. Strength and stiffness would then depend on a few bonds.
 void check_platen_hold(const World& world, const TestSetup& setup, const Platens& platens, const Places& places);
 
 }  // namespace crackle

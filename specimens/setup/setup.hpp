@@ -49,7 +49,7 @@ struct TestSetup {
     BondRecord bonds;
     Provenance origin;
 
-    double stable_time_step = 0.0;         // s, exact limit for the world as bonded
+    double stable_time_step = 0.0;         // s, exact stability limit of the bonded world
     bool stable_time_step_proved = false;  ///< whether a factorisation proved the limit; otherwise it is only a bound
     double time_step_bound = 0.0;          // bound at the start of loading, s; updated during the run
     RateRule rate_rule;
@@ -104,7 +104,7 @@ constexpr bool lists_all_fields<TestSetup>() {
 
 /// Records the state at the start of loading. Requires a bonded world with its platens in place, after
 /// compute_forces().
-/// @param grip  fraction of the height at each end whose bonds never break
+/// @param grip  fraction of the height, at each end, within which bonds never break
 TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, LoadingKind kind,
                        double grip);
 

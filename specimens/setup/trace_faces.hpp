@@ -34,7 +34,7 @@ struct TraceFace {
     BodyIndex i = 0, j = 0;   ///< i < j
     std::int32_t bonds = 0;   ///< number of bonded points; 0 for an open face
     double length = 0.0;      // m
-    Vec2 middle{}, normal{};  // m; unit, from i to j
+    Vec2 middle{}, normal{};  // midpoint, m; unit normal from i to j
 
     CRACKLE_FIELDS(trace, i, j, bonds, length, middle, normal);
 };

@@ -9,7 +9,7 @@ namespace crackle {
 namespace {
 
 constexpr double creep_share = 0.05;  // creeping rate relative to the largest rate
-// Fraction of the acceleration used for braking: the speed is chosen at intervals and lags behind continuous braking.
+// Fraction of the acceleration used for braking, because the speed is only chosen at intervals.
 constexpr double brake_share = 0.7;
 
 /// Strain until the platen must reverse; infinite if it need not reverse.

@@ -18,11 +18,11 @@ namespace crackle {
 /// Where loading reverses, and how fast.
 struct UnloadRule {
     bool by_strain = false;
-    std::vector<double> at;     ///< strains, or N/m; positive in the direction of loading; empty: no unloading
-    double to = 0.0;            ///< fraction of the stress at which unloading started
+    std::vector<double> at;     ///< strains, or stresses in N/m; positive as in loading; empty: no unloading
+    double to = 0.0;            ///< unloading ends at this fraction of the stress at which it started
     double acceleration = 0.0;  // 1/s2, largest acceleration of the strain
     double modulus = 0.0;       // modulus from the linear solution, N/m
-    /// Least speed, 1/s, so that every reversal is reached; the distance needed to stop from it is negligible.
+    /// Smallest speed, 1/s, so that every reversal is reached; the distance needed to stop from it is negligible.
     double creep = 0.0;
 
     /// Whether the test unloads.
