@@ -166,7 +166,7 @@ CRACKLE_FIGURES(
     (Number, density, "kg/m2", "mass per area of the specimen, including its pores"),
     (Number, damping_ratio, "-", "ratio of the normal dashpot to critical damping, averaged over the bonds"));
 
-/// b-value for a magnitude of completeness found in another way.
+/// b-value for a magnitude of completeness found by another method.
 CRACKLE_FIGURES(OtherBValue, (Number, b, "-", "b-value for the magnitude of completeness given here"),
                 (Count, events, "", "number of events above the magnitude of completeness given here"),
                 (Number, completeness, "-",

@@ -229,7 +229,7 @@ CRACKLE_FIGURES(
     (Number, crack_damage_strain, "-", "axial strain at which crack_damage_stress is first reached"),
     (Number, crack_damage_over_peak, "-", "crack_damage_stress divided by the peak stress"));
 
-/// One unloading and reloading.
+/// One cycle of unloading and reloading.
 CRACKLE_FIGURES(
     CycleFigures, (Number, strain, "-", "axial strain at which unloading starts"),
     (Number, stress, "N/m", "axial stress at which unloading starts, positive in the direction of loading"),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Converts a summary to JSON and back. The keys of the file are the names of the members. The members of a nested
-// struct appear among those of the struct around it.
+// struct appear among the members of the struct around it.
 // Tested by tests/specimens/summary/summary_test.cpp.
 #pragma once
 

@@ -47,7 +47,7 @@ struct KeyLister {
     }
 };
 
-/// Lists the units and meanings of those visited members that have a value or null, and converts stresses to Pa.
+/// Lists the units and meanings of the visited members that have a value or null, and converts stresses to Pa.
 struct UnitLister {
     Table<std::string>& units;
     bool area_units;
