@@ -38,7 +38,7 @@ AreaStrains area_strains_of(const PlottedTest& test) {
     return strains;
 }
 
-/// Points of the curve up to where it first leaves the frame.
+/// Points of the curve up to where it first leaves the frame at the bottom.
 std::vector<Point> within_frame(const Axes& axes, const std::vector<double>& axial,
                                 const std::vector<double>& strains) {
     std::vector<Point> points = curve_points(axes, axial, strain_unit, strains, strain_unit);

@@ -23,7 +23,7 @@ struct Scale {
     std::string label(double tick) const;
 };
 
-/// Smallest and largest of some values.
+/// Smallest and largest value of one or more lists.
 struct Range {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 
@@ -40,8 +40,8 @@ struct Range {
 /// A scale from 0 (or below) to slightly above the largest value, with at least one tick in addition to the one at 0.
 /// @param most_ticks largest number of intervals, unless this would leave only one tick
 Scale scale_for(double smallest, double largest, int most_ticks);
-/// A scale that includes all values. It includes 0 as well, unless the distance of the values from 0 is more than half
-/// of their magnitude.
+/// A scale that includes all values. It also includes 0, unless the magnitude of every value exceeds half of the
+/// largest magnitude.
 Scale scale_around(double smallest, double largest, int most_ticks);
 
 /// A unit with the SI prefix for which the largest value is between 1 and 1000, for example {1e3, "kN/m"}. In "N/m or

@@ -70,7 +70,7 @@ Scale figure_scale(double smallest, double largest, int ticks) {
     return scale;
 }
 
-/// Legend entries of bundles or series.
+/// Legend entries of curve bundles or of series.
 template <class Labelled>
 std::vector<Legend::Entry> entries_of_labels(const std::vector<Labelled>& all) {
     std::vector<Legend::Entry> entries;
@@ -78,8 +78,8 @@ std::vector<Legend::Entry> entries_of_labels(const std::vector<Labelled>& all) {
     return entries;
 }
 
-/// Draws values as dots, and over them the means with their line. @param x_unit, y_unit values by which x and y are
-/// divided
+/// Draws values as dots, and over them the means, joined by a line if requested. @param x_unit, y_unit values by which
+/// x and y are divided
 void draw_series(Canvas& canvas, const Axes& axes, const Series& series, const Colour& colour, double x_unit,
                  double y_unit) {
     const Colour faint = tinted(colour, 0.45);

@@ -23,8 +23,8 @@ struct CurveBundle {
 };
 
 /// Band of curves: median, minimum and maximum after dropping the fraction `share` of the curves on either side. Values
-/// are taken at equally spaced strains up to the largest strain that at least half of the curves reach. Each strain
-/// uses the curves that reach it.
+/// are taken at equally spaced strains up to the largest strain that at least half of the curves reach. At each strain,
+/// only the curves that reach it are used.
 struct Band {
     std::vector<double> strain, low, median, high;
 };
@@ -41,10 +41,10 @@ struct Sample {
     double mean = 0.0, low = 0.0, high = 0.0;
 };
 
-/// One row per sample, with its individual values, its mean and the interval of the mean.
+/// Diagram with one row per sample: its individual values, its mean and the interval of the mean.
 Panel distributions(const std::string& title, const std::string& unit, const std::vector<Sample>& samples);
 
-/// Means with intervals against the values of an axis, connected by a line, with individual values as small dots.
+/// Samples at values of an axis, drawn as means with intervals, and as small dots for the individual values.
 struct Series {
     std::string label;
     std::vector<double> x;        ///< in any order

@@ -88,7 +88,7 @@ AxisTitle time_axis(const std::vector<PlottedDeck>& decks) {
     return in_time ? AxisTitle{"time <i>t</i>", "s", true} : AxisTitle{"step", "", false};
 }
 
-/// Appearance of one part of the energy balance, which includes the losses and the work done on bodies.
+/// Appearance of one part of the energy balance: an energy, a loss, work done on bodies, or the closing error.
 struct EnergyLook {
     DeckEnergy part;
     const char* label;
@@ -114,7 +114,7 @@ bool all_zero(const std::vector<double>& values) {
     return std::ranges::all_of(values, [](double value) { return value == 0.0; });
 }
 
-/// Parts of the energy balance that are always 0 are omitted, except its closing error.
+/// Panel of the energy balance. Parts that are always 0 are omitted, except the closing error.
 Panel energy_panel(const PlottedDeck& deck, const AxisTitle& energy) {
     const DeckEnergyCurve& curve = deck.recording->curves.energy;
     std::vector<DrawnCurve> curves;
@@ -184,7 +184,7 @@ double change_of(const std::vector<PlottedDeck>& decks, Column column) {
 // Smallest change that is not round-off, relative to the change in the other direction.
 constexpr double no_change = 1e-9;
 
-/// Directions in which anything changes.
+/// Directions in which the values of a column change; both directions if `still` is true.
 std::vector<Direction> directions_of(const std::vector<PlottedDeck>& decks, Column Direction::*column, bool still) {
     if (still) return {horizontal, vertical};
     const double x = change_of(decks, horizontal.*column), y = change_of(decks, vertical.*column);
@@ -194,7 +194,7 @@ std::vector<Direction> directions_of(const std::vector<PlottedDeck>& decks, Colu
     return worth;
 }
 
-/// With a single body, its name is the heading; with several bodies, names are in the legend.
+/// Panel of curves of bodies. The name of a single body is the heading; names of several bodies are in the legend.
 Panel body_panel(const AxisTitle& x, const AxisTitle& y, const std::vector<DrawnCurve>& curves) {
     return curves_panel(x, y, curves.size() == 1 ? curves.front().label : "", curves);
 }

@@ -19,7 +19,7 @@ namespace crackle::plot {
 struct PlottedDeck {
     const Recording* recording = nullptr;
     std::string label;
-    std::vector<int> bodies;  ///< ids of the bodies to draw, a selection of those listed in npfd
+    std::vector<int> bodies;  ///< ids of the bodies to draw, a selection of the bodies listed in npfd
 };
 
 /// Values of --what for decks, except `all`.
@@ -28,10 +28,10 @@ constexpr auto list_names(DeckWord) {
     return in_order("energy", "displacement", "height", "velocity", "force", "curve");
 }
 
-/// Whether the run has data for this value.
+/// Whether the run has data for this value of --what.
 bool has_rows(const Recording& deck, DeckWord word);
 
-/// Values that give a useful diagram: energies; displacements and velocities that are not all 0; forces against
+/// Values of --what that give a useful diagram: energies; displacements; velocities that are not all 0; forces against
 /// displacements if driven bodies did work.
 std::vector<DeckWord> words_worth_drawing(const std::vector<PlottedDeck>& decks);
 
@@ -43,7 +43,7 @@ std::vector<int> watched_bodies(const Recording& deck);
 
 /// Panels for one value of --what. Energies have one panel per run; forces and displacements have one per direction,
 /// each with the curves of all runs.
-/// @param units units of the decks; if empty, axes are labelled as in deck units
+/// @param units units of the decks; if empty, axes are labelled «deck's units»
 /// @param still whether to include directions in which nothing changes
 std::vector<Panel> deck_panels(DeckWord word, const std::vector<PlottedDeck>& decks,
                                const std::optional<UnitNames>& units, bool still);

@@ -155,7 +155,7 @@ void mark_cracks(Canvas& canvas, const Axes& axes, const PlottedTest& test, doub
     for (const auto& [level, name] : {std::pair(known.crack_initiation_stress.or_nan(), crack_initiation_sign),
                                       std::pair(known.crack_damage_stress.or_nan(), crack_damage_sign)}) {
         const auto reached = std::ranges::find_if(stress, [level = level](double s) { return s >= level; });
-        if (reached == stress.end()) continue;  // true also if the stress is NaN
+        if (reached == stress.end()) continue;  // also if the stress of the mark is NaN
         const auto row = static_cast<std::size_t>(reached - stress.begin());
         const Point place = axes.at(strain[row] / strain_unit, *reached / unit);
         canvas.circle(place, 1.5, &white, &colour_of(test), 0.7 * curve_width);
@@ -300,7 +300,7 @@ Panel stress_strain(const std::vector<PlottedTest>& tests, const std::vector<Lab
         lower.y = count_scale(single ? histogram.most : largest_of(tests, "bonds_broken"), 2);
         const double left = std::max(Axes::room_left(canvas, upper.y), Axes::room_left(canvas, lower.y));
         const Legend legend = legend_of(canvas, entries_with(tests, measured), place.width);
-        // With a single test, space is needed to state the interval.
+        // With a single test, space is needed for the text that states the strain interval.
         const double gap = (single ? 1.7 : 0.8) * canvas.style().font_size;
         // The panel's letter is beside the frame, where it could overlap the uppermost number.
         const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);

@@ -35,7 +35,7 @@ const Colour& colour_of(FaceLine::Kind kind) {
     return ink;
 }
 
-constexpr double least_band = 0.02;       // smallest stress that is drawn, relative to the high one
+constexpr double least_band = 0.02;       // smallest stress that is drawn, relative to ForceScales::high
 constexpr double between_drawings = 6.0;  // pt
 constexpr double key_height = 13.0;       // pt, height of the key, a line below the captions
 constexpr double key_text = 0.85;         // text size of the key, relative to the font size
@@ -58,14 +58,14 @@ double crack_width(double size) { return std::clamp(0.12 * size, 0.25, 0.9); }
 
 /// Lengths in drawings of forces, the same for all moments.
 struct ForceScales {
-    double reach = 0.0;                   // m per N/m, half the width of a band
+    double reach = 0.0;                   // half the width of a band per stress, m per N/m
     double high = 0.0;                    // N/m, stress exceeded at only a few ends of faces
-    std::string unit = "N/m";             // of stresses
+    std::string unit = "N/m";             // unit of stresses
     double cell = 0.0;                    // m, size of a cell
     double widening = 0.0, widest = 0.0;  // m per m: width of a crack per opening; m, largest width
 };
 
-/// The median of the openings of a moment's open cracks, m; infinite if it has none.
+/// Median opening of the open cracks of a moment, m; infinite without open cracks.
 double usual_opening(const Moment& moment) {
     std::vector<double> openings;
     for (const FaceLine& line : moment.faces)
@@ -79,8 +79,8 @@ double usual_opening(const Moment& moment) {
 ForceScales scales_of(const std::vector<Moment>& moments) {
     constexpr double high_band = 0.18, widest_crack = 0.07;  // relative to the size of a cell
     std::vector<const FaceBand*> bands;
-    // Openings grow a hundredfold after the peak. The scale is that of the moment with the narrowest cracks, in which
-    // they would otherwise not be seen.
+    // Openings grow a hundredfold after the peak. The moment with the narrowest cracks determines the scale, because
+    // its cracks would otherwise be invisible.
     double opening = std::numeric_limits<double>::infinity();
     for (const Moment& moment : moments) {
         for (const FaceBand& band : moment.bands) bands.push_back(&band);
@@ -160,7 +160,7 @@ Key key_of(const std::vector<Moment>& moments, double magnify) {
     return key;
 }
 
-/// A sample with its meaning.
+/// A sample in the key, with its meaning.
 struct KeyItem {
     enum class Sample : std::uint8_t { bar, line, patch, band, none };
 
@@ -251,7 +251,7 @@ void draw_force_key(Canvas& canvas, const Rect& place, const ForceScales& scales
     if (!items.empty()) draw_items(canvas, place, items);
 }
 
-/// Drawings beside each other. All have the same scale and height; each has the width that it needs.
+/// Drawings side by side. All have the same scale and height; each has the width that it needs.
 struct Row {
     std::vector<Moment> moments;
     double height = 0.0, widths = 0.0, widest = 0.0;  // m

@@ -41,8 +41,8 @@ std::vector<double> pooled(const std::vector<PlottedTest>& tests) {
     return magnitudes;
 }
 
-/// A scale with round ends around a range. Ticks are a fraction of a magnitude, one magnitude or several magnitudes
-/// apart.
+/// A scale that extends slightly beyond a range. Ticks are a fraction of a magnitude, one magnitude or several
+/// magnitudes apart.
 Scale magnitude_scale(double low, double high, int most_ticks) {
     Scale scale;
     scale.step = 10.0;
@@ -174,7 +174,7 @@ void draw_magnitudes(Canvas& canvas, const Rect& place, const Magnitudes& all) {
     axes.draw(canvas, "moment magnitude <i>M</i>", "log₁₀ of the number of events");
 }
 
-/// Colours from dark to bright, also when printed in grey (viridis, sampled at quarters).
+/// Colour of the viridis map, sampled at quarters. It goes from dark to bright, also if printed in grey.
 Colour time_colour(double share) {
     static const std::array<Colour, 5> stops{colour("#440154"), colour("#3b528b"), colour("#21918c"), colour("#5ec962"),
                                              colour("#fde725")};

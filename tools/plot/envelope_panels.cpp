@@ -33,13 +33,13 @@ double largest_strength(const EnvelopeFigure& figure) {
     return largest;
 }
 
-/// Unit that suits the smallest strength, so that confining pressures, which are a small fraction of it, have short
+/// Unit that suits the smallest strength. Confining pressures, which are a small fraction of it, then have short
 /// numbers.
 Unit stress_unit(const EnvelopeFigure& figure) {
     return unit_for(figure.laws.strengths.front().mean, figure.tests.unit);
 }
 
-/// Legend entries of those laws that could be fitted.
+/// Legend entries of both laws with their fitted parameters, and of measured strengths.
 std::vector<Legend::Entry> fitted_entries(const EnvelopeFigure& figure) {
     const StrengthEnvelope& laws = figure.laws;
     const Unit unit = stress_unit(figure);
@@ -108,7 +108,7 @@ void draw_circle(Canvas& canvas, const Axes& axes, double factor, double smalles
                 colour, 0.7 * curve_width);
 }
 
-/// Measured strengths as open circles with their errors. @param at  the point of a pressure and a strength
+/// Draws measured strengths as open circles with their errors. @param at  maps pressure and strength to a point
 void draw_measured(Canvas& canvas, const std::vector<StrengthOfCores>& measured, const auto& at) {
     const Colour white = colour("#ffffff");
     constexpr double radius = 2.2;  // pt

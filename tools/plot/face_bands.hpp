@@ -3,7 +3,7 @@
 // (compression positive) and τ the mean shear stress, a point of the face is drawn from -v to v with
 //     v = reach (σ n - τ t)
 // The sides of a band are thus parallel to the force, its width is the normal stress, a trapezoid shows the moment, and
-// a slant the shear. Where σ changes its sign, the band ends and one of the other colour begins.
+// a slant the shear. Where σ changes its sign, the band ends and a band of the other colour begins.
 // Tested by tests/tools/plot/face_bands_test.cpp.
 #pragma once
 
@@ -37,8 +37,8 @@ struct BandPart {
     bool compression = true;
 };
 
-/// A face's stress in a frame, at given ends; empty if the face carries nothing. @param bond index into
-/// Recording::bonds
+/// The band of a face in a frame, with the given ends; empty if the face is open or has no length. @param bond index
+/// into Recording::bonds
 std::optional<FaceBand> face_band(const RecordedFrame& frame, std::size_t bond, Vec2 begin, Vec2 end);
 
 /// Colour of the inside of a band, lighter than its edge.

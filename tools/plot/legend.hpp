@@ -36,7 +36,7 @@ std::string indexed(const char* letter, const char* index);
 /// A title with its unit, for example "peak stress, MPa".
 std::string titled(const std::string& title, const std::string& unit);
 
-/// Draws a mean, and its interval if that is finite. @param across whether the interval is along the x axis
+/// Draws a mean, and its interval if the interval is finite. @param across whether the interval is along the x axis
 void draw_mean(Canvas& canvas, Point mean, Point low, Point high, const Colour& colour, bool across);
 
 /// The width from which the height of a diagram is computed, pt. It is limited, so that a diagram as wide as a page is

@@ -50,8 +50,8 @@ struct DrawnBody {
     bool shown = true;
 };
 
-/// The point of the first frame for which `mean` is the mean of two positions: moved with body a, and moved with body
-/// b. Both motions are affine, and so is their mean.
+/// The point of the first frame for which `mean` lies midway between its position moved with body a and its position
+/// moved with body b. Both motions are affine, and so is their mean.
 /// @return empty if the relative rotation of the bodies is so large that the solution is ill-conditioned
 std::optional<Vec2> held_place(const Motion& a, const Motion& b, Vec2 mean) {
     // smallest length of the mean of the two rotations, 1 if they are equal; points in frames have single precision

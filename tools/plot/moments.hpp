@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A specimen at one instant, prepared for drawing: where its cells, cracks, joints and the forces of its faces are.
+// A specimen at one instant, prepared for drawing: its cells, cracks, joints and forces at their current positions.
 // Tested by tests/tools/commands/plot_test.cpp.
 #pragma once
 
@@ -40,17 +40,17 @@ struct FaceLine {
 
     Vec2 from, to;
     Kind kind = Kind::tension;
-    double opening = 0.0;  // m, of a crack
+    double opening = 0.0;  // opening of a crack, m
 };
 
 /// The state at one instant, prepared for drawing.
 struct Moment {
     std::vector<std::vector<Vec2>> outlines;  // outlines of the cells; a single point for a circle
-    std::vector<bool> shown;                  // by cell: whether it is drawn
+    std::vector<bool> shown;                  // whether each cell is drawn
     const std::vector<RecordedCell>* cells = nullptr;
     std::vector<FaceLine> faces;  // joints first, so that cracks are drawn over them
     std::vector<FaceBand> bands;
-    bool forces = false;  // whether bands are drawn, and cracks as wide as they are open
+    bool forces = false;  // whether bands are drawn, and the openings of cracks as line widths
     std::vector<DrawnMark> marks;
     std::vector<std::string> caption;   // lines of text
     std::vector<std::string> minerals;  // empty if the rock has only one material
@@ -65,7 +65,7 @@ struct Moment {
 /// @throws InputError if the test has no such frame
 std::size_t frame_at(const Recording& test, const std::string& at);
 
-/// Reads a frame and prepares it for drawing. @param folder of the test, with the cracks and joints of each frame
+/// Reads a frame and prepares it for drawing. @param folder the test's folder, with the cracks and joints of all frames
 Moment moment_of(const DrawnMoment& drawn, const std::filesystem::path& folder, const DrawingStyle& style);
 
 }  // namespace crackle::plot

@@ -49,7 +49,7 @@ void refuse_without_threads() {
 /// @param sheet bytes of the image
 void refuse_without_memory(double sheet) {
     // Bytes for two threads that search for fonts, each with an arena of 64 MiB from glibc and a stack, and for the
-    // data that they read. To align an arena, glibc maps twice its size for a moment.
+    // data that they read. To align an arena, glibc temporarily maps twice its size.
     constexpr double of_fonts = (3.0 * 64.0 + 2.0 * 8.0 + 32.0) * (1 << 20);
     // Copies of the sheet in memory while it is drawn, its colours are converted, and it is compressed.
     constexpr double sheets = 3.0;

@@ -36,17 +36,17 @@ struct PlottedTest {
 /// the common scale, an inset shows them enlarged. Measured curves are drawn as dashed lines, and then there is no
 /// inset.
 Panel stress_strain(const std::vector<PlottedTest>& tests, const std::vector<LabelledCurve>& measured = {});
-/// Number of bonds broken, per strain interval and by mode, and the running total (right axis). For several tests only
-/// the running totals.
+/// Number of bonds broken, per strain interval and by mode, and the running total (right axis). For several tests, only
+/// the running totals are shown.
 Panel breaks(const std::vector<PlottedTest>& tests);
 
-/// Area strain against axial strain. Area strain is axial minus lateral strain, positive if the area shrinks. For a
-/// single test, also the part caused by cracks, and the point of crack damage. Values far below the lowest one
+/// Area strain against axial strain. Area strain is axial minus lateral strain, positive if the area shrinks. A single
+/// test is shown with the part caused by cracks, and the point of crack damage. Values far below the lowest value
 /// before the peak are cut off.
 Panel area_strain(const std::vector<PlottedTest>& tests);
 /// Whether the specimen was pulled apart between platens.
 bool pulled(const TestResults& results);
-/// Whether the results contain the lateral strain of the specimen.
+/// Whether the area strain is known: the test is uniaxial, and all rows contain a lateral strain.
 bool has_area_strain(const TestResults& results);
 
 /// A disc drawn on a specimen.
@@ -64,21 +64,21 @@ struct DrawnMoment {
     std::vector<DrawnMark> marks = {};
     bool lettered =
         false;  ///< whether this drawing has its own letter within a row; the first drawing of a row always has one
-    bool forces = false;  ///< whether the stresses of faces are drawn, and cracks as wide as they are open
+    bool forces = false;  ///< whether the stresses of faces are drawn, and the openings of cracks as line widths
 };
 struct DrawingStyle {
     double magnify = 1.0;  ///< magnification of displacements
 };
 /// Specimens side by side at the same scale. Cracks are coloured by mode and drawn on both faces that they separated. A
-/// fragment is drawn completely or, if it has flown far away, not at all; the caption gives the number of particles
+/// fragment is drawn completely or, if it has moved far away, not at all; the caption gives the number of particles
 /// left out. Stresses of faces and openings have the same scale in all drawings.
-/// @param folders by moment: folder of its test, which contains the cracks of each frame
+/// @param folders for each moment, the folder of its test, which contains the cracks of each frame
 Panel drawings(const std::vector<DrawnMoment>& moments, const std::vector<std::filesystem::path>& folders,
                const DrawingStyle& style);
 
 /// Number of events against magnitude, for all tests together. The diagram shows the number of events of at least
 /// each magnitude, the number in each interval of 0.1, and the line fitted above the magnitude of completeness. A text
-/// next to the line gives b, its error, the number of events used, damping and density.
+/// above the diagram gives b, its error, the number of events used, damping and density.
 Panel magnitude_frequency(const std::vector<PlottedTest>& tests);
 /// Positions of acoustic events on the specimens at these moments, side by side. The colour of a mark shows the strain
 /// at which the event began, and its size the magnitude.

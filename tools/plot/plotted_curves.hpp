@@ -18,17 +18,17 @@ const std::vector<double>& column(const TestResults& results, const char* name);
 double largest_of(const std::vector<PlottedTest>& tests, const char* name);   ///< largest value of a column, at least 0
 double smallest_of(const std::vector<PlottedTest>& tests, const char* name);  ///< smallest value of a column, at most 0
 
-/// Points of a curve, without those within 0.01 pt of the line drawn so far.
+/// Points of a curve, without points less than 0.01 pt from the previous one kept; the last point is always kept.
 std::vector<Point> curve_points(const Axes& axes, const std::vector<double>& x, double x_unit,
                                 const std::vector<double>& y, double y_unit);
 
 /// Names of stress and strain for these tests; specific to the kind of test if all are of one kind.
 CurveNames names_of(const std::vector<PlottedTest>& tests);
-/// What stress and strain are called for a kind of test.
+/// Names of stress and strain for a kind of test.
 CurveNames names_of_kind(const std::optional<LoadingKind>& kind);
 
 std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests);
-/// Scale of the strains of all tests, and up to `other` if that is larger. @param width of the panel, pt
+/// Scale that includes 0, the strains of all tests, and `other`. @param width width of the panel, pt
 Scale strain_scale(const std::vector<PlottedTest>& tests, double width, double other = 0.0);
 
 }  // namespace crackle::plot
