@@ -25,7 +25,7 @@ struct CellSizes {
 /// Default gap between cells, relative to the mean cell size sqrt(area/cells). At 0.02, 99 % of the faces have both
 /// contact points (solver/MODEL.md 5.2), and the inset destroys no cell of a usual packing.
 inline constexpr double derived_gap_share = 0.02;
-/// Gap for a case that states none, m. @param area  area of the box, m2 @param cells  number of cells in the box
+/// Gap if the case states no gap, m. @param area  area of the box, m2 @param cells  number of cells in the box
 double derived_gap(double area, double cells);
 
 /// Sizes of the cells of a mesh, including gaps.

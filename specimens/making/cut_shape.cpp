@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t fewest_bodies = 10;  // smallest number of bodies that must remain after cutting
 
-/// Copy of a scene with only some of its bodies, which must be circles. @param keep  whether to keep a given body
+/// Copy of a scene with only some of its bodies, which must be circles. @param keep  returns whether to keep a body
 template <class Keep>
 Scene part_of(const Scene& scene, const Keep& keep) {
     Scene part = scene;

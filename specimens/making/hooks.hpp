@@ -34,17 +34,17 @@ enum class AfterLook : std::uint8_t {
     interrupt  ///< interrupt the test; results are kept, and the test can be resumed
 };
 
-/// Callbacks of a test; empty ones are ignored.
+/// Callbacks of a test; empty callbacks are ignored.
 struct TestHooks {
     std::function<void(const std::string&)> stage;   ///< called with one line at each stage: "packed 304 circles …"
     std::function<void(const std::string&)> detail;  ///< called with further details of a stage, one line each
     std::function<void(const std::string&)>
         working;  ///< called frequently, before loading starts, with a description of the current work
     std::function<void(const TestProgress&)> progress;  ///< called a few times a second
-    /// May be called by any thread; once it has returned true, it must keep doing so.
+    /// Whether the caller requests an interrupt. Any thread may call it; once true, it must remain true.
     std::function<bool()> interrupted;
     std::function<void(const std::string& name, const Scene&)>
-        made;  ///< called after the cut: with the circles, if any, then with the polygons, if any
+        made;  ///< called with the specimen's circles and then with its polygons, if it has any
 
     /// Called during loading, when the current forces are known and nothing has moved yet: at each row of the curve,
     /// including rows that are not written, or every `look_every` steps. World::bonds.events contains the breaks since

@@ -206,8 +206,8 @@ void find_sides(Specimen& specimen) {
     specimen.right_ids = measured ? bodies_within(specimen.scene, *shape.right) : std::vector<int>{};
 }
 
-/// Packs the particles or reads them from a file, sets their velocities to zero, and keeps those inside the shape that
-/// the kind of test defines.
+/// Packs the particles or reads them from a file, sets their velocities to zero, and removes all particles outside the
+/// shape of the test.
 Specimen cut_particles(const parts::Particles& particles, const parts::Procedure& test, const TestHooks& hooks) {
     Specimen specimen;
     specimen.scene = particles.packing() != nullptr ? packed_scene(particles, test, hooks, specimen)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The second stage of a specimen: polygons meshed around the centres of its circles, along the traces of its joints.
+// The second stage of making a specimen: polygons meshed around the centres of circles, along the traces of joints.
 // Tested by tests/specimens/making/cell_sizes_test.cpp.
 #pragma once
 

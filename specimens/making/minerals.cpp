@@ -20,7 +20,7 @@ namespace {
 
 using Minerals = std::vector<std::size_t>;  // index of the mineral of each grain
 
-/// Hashes an integer to a pseudo-random one, with the finaliser of SplitMix64.
+/// Pseudo-random hash of an integer (the finaliser of SplitMix64).
 std::uint64_t scattered(std::uint64_t x) {
     x += 0x9e3779b97f4a7c15U;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
@@ -73,7 +73,7 @@ std::vector<std::string> names_of(const parts::Minerals& asked) {
     return names;
 }
 
-/// Index of a mineral given by name or by one-based number. If there is no such mineral, the number of minerals.
+/// Index of a mineral given by name or by one-based number. The number of minerals if there is no such mineral.
 std::size_t mineral_called(const std::vector<std::string>& names, const std::string& label) {
     std::size_t number = 0;
     const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), number);

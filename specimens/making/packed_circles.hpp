@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The first stage of a specimen: its circles, packed as the case requests.
+// The first stage of making a specimen: circles packed as the case requests.
 // Tested by tests/specimens/making/cell_sizes_test.cpp.
 #pragma once
 

@@ -32,7 +32,7 @@ struct Specimen {
     /// Size of the tested shape, m; the size of the domain if the whole packing is tested.
     double width = 0.0, height = 0.0;
     double area = 0.0;      ///< area of the tested shape, m2
-    double particle = 0.0;  ///< m, mean size: square root of a cell's area, or diameter of a circle
+    double particle = 0.0;  ///< mean particle size, m: square root of a cell's area, or circle diameter
     std::vector<std::pair<std::string, double>>
         packing;                        ///< quantities that describe the packing, by name; empty for a particle file
     double mean_radius = 0.0;           ///< mean radius, m, of the circles, or of the circles that were meshed
@@ -53,7 +53,7 @@ struct Specimen {
     std::vector<std::string> notices;  ///< remarks for the user
 };
 
-/// Names passed to hooks.made(): for the circles, including those from which polygons are meshed, and for the polygons.
+/// Names passed to hooks.made(): for the circles, including circles that are meshed, and for the polygons.
 inline constexpr const char* circles_file = "specimen_circles.dat";
 inline constexpr const char* polygons_file = "specimen_polygons.dat";
 

@@ -18,7 +18,7 @@ struct CrackRoses {
     Rose tension_to_peak, shear_to_peak, tension_after, shear_after;
 };
 
-/// Determines the rose diagrams of all broken bonds except those at platens.
+/// Determines the rose diagrams of all broken bonds except bonds to platens.
 /// @param time_of_peak  s; if NaN, all cracks count as formed up to the peak
 CrackRoses find_crack_roses(const World& world, const TestSetup& setup, const ContactHistory& history,
                             double time_of_peak);

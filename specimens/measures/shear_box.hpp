@@ -20,8 +20,7 @@ struct ShearBoxFigures {
 };
 
 /// @param reached_its_strain  whether the test reached its largest strain
-/// @param height, length  lengths, m, by which rise and shear displacement were divided to obtain lateral and axial
-/// strain
+/// @param height, length  m; lateral strain is rise/height, and axial strain is shear displacement/length
 ShearBoxFigures measure_shear_box(std::span<const CurveRow> rows, std::int64_t peak_row, bool reached_its_strain,
                                   double height, double length);
 

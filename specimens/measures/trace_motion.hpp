@@ -17,7 +17,7 @@ namespace crackle {
 struct TraceMotion {
     std::int64_t faces = 0;
     double length = 0.0;                // m, total length of the faces
-    double bonded = 0.0, failed = 0.0;  // m, length of the initially bonded faces, and of those that lost all bonds
+    double bonded = 0.0, failed = 0.0;  // m, lengths of initially bonded faces, and of faces without bonds left
     double opening = 0.0, slip = 0.0;   // m, means over the faces; defined in trace_faces.hpp
     // Largest values of a single face, m; for slip, the value of largest magnitude, with its sign.
     double largest_opening = 0.0, largest_slip = 0.0;

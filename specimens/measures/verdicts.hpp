@@ -32,7 +32,7 @@ namespace crackle {
 /// A condition for a valid test, and whether it holds.
 struct Verdict {
     std::string claim;          ///< condition for validity
-    std::optional<bool> holds;  ///< empty if it is not known (yet)
+    std::optional<bool> holds;  ///< empty if unknown, or not yet known
     std::string found;          ///< the values on which the judgement is based, or why there are none
 };
 

@@ -54,8 +54,8 @@ struct CurveRow {
                    contacts_gained);
 };
 
-/// Row for the current step. Requires compute_forces(). The force of the membrane on a platen does not count as force
-/// of the specimen.
+/// Row of the curve for the current step. Requires compute_forces(). The force of the membrane on a platen does not
+/// count as force of the specimen.
 CurveRow observe_row(const World& world, const TestSetup& setup);
 
 /// Mean stress of the two platens, N/m, positive in the direction of loading; requires compute_forces().

@@ -45,10 +45,10 @@ struct FailureTracker {
     bool failed = false;     ///< whether the peak is final: a drop has followed it, or the test ends
     bool collapsed = false;  ///< whether the test ends
 
-    /// Adds the next row. @param travel  strain travelled back and forth, by which the length of a drop is measured;
-    /// equal to the strain if the platen never reverses @return whether the row is a new peak
+    /// Adds the next row. @param travel  strain travelled back and forth, used to measure the length of a drop; equal
+    /// to the strain if the platen never reverses @return whether the row is a new peak
     bool update(std::int64_t row, double strain, double travel, double stress);
-    /// As above, for a platen that never reverses.
+    /// Adds the next row of a test whose platen never reverses.
     bool update(std::int64_t row, double strain, double stress) { return update(row, strain, strain, stress); }
 
     /// Whether the largest stress of the test came after its peak.

@@ -12,7 +12,7 @@ namespace crackle {
 
 /// Time of each phase, and numbers of contact points.
 /// `narrow_phase` is the part of `force` spent on geometry, estimated by sampling.
-/// @param particles  number of particles, by which the times per particle and step are divided
+/// @param particles  number of particles, for times per particle and step
 /// @param step_seconds  wall-clock time of the stepping loop, s
 ProfileFigures profile_report(const Profile& profile, std::int64_t particles, std::int64_t steps, double step_seconds);
 

@@ -207,7 +207,7 @@ class Compressor {
 
     /// Handles floating discs that still touch others because they have no room to move. Such a disc returns to its
     /// position in equilibrium with its small load, and no longer counts as floating.
-    /// @return whether there were any such discs
+    /// @return whether any disc was put back
     bool put_back_caged(std::vector<bool>& floating, const std::vector<Disc>& in_equilibrium) {
         std::vector<std::uint32_t> caged;
         for (std::uint32_t i = 0; i < floating.size(); ++i) {

@@ -11,11 +11,11 @@
 // replace. The side walls are removed before a specimen is bonded, so contacts with them do not count.
 //
 // The box keeps its shape while the pressure acts. Circles of nearly equal size then swap places until the stress is
-// isotropic (isotropy.hpp), so radii stay as drawn. If the request gives a count, nothing else is needed. If the
-// request gives width and height, the count is chosen so that scaling all lengths by one factor gives exactly this box.
-// The factor must be within max_radius_scaling of 1 (report: radius_scale). If a packing violates a limit, another
-// packing is drawn from the next stream of random numbers (report: attempts). The best packing is used, and its report
-// states whether the limits are met (isotropic, box_met).
+// isotropic (isotropy.hpp), so the set of radii stays as drawn. If the request gives a count, nothing else is needed.
+// If the request gives width and height, the count is chosen so that scaling all lengths by one factor gives exactly
+// this box. The factor must be within max_radius_scaling of 1 (report: radius_scale). If a packing violates a limit,
+// another packing is drawn from the next stream of random numbers (report: attempts). The best packing is used, and its
+// report states whether the limits are met (isotropic, box_met).
 //
 // Equal circles cannot be swapped. With a given count, the aspect ratio of the box may then change by up to
 // max_aspect_error. The circles do not depend on the material, which only determines the stresses in the report and the

@@ -10,7 +10,7 @@
 
 namespace crackle {
 
-/// Text with the circles, and with those parts of the report that follow neither from the circles nor from the
+/// Text with the circles, and with the parts of the report that follow neither from the circles nor from the
 /// material.
 std::string packing_text(const Packing& packing);
 
