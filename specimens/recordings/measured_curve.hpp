@@ -25,7 +25,7 @@ StrainsAndStresses read_measured_curve(const std::filesystem::path& file);
 /// A curve from another source, for example measured in a laboratory.
 struct LabelledCurve {
     std::string label;
-    StrainsAndStresses points;  ///< stresses in the unit of the tests beside it
+    StrainsAndStresses points;  ///< stresses in the unit of the tests with which it is compared
 };
 
 /// Reads a curve from a file; its label names the file. @throws InputError under the conditions of
@@ -39,7 +39,7 @@ LabelledCurve measured_beside(const std::vector<Recording>& tests, const std::fi
 /// Compressive strength measured on cores.
 struct StrengthOfCores {
     double confinement = 0.0, strength = 0.0;  // Pa
-    double error = 0.0;                        // Pa, as the table states it; 0: not stated
+    double error = 0.0;                        // Pa; 0 if the table states no error
 };
 
 /// Reads a table with the columns confining_pressure and strength, and error if there is one, with units as in

@@ -3,7 +3,7 @@
 // forces. The viewer's page is made from recordings. The frames of a test, the outputs of a deck and a single particle
 // file can be read as recordings. Frames are read on request, because all of them may not fit into memory.
 //
-// Units are m, s, rad, N and N/m, or those of the deck. Normal forces and stresses are positive in compression.
+// Units are m, s, rad, N and N/m, or the units of the deck. Normal forces and stresses are positive in compression.
 // Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
@@ -29,7 +29,7 @@ inline constexpr std::array<std::int32_t, 4> recorded_walls{-1, -2, -3, -4};
 /// Point about which a cell rotates: centroid of the area of a polygon, or of the line of an open chain.
 Vec2 centroid(const std::vector<Vec2>& corners, bool open);
 
-/// A cell to be drawn: a polygon, an open chain, or a circle. Each circle of a clump is a cell with the clump's id.
+/// A cell of a recording: a polygon, an open chain, or a circle. Each circle of a clump is a cell with the clump's id.
 struct RecordedCell {
     int id = 0;  ///< id of the body in the input
     int material = 1;

@@ -20,9 +20,9 @@ using FileMarks = std::vector<std::pair<std::string, FileMark>>;
 /// Puts names, lengths and hashes of files into a summary.
 void state_files(Summary& summary, const FileMarks& files);
 
-/// The files recorded in a summary; empty for summaries of earlier versions, which recorded none.
+/// The files recorded in a summary; empty for summaries of earlier versions, which recorded no files.
 /// @param name  file name of the summary, for messages
-/// @throws InputError if the entry is not one that state_files() writes
+/// @throws InputError if the entry does not have the format of state_files()
 FileMarks stated_files(const Summary& summary, const std::string& name);
 
 /// Whether a summary records a file. @param name  name of the file in the test's folder

@@ -38,7 +38,7 @@ inline constexpr const char* resolved_case_mark = "# Resolved case of crackle ";
 /// Whether a file must be on disk before it receives its final name.
 enum class Durable : bool { no, yes };
 
-/// What to do with earlier complete results in OUT and with unfinished ones in OUT.new.
+/// What to do with earlier complete results in OUT and with unfinished results in OUT.new.
 enum class Earlier {
     refused,     ///< earlier results are an error
     replaced,    ///< earlier results are replaced, unless OUT.new contains an unfinished test, which can be resumed

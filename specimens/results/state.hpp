@@ -65,7 +65,7 @@ struct TestState {
     Emission emission;
 
     TableMarks tables;                              ///< lengths and hashes of the tables at the checkpoint
-    double wall_seconds = 0.0, step_seconds = 0.0;  ///< time spent in earlier processes, s
+    double wall_seconds = 0.0, step_seconds = 0.0;  ///< time that earlier processes spent, s
     std::string command;                            ///< command line that started the test
 
     /// Total strain travelled, back and forth, up to the last row.

@@ -135,7 +135,7 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const parts::Bonds& bonds
     const double thick = scene.thick;
     bonded.world = build_world(std::move(scene));
     bonded.world.workers.while_solving = std::move(while_solving);
-    forget_point_forces(bonded.world);  // not needed: platens give the stress, and curve rows compute spring energy
+    forget_point_forces(bonded.world);  // not needed: stress comes from platens, and curve rows compute spring energy
     Bonding bonding = bonding_of(specimen, bonds, thick);
     const TestKind& kind = test_kind(test.loading.kind);
     bonding.pressed = kind.compression || kind.shear_box;

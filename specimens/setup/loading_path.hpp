@@ -28,7 +28,7 @@ struct LoadingPath {
     double lateral = std::numeric_limits<double>::quiet_NaN();  ///< smoothed lateral strain, see lateral_control.hpp
     double lateral_target = 0.0;                                // target of the lateral strain
     double own_from =
-        std::numeric_limits<double>::infinity();  ///< strain travelled when the caller took over the speed, if it has
+        std::numeric_limits<double>::infinity();  ///< strain travelled when the caller took over the speed, or infinity
     double farthest = -std::numeric_limits<double>::infinity();  ///< largest strain in the curve rows so far
 
     /// Total strain travelled, back and forth; equal to the strain if the platen never reverses.

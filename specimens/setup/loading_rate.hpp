@@ -5,8 +5,8 @@
 // To avoid a shock, loading starts with the velocities of the elastic solution. As long as the specimen is elastic, any
 // constant rate then gives the static response. The rate matters once the specimen starts to fail. During the transit
 // time T = height/sqrt(E/ρ) of a wave the strain grows by rate·T, so the rate is at most sqrt(tolerance)·ε1/T. ε1 is
-// the strain at which, by the linear solution, one in fifty bonded points has slid or broken, or a joint in the shear
-// box slides. Below that limit the rate follows two measured errors, smoothed over one transit:
+// the strain at which, according to the linear solution, one in fifty bonded points has slid or broken, or a joint in
+// the shear box slides. Below that limit the rate follows two measured errors, smoothed over one transit:
 //       out-of-balance   |σ_top - σ_bottom| divided by the largest stress so far
 //       kinetic share    kinetic energy in excess of the steady loading motion, divided by the strain energy
 // The larger error, divided by the tolerance, controls ln(rate): loading is slow through bursts of breakages and faster
@@ -22,7 +22,7 @@ namespace crackle {
 
 /// Constants of the rate rule, fixed during loading.
 struct RateRule {
-    double tolerance = 0.0;         ///< 0: the case gives the rate, and the other members are unused
+    double tolerance = 0.0;         ///< of the inertia error; 0: the case gives the rate, other members are unused
     double transit_time = 0.0;      // s
     double first_strain = 0.0;      ///< axial strain ε1 at which failure starts according to the linear solution
     double stress_floor = 0.0;      // N/m, stress at the strain ε1

@@ -115,7 +115,7 @@ void add_walls(Scene& scene, const Specimen& specimen, const parts::Procedure& t
     const double low = platens.bottom_y - beyond, high = platens.top_y + beyond;
     const auto add = [&](int id, double face, double outwards) {
         const double x = face + outwards * platens.walls_parked, back = x + outwards * depth;
-        // Corners counter-clockwise, starting with those of the face.
+        // Corners counter-clockwise, starting with the corners of the face.
         std::vector<Vec2> corners = outwards < 0.0 ? std::vector<Vec2>{{x, low}, {x, high}, {back, high}, {back, low}}
                                                    : std::vector<Vec2>{{x, high}, {x, low}, {back, low}, {back, high}};
         Control control;
@@ -168,7 +168,7 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const parts::Procedu
     platens.parked = platens.bonded ? 0.0 : platen_parking_distance * specimen.height;
     const double bottom_y = platens.bottom_y - platens.parked;
     const double top_y = platens.top_y + platens.parked;
-    // Corners counter-clockwise, starting with those of the face.
+    // Corners counter-clockwise, starting with the corners of the face.
     const auto bottom = scene.add_chain_body(
         platens.bottom_id, material,
         {{right, bottom_y}, {left, bottom_y}, {left, bottom_y - depth}, {right, bottom_y - depth}}, true);

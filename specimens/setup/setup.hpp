@@ -25,7 +25,7 @@ struct TestedSpecimen {
     bool polygons = false;
     double width = 0.0, height = 0.0;          // m, initial
     double area = 0.0;                         // area of the tested part of the packing, m2
-    double middle = 0.0, middle_height = 0.0;  // m, centre of the packing's box and of the specimen's symmetry
+    double middle = 0.0, middle_height = 0.0;  // m, centre of the packing's box, about which the specimen is symmetric
     double low_end = 0.0;                      // m, y of the specimen's lower face
     double notch = 0.0;                        // m; 0 if absent
     double mesh_gap = 0.0;                     // m
@@ -108,8 +108,8 @@ constexpr bool lists_all_fields<TestSetup>() {
 TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, LoadingKind kind,
                        double grip);
 
-/// Makes the current positions the reference for strains and gauge lengths. The positions in `start` are kept: bonds
-/// refer to the positions in which they were made, and rotations are measured from them.
+/// Makes the current positions the reference for strains and gauge lengths. The positions in `start` are kept, because
+/// bonds refer to the positions in which they were made, and rotations are measured from them.
 void strains_begin_at(TestSetup& setup, const World& world);
 
 }  // namespace crackle

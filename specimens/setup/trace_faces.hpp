@@ -56,7 +56,7 @@ FaceMotion motion_of(const TraceFace& face, const FacePlaces& start, const FaceP
 
 /// Finds the faces on traces, sorted by bodies. The bodies must still be where they were bonded.
 std::vector<TraceFace> find_trace_faces(const World& world);
-/// For each bond the index of its face; -1 if it lies on no trace.
+/// For each bond, the index of its face; -1 if the bond lies on no trace.
 std::vector<std::int32_t> faces_of_bonds(const std::vector<TraceFace>& faces, const ContactList& bonds);
 
 }  // namespace crackle

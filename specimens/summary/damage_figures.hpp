@@ -22,7 +22,7 @@ CRACKLE_FIGURES(
      "null if `size` is null"),
     (Count, fragments, "", "number of fragments to which the distribution is fitted"));
 
-/// The largest group of broken bonds.
+/// The largest crack: the largest group of connected broken bonds.
 CRACKLE_FIGURES(
     LargestCrack,
     (Count, bonds, "",

@@ -109,7 +109,7 @@ CRACKLE_FIGURES(
      "0 for youngs_modulus"),
     (Number, stated, "-", "relative error to report with the quantity, defined under numerical_errors"));
 
-/// Another run of the same specimen.
+/// Results of a companion run, which is another run of the same specimen.
 CRACKLE_FIGURES(
     CompanionFigures,
     (Number, peak_stress, "N/m",
