@@ -83,7 +83,7 @@ Panel area_strain(const std::vector<PlottedTest>& tests) {
         for (const PlottedTest& test : tests) {
             strains.push_back(area_strains_of(test));
             if (!single) strains.back().cracks.clear();
-            // NaN if the test has not failed; all rows are then used.
+            // NaN if the specimen has not failed; all rows are then used.
             const double peak = test.results->summary.strength.peak_strain.or_nan();
             const std::vector<double>& axial = column(*test.results, "axial_strain");
             for (const std::vector<double>* values : {&strains.back().all, &strains.back().cracks}) {

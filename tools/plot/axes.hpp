@@ -19,7 +19,7 @@ struct Scale {
     double step = 0.2;  ///< distance between ticks
 
     std::vector<double> ticks() const;
-    /// Label of a tick, with as many decimals as the step needs.
+    /// Label of a tick, with the number of decimals that the step needs.
     std::string label(double tick) const;
 };
 

@@ -262,7 +262,7 @@ std::string stress_unit(const std::vector<PlottedTest>& tests) {
     return std::ranges::all_of(tests, in_area) ? "Pa" : "N/m or Pa";
 }
 
-/// Draws the curves of some tests inside a rectangle, on scales of their own.
+/// Draws the curves of some tests inside a rectangle, with their own scales.
 void draw_inset(Canvas& canvas, const Rect& place, const std::vector<PlottedTest>& tests) {
     canvas.rectangle(place, colour("#ffffff"));
     const Unit unit = unit_for(largest_of(tests, "axial_stress"), stress_unit(tests));

@@ -62,7 +62,7 @@ struct ForceScales {
     double high = 0.0;                    // N/m, stress exceeded at only a few ends of faces
     std::string unit = "N/m";             // unit of stresses
     double cell = 0.0;                    // m, size of a cell
-    double widening = 0.0, widest = 0.0;  // m per m: width of a crack per opening; m, largest width
+    double widening = 0.0, widest = 0.0;  // width of a crack per opening, m per m; largest width, m
 };
 
 /// Median opening of the open cracks of a moment, m; infinite without open cracks.

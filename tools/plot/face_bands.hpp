@@ -25,9 +25,9 @@ inline const Colour compressive_colour = colour("#1d2125"), tensile_colour = col
 struct FaceBand {
     Vec2 begin, end;                                   // m
     double at_begin = 0.0, at_end = 0.0, shear = 0.0;  // N/m: σ at both ends, τ
-    bool broken = false;                               ///< whether it is broken and carries no tension
+    bool broken = false;                               ///< whether the face is broken and carries no tension
 
-    /// Largest stress at its ends, N/m.
+    /// Largest stress at the ends of the face, N/m.
     double largest() const { return std::hypot(std::max(std::abs(at_begin), std::abs(at_end)), shear); }
 };
 

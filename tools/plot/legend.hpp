@@ -43,7 +43,7 @@ void draw_mean(Canvas& canvas, Point mean, Point low, Point high, const Colour& 
 /// not half a page high.
 inline double proportional(double width) { return std::min(width, 340.0); }
 
-/// Legend of line samples with names, in as many equally wide columns as fit. Empty if there is only one entry.
+/// Legend of line samples with names, in equally wide columns that fit the width. Not drawn with a single entry.
 class Legend {
   public:
     struct Entry {

@@ -18,7 +18,7 @@ const std::vector<double>& column(const TestResults& results, const char* name);
 double largest_of(const std::vector<PlottedTest>& tests, const char* name);   ///< largest value of a column, at least 0
 double smallest_of(const std::vector<PlottedTest>& tests, const char* name);  ///< smallest value of a column, at most 0
 
-/// Points of a curve, without points less than 0.01 pt from the previous one kept; the last point is always kept.
+/// Points of a curve. A point less than 0.01 pt from the previous point is omitted, unless it is the last point.
 std::vector<Point> curve_points(const Axes& axes, const std::vector<double>& x, double x_unit,
                                 const std::vector<double>& y, double y_unit);
 
