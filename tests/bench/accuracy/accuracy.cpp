@@ -9,7 +9,7 @@
 namespace crackle::accuracy {
 namespace {
 
-// s; the times of longer runs scatter by only a few per cent
+// Time in s above which a run is timed only once; the times of such runs scatter by only a few per cent.
 constexpr double long_enough = 0.5;
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace crackle::accuracy {
 /// One run, or the mean of several runs that differ only in their initial state.
 struct AccuracyRow {
     std::string study;       ///< snake_case; each study is one panel of the picture
-    std::string law;         ///< contact law of polygons; circles, for which all laws are the same, are listed as
+    std::string law;         ///< contact law of polygons; all laws are the same for circles, which are listed as
                              ///< rounded
     std::string integrator;  ///< leapfrog or consistent
     std::string parameter;   ///< varied parameter: time_step (relative to the stable step), axial_strain_rate (1/s) or

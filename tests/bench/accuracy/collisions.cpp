@@ -66,7 +66,7 @@ Scene above_floor(Integrator integrator, double share, double height, double fri
     return scene;
 }
 
-/// Height over the floor: parabolas in flight, and a harmonic oscillation about the sag while in contact.
+/// Height over the floor: parabolas in flight, and a harmonic oscillation about the static deflection in contact.
 struct BouncePath {
     double drop;
     double speed() const { return std::sqrt(2.0 * gravity * drop); }
@@ -106,7 +106,7 @@ BounceErrors bounce_errors(Integrator integrator, double share) {
                            std::abs(world.bodies.state[0].y - radius - path.height(world.stepping.time)) / path.drop);
             if (!(off < 1e3)) break;
         }
-        // A disc with a wrong path may be in contact at the end; it continues until it is in flight.
+        // A disc with an inaccurate path may still be in contact at the end; the run continues until it is in flight.
         compute_forces(world);
         for (int n = 0; n < 100000 && world.bodies.state[0].y <= radius; ++n) advance(world), compute_forces(world);
         const double energy = measure_ledger(world).closing_error / (disc_mass * gravity * path.drop);
@@ -151,7 +151,7 @@ Squares collide(SegmentLaw law, Integrator integrator, double share, int start) 
     scene.integrator = integrator;
     scene.allow_unstable = true;
     scene.add_chain_body(1, 0, {{-half, -half}, {half, -half}, {half, half}, {-half, half}}, true);
-    // A corner hits an edge off its middle; in the second impact the roles are reversed.
+    // A corner hits an edge away from the edge's middle; in the second impact the two squares exchange roles.
     const double turn = 0.35 + 0.08 * start, c = half * std::cos(turn), s = half * std::sin(turn);
     const Vec2 middle{0.05 + 1e-4 * start, 0.004 + 1e-3 * start};
     scene.add_chain_body(2, 0,
@@ -214,7 +214,7 @@ double wave_error(SegmentLaw, Integrator integrator, double share) {
     for (int k = 1; k + 1 < count; ++k)
         scene.bodies[static_cast<std::size_t>(k)].velocity.x = amplitude * omega * std::sin(q * k);
     scene.integrator = integrator;
-    scene.time_step = share * std::sqrt(disc_mass / stiffness) / std::sqrt(2.0);  // shear and rotation: 8k at most
+    scene.time_step = share * std::sqrt(disc_mass / stiffness) / std::sqrt(2.0);  // ω²m is at most 8k
     World world = build_world(std::move(scene));
     bond_all(world, 0.0);
     std::vector<BodyIndex> disc;

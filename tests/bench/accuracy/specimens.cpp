@@ -22,8 +22,8 @@ struct Setting {
     SegmentLaw law;
     Integrator integrator;
     double step_share;
-    double rate;       // 1/s, or
-    double tolerance;  // > 0: loading by tolerance
+    double rate;       // strain rate, 1/s; has no effect if `tolerance` is positive
+    double tolerance;  // rate tolerance; 0 for loading at `rate`
 };
 
 VirtualTest prepared(const Setting& s, std::int64_t seed, bool quick) {
@@ -43,7 +43,7 @@ VirtualTest prepared(const Setting& s, std::int64_t seed, bool quick) {
 }
 
 struct Peaks {
-    std::vector<double> stress;  // N/m, by packing
+    std::vector<double> stress;  // peak stress of each packing, N/m
     double cpu_seconds = 0.0;
 };
 

@@ -34,7 +34,7 @@ using Words = std::vector<std::string>;
 struct Selection {
     std::int64_t packings = 20;
     Words laws{"rounded", "demseg", "demseg_mean"};
-    std::vector<std::int64_t> strength_packings{5, 0, 0};    // by law
+    std::vector<std::int64_t> strength_packings{5, 0, 0};    // one number per law
     std::vector<std::int64_t> experiment_packings{3, 2, 0};  // elastic, loaded circles, loaded triangles
     Words experiments;                                       // empty: all
 };
@@ -137,7 +137,7 @@ void add_experiments(TestList& list, const Selection& selection) {
             }
         }
     }
-    // Voronoi polygons take the longest, and only one row needs them loaded.
+    // Tests of Voronoi polygons take the longest, and only one row needs loaded ones.
     for (const std::string of : {"circles", "delaunay"}) {
         for (std::int64_t seed = 1; seed <= selection.experiment_packings[of == "circles" ? 1 : 2]; ++seed) {
             for (const auto& experiment : experiments) {
@@ -159,7 +159,7 @@ std::vector<GuideTest> tests_of(const Selection& selection) {
                 list.add(studies::guide_test(as_shipped, law, specimen, elastic_test, seed));
         }
     }
-    // Voronoi polygons come last, since they take the longest and only one row needs them.
+    // Tests of Voronoi polygons come last, since they take the longest and only one row needs them.
     for (const bool of_voronoi : {false, true}) {
         for (std::size_t law = 0; law < selection.laws.size(); ++law) {
             for (std::int64_t seed = 1; seed <= selection.strength_packings[law]; ++seed) {

@@ -41,12 +41,12 @@ struct Row {
     std::string scene;
     std::int64_t particles = 0;
     int threads = 1;
-    double contacts = 0.0;   // per particle
+    double contacts = 0.0;   // number of contacts per particle
     double rate = 0.0;       // particle-steps / s
     double bare = 0.0;       // bare kernel on the same discs, particle-steps/s; 0 if not measured
     double bytes = 0.0;      // bytes of memory per particle; 0 if unknown
     double list = 0.0;       // number of steps per neighbour list; 0 if unknown
-    std::int64_t count = 0;  // number of circles that was asked for, from which polygons are meshed
+    std::int64_t count = 0;  // requested number of circles, from which polygons are meshed
 };
 
 /// Takes steps for the given time. @return particle-steps per second
@@ -97,7 +97,7 @@ Row measure_test(const Settings& settings, const std::string& kind, std::int64_t
     return row;
 }
 
-/// Runs flowing columns, each for as long as it flows, for the given time in total.
+/// Runs flowing columns one after another for the given time in total, each for as long as it flows.
 Row measure_flow(const Settings& settings, bool polygons, std::int64_t count) {
     constexpr int until_in_touch = 100;  // steps
     std::vector<double> rates, lists;
@@ -138,7 +138,7 @@ std::string shown(double value, const char* format) {
     return value > 0.0 ? fmt::format(fmt::runtime(format), value) : "–";
 }
 
-/// Time per particle and step over that of circles of the same count on one thread; 0 if these were not measured.
+/// Time per particle and step, relative to the same number of circles on one thread; 0 if these were not measured.
 double times_circles(const std::vector<Row>& rows, const Row& row) {
     if (row.scene == "circles" || row.count == 0) return 0.0;
     for (const Row& other : rows)

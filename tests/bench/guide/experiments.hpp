@@ -27,7 +27,7 @@ struct GuideExperiment {
     Reach reach;
     std::vector<CaseSetting> (*settings)(const ResolvedCase& shipped);
     double rate = 1.0;             ///< factor on the loading rate
-    bool without_platens = false;  ///< no platen holds such a specimen: its tests only count
+    bool without_platens = false;  ///< specimen without platens; its tests measure only counts and back-tensions
 };
 
 /// All experiments, beginning with the shipped case.

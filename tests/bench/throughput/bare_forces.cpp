@@ -57,7 +57,7 @@ void BareKernel::compute_forces_of<InstructionSet::CRACKLE_SET>() {
 
 template <>
 void BareKernel::move_bodies_of<InstructionSet::CRACKLE_SET>() {
-    static constexpr Pair senses[2] = {{1.0, 1.0}, {-1.0, -1.0}};  // on i, on j
+    static constexpr Pair senses[2] = {{1.0, 1.0}, {-1.0, -1.0}};  // signs of the force on bodies i and j
     const double dt = time_step_;
     for (std::size_t b = 0; b < bodies_.size(); ++b) {
         Pair force{};

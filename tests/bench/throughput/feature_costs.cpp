@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double apothem = 0.02, gap = 1e-3, overlap = 8e-5;  // m; apothem and gap of hexagons, overlap of discs
-// During one period of a disc, this moves bodies by about a hundredth of an overlap.
+// At this speed, a body moves by about a hundredth of an overlap during one period of a disc on its springs.
 constexpr double stir_speed = 1e-3;  // m/s
 constexpr int steps_before_start = 20;
 // Number of steps between two calls of the hooks in the loading loop.
@@ -292,7 +292,7 @@ void add_observers(const FeatureStudy& study, const std::string& kind, const Add
     const auto load = [&](std::int64_t steps) {
         const std::int64_t end = test.world.stepping.steps + steps;
         const double begun = processor_seconds();
-        double took = 0.0;  // time at the last hook; the frame at the peak, drawn later, occurs only once per test
+        double took = 0.0;  // time at the last hook; excludes the frame at the peak, which a test draws only once
         TestHooks hooks;
         hooks.interrupted = [&] {
             took = processor_seconds() - begun;
@@ -326,7 +326,7 @@ World world_of_faces(const Scene& hexagons, bool pressure) {
     scene.units = StiffnessUnits::area;
     stir(scene);
     World world = build_world(scene);
-    constexpr double youngs_modulus = 1e7, poissons_ratio = 0.25;  // Pa, near the stiffness of the points; -
+    constexpr double youngs_modulus = 1e7, poissons_ratio = 0.25;  // Pa; about as stiff as contact points
     FaceMaterial rock;
     rock.moduli = pressure ? face_moduli(youngs_modulus, poissons_ratio, 1.0 / 1.6, 0.0)
                            : face_moduli_without_pressure(youngs_modulus, poissons_ratio, 0.0);
@@ -342,7 +342,7 @@ World world_of_faces(const Scene& hexagons, bool pressure) {
     return world;
 }
 
-/// Compares cells that are bonded by faces with the same cells bonded by points, and pressures of cells with none.
+/// Compares cells bonded by faces with the same cells bonded by points, and cells with pressures to cells without.
 void add_faces(const FeatureStudy& study, const Add& add) {
     const Scene hexagons = packed_hexagons(study.count);
     const World points = world_with(hexagons, {.dashpots = true, .friction = true, .bonds = true, .coulomb = true}),

@@ -27,8 +27,8 @@ struct FeatureStudy {
 
 enum class FeatureRowKind : std::uint8_t {
     added,       ///< a scene with a feature, compared with the same scene without it
-    dispatched,  ///< a scene without a feature: the engine's choice of kernels, compared with kernels compiled without
-                 ///< it
+    dispatched,  ///< a scene without a feature: the kernels that the engine chooses, compared with kernels compiled
+                 ///< without the feature
     forced,      ///< the same scene with kernels compiled with the feature; shows what the choice of kernels saves
 };
 constexpr auto list_names(FeatureRowKind) { return in_order("added", "dispatched", "forced"); }
@@ -40,7 +40,7 @@ struct FeatureRow {
     std::string beside;                        // scene or kernel with which it is compared
     std::int64_t particles, contacts;          // contacts: points that carry load, or faces
     double contact_seconds, particle_seconds;  // median of a step or a force pass
-    MedianInterval difference;                 // s per contact and step more than the other; NaN if nothing is compared
+    MedianInterval difference;                 // extra time per contact and step, s; NaN if nothing is compared
     MedianInterval ratio;                      // ratio of the two times per contact and step
 };
 

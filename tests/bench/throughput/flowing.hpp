@@ -11,7 +11,7 @@ namespace crackle::throughput {
 
 struct FlowingColumn {
     Scene scene;
-    double lasts;  ///< s, time for which it continues to flow
+    double lasts;  ///< duration of the flow, s
 };
 
 /// Bodies start with velocities of a collapse: v = √(g/H)·(x, −y) from the corner of floor and left wall, where H is

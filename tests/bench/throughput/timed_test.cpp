@@ -30,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double mean_radius = 0.02, mean_overlap = 8e-5;  // m
 constexpr double polygon_gap = 1e-3;                       // m, between polygons
 constexpr double height_to_width = 2.0;
-// Relative to the mean overlap; large enough that a quarter of the lattice's bonds are lost.
+// Random displacement relative to the mean overlap; large enough that a quarter of the lattice's bonds are lost.
 constexpr double shake_share = 1.2;
 constexpr double steps_between_rows = 100.0;
 constexpr double fewest_rows = 2000.0;  // smallest number of rows that a test measures (load_specimen.cpp)
@@ -39,7 +39,7 @@ constexpr double fewest_rows = 2000.0;  // smallest number of rows that a test m
 constexpr std::int64_t fewest_steps = 200;
 // More particle-steps per second than any machine reaches; the test must not end before the measuring time is over.
 constexpr double highest_rate = 2e8;
-// A hundredth of the strain at which bonds break; the mean overlap is 2e-3 of the mean diameter.
+// A hundredth of the strain at which bonds break, which is the mean overlap over the mean diameter, 2e-3.
 constexpr double end_strain = 2e-5;
 
 double rows_of(const TimedSpecimen& specimen) {

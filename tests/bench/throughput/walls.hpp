@@ -6,8 +6,8 @@
 
 namespace crackle::throughput {
 
-/// Adds four walls around all discs and corners of the scene. @param room distance between the walls and the outermost
-/// of them, m
+/// Adds four walls around all discs and corners of the scene. @param room distance of each wall from the nearest disc
+/// or corner, m
 void wall_in(Scene& scene, double room);
 
 }  // namespace crackle::throughput

@@ -34,7 +34,7 @@ class Rows {
                    const std::string& estimate);
     Rows& at_most(const std::string& label, double got, double limit, const std::string& estimate);
     Rows& at_least(const std::string& label, double got, double limit, const std::string& estimate);
-    /// Adds a count or a choice that must be equal.
+    /// Adds a count or a choice that must equal the expected one.
     Rows& exactly(const std::string& label, double got, double expected);
     /// Adds a value that is shown but not compared.
     Rows& shown(const std::string& label, double got);

@@ -60,8 +60,8 @@ std::vector<ClaimRow> critical_step_of_a_spring_and_dashpot() {
         double bound = 0.0;
         const double below = excursion(h, 0.99 * limit, bound), above = excursion(h, 1.01 * limit, bound);
         rows.relative(fmt::format("h {}: the engine's bound, s", h), bound, limit, 1e-9, "rounding");
-        // The initial velocity of 1e-7 m/s gives an amplitude of 1e-7 √(m/k) = 6e-11 m. At 0.99 it can grow by beats,
-        // but not by a factor of 1e4.
+        // The initial velocity of 1e-7 m/s gives an amplitude of 1e-7 √(m/k) = 6e-11 m. At 0.99 of the limit, leapfrog
+        // can enlarge it, but not by a factor of 1e4.
         rows.at_most(fmt::format("h {}: largest displacement at 0.99 of it, m", h), below, 1e-6, "bounded");
         rows.at_least(fmt::format("h {}: largest displacement at 1.01 of it, m", h), above, 1e-5, "diverges");
     }

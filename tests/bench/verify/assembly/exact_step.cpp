@@ -130,7 +130,7 @@ std::vector<ClaimRow> exact_step_is_that_of_a_dense_matrix() {
         const Dense dense = dense_of(rest, move);
         const double root = critical_step(rest, ClosedPoints::touching).root;
         rows.relative(name + ": exact step, s", root, dense_limit(dense), 1e-8, "finite differences");
-        // Growth above 1 increases with the square root of the distance, so it is less accurate by 1/√0.01.
+        // Growth above 1 varies as the root of the distance from the limit, which magnifies its errors by 1/√0.01.
         rows.relative(name + ": growth a step at 1.01 of it, less 1",
                       growth_per_step(rest, ClosedPoints::touching, 1.01 * root) - 1.0,
                       dense_growth(dense, 1.01 * root) - 1.0, 1e-6, "finite differences");

@@ -57,7 +57,7 @@ PlaneWave s_wave(double q, double share, double mass) {
 }
 
 /// ω of the wave, from the first zero crossing of the middle disc, a quarter of the period after the start.
-/// @param wavelength in spacings  @param step_share of √(m/k)
+/// @param wavelength in spacings  @param step_share step relative to √(m/k)
 double measured_omega(bool shear, double share, int wavelength, double step_share) {
     const double q = 2.0 * std::numbers::pi / (wavelength * spacing);
     // Reflections from the edges arrive after half the width divided by c_p. A quarter of the period of the S wave is

@@ -21,7 +21,7 @@ namespace crackle::verification {
 namespace {
 
 constexpr Rectangle domain{-0.3, 0.4, 0.1, 1.5};
-constexpr double seam = 1e-3, scale = 1.5;  // m; largest coordinate
+constexpr double seam = 1e-3, scale = 1.5;  // gap between cells, and largest coordinate, m
 constexpr int columns = 14, seed_rows = 28;
 
 const char* name_of(MeshKind kind) { return kind == MeshKind::voronoi ? "Voronoi" : "Delaunay"; }

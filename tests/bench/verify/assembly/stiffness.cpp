@@ -156,8 +156,8 @@ void compare_with_dense(Rows& rows, const std::string& name, Scene scene, double
         largest_f = std::max({largest_f, std::abs(reactions[row]), std::abs(reactions[row + 1])});
     }
     // Central differences with Richardson extrapolation have an error of fourth order in the move, plus round-off
-    // divided by the move. Under the guide's law the move must stay within one case, so it is a tenth of that for other
-    // polygons.
+    // divided by the move. Under the guide's law the move must stay within one branch of the law, so it is a tenth of
+    // the move for other polygons.
     const double tolerance = symmetric ? 1e-8 : 1e-7;
     rows.absolute(name + ": error of displacements, over the largest", worst_u / largest_u, 0.0, tolerance,
                   "finite differences");

@@ -59,7 +59,7 @@ std::vector<ClaimRow> given_steps_up_to_the_bound_are_bounded_or_named() {
                 endured.error = error.what();
             }
             const std::string name = fmt::format("{}, {} of the bound", scene.name, share);
-            if (share < 0.5) {  // errors grow with the step, beginning with that at a derived step
+            if (share < 0.5) {  // the allowed error is open_account, scaled in proportion to the step
                 rows.exactly(name + (endured.error.empty() ? ": steps done" : ": " + endured.error),
                              static_cast<double>(endured.steps), 3000.0);
                 rows.at_most(name + ": closing error over the energy", endured.closing_error,
@@ -83,8 +83,8 @@ std::vector<ClaimRow> bound_stays_near_the_exact_step() {
         const CriticalStep exact = critical_step(world, ClosedPoints::listed);
         const double share = stable_step_bound(world) / exact.root;
         rows.at_most(scene.name + ": bound over the exact step, listed points closed", share, 1.0 + 1e-9, "a bound");
-        // If two equal bodies touch at a point, each block counts the whole spring, so the bound is 1/√2 of the exact
-        // step; for a dashpot it is 1/2.
+        // If two equal bodies touch at a point, the bound counts the whole spring for each body, so it is 1/√2 of the
+        // exact step; for a dashpot it is 1/2.
         rows.at_least(scene.name + ": the same, from below", share, 0.5, "of use");
     }
     return rows.take();
@@ -141,7 +141,7 @@ int after_impact(const Impact& impact, double speed, std::string& words) {
 std::vector<ClaimRow> impacts_rebound_or_are_named() {
     Rows rows;
     using Target = Impact::Target;
-    // m/s; penetrates by v sqrt(m/k), a tenth of a body's size here, so it must rebound.
+    // Speed in m/s at which a body must rebound, since its penetration v sqrt(m/k) is only a tenth of its size.
     constexpr double slow_impact = 1.0;
     for (const Impact& impact :
          {Impact{"disc on a disc", false, Target::same}, Impact{"disc on a segment", false, Target::segment},
@@ -223,7 +223,7 @@ std::vector<ClaimRow> stacks_stay_at_rest() {
         const double settled = 4.0 * 0.5 * tallest * tallest * mass * 9.81 / 1e7 + 4.0 * mass * 9.81 / 1e7;
         rows.at_most(name + (rest.error.empty() ? "" : ", " + rest.error) + ": displacement from the start, m",
                      rest.sunk, settled, "its own weight");
-        // The remaining motion of a column's slowest mode after 0.3 s of damping, and round-off, 1e-16 m per step.
+        // Allows for the motion left in a column's slowest mode after 0.3 s of damping, and for round-off.
         rows.at_most(name + ": creep in the second half, m", rest.creep, 1e-3 * settled, "no creep");
         rows.at_most(name + ": largest speed at the end, m/s", rest.speed, 1e-6, "at rest");
         rows.shown(name + ": bodies", count);

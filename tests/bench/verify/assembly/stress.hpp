@@ -18,7 +18,7 @@ struct StressScene {
     World (*build)();
 };
 
-/// Loose bodies in a closed box, at nine tenths of the step that would be derived.
+/// Scenes of loose bodies in a closed box, at nine tenths of the time step that the engine would choose.
 const std::vector<StressScene>& stress_scenes();
 
 /// Outcome of a run.
@@ -32,8 +32,8 @@ struct Endured {
 /// Runs steps, and checks the energy account and the world's health every `interval` steps.
 Endured endure(World& world, std::int64_t steps, int interval = 50);
 
-/// Largest accepted closing error at the derived step of loose bodies, relative to the energy; loose_step_share is
-/// chosen for it.
+/// Largest accepted closing error, relative to the energy, at the step that the engine derives for loose bodies.
+/// loose_step_share is chosen so that errors stay below this value.
 inline constexpr double open_account = 0.02;
 
 }  // namespace crackle::verification

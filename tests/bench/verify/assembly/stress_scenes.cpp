@@ -92,8 +92,8 @@ World build(const Box& box) {
     return build_world(std::move(scene));
 }
 
-/// Stiff enough that no fall presses a corner past the far side of another body. With a very small thickness, a corner
-/// that meets a corner enters it by the depth of the impact, a millimetre for the ordinary rock.
+/// A rock so stiff that no fall presses a corner past the far side of another body. If the thickness is very small,
+/// a corner that hits a corner sinks in by the depth of the impact, which is a millimetre for the ordinary rock.
 Material hard_rock() {
     Material hard = damped_rock();
     hard.normal_stiffness *= 100.0, hard.shear_stiffness *= 100.0;
@@ -136,7 +136,7 @@ World large_on_small(Shape shape) {
     constexpr int count = 40;
     for (int k = 0; k < count; ++k) add(k + 1, 0.5 * small, {spacing * (k - 0.5 * (count - 1)), 0.5 * small});
     add(count + 1, 0.5 * size, {0.0, 1.01 * (small + scene.thick) + 0.5 * size});
-    scene.bodies.back().velocity = {0.0, -0.01};  // compresses them by an eighth of their size: v sqrt(m/k) over 40 µm
+    scene.bodies.back().velocity = {0.0, -0.01};  // compresses the small bodies by an eighth of their 40 µm
     scene.safety_factor = 0.9 * loose_step_share;
     return build_world(std::move(scene));
 }

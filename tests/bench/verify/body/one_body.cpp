@@ -258,7 +258,7 @@ Stack stacked(double h, double squeeze, Vec2 apart, double time_step) {
     const double ceiling = 4.0 * radius - squeeze;
     scene.domain = {-10.0, 10.0, 0.0, ceiling, {false, false, true, true}};
     scene.gravity = {0.0, -gravity};
-    // The overlap with the floor is (squeeze + 3w)/3; each spring further down carries one more weight.
+    // The overlap with the floor is squeeze/3 plus the sag w of one weight; each lower spring carries one more weight.
     const double third = squeeze / 3.0, sag = mass * gravity / soft;
     scene.circles[0].centre.y = radius - (third + sag) + apart.x;
     scene.add_circle_body(2, 0, {{0.0, ceiling - radius + (third - sag) + apart.y}, radius, 0.0});

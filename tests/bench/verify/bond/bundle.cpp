@@ -106,8 +106,8 @@ struct Pulled {
     double opening = 0.0;  // m, opening of a bond at the peak
 };
 
-/// Pulls one bundle beyond its peak. The discs move at half the platen's speed, so that only freed discs oscillate, and
-/// the platen carries the remaining bonds.
+/// Pulls one bundle beyond its peak. The discs move at half the platen's speed, so that only freed discs oscillate and
+/// the platen carries the load of the remaining bonds.
 /// @param start opening of a bond at which slow loading begins, m @param each further opening per step, m
 /// @param enough fraction of the largest load at which the run ends
 Pulled pull(World world, const StrengthFactors& factors, double start, double each, double enough) {
@@ -124,7 +124,7 @@ Pulled pull(World world, const StrengthFactors& factors, double start, double ea
         const DofControl still{Drive::velocity, 0.0};
         set_control(world, high, {still, {Drive::velocity, 2.0 * speed}, still}, 0);
     };
-    constexpr int approach = 100;  // steps; breaks during these steps are found late, but before the peak
+    constexpr int approach = 100;  // number of fast steps; their breaks are found late, but before the peak
     move(start / approach);
     for (int n = 0; n < approach; ++n) step(world);
     move(each);
@@ -152,7 +152,7 @@ std::vector<ClaimRow> bundles(const std::vector<int>& counts, int number) {
             const World world = unbonded_bundle(count);
             const Sample expected = order_statistics(modulus, count, simulated);
             const double error = expected.deviation * std::sqrt(1.0 / number + 1.0 / simulated);
-            // The largest load found is below the peak by at most one step.
+            // The largest load found is below the true peak by at most the load increment of one step.
             const double each = 0.3 * error / expected.mean * at;
             // Strains at the peak scatter by N^(-1/3), and loads near it by N^(-2/3).
             const double start = (1.0 - 2.0 / std::cbrt(count)) * at, enough = 1.0 - 5.0 * std::pow(count, -2.0 / 3.0);

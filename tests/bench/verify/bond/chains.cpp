@@ -28,7 +28,7 @@ const DofControl held{Drive::velocity, 0.0};
 // ---- waves
 
 struct Wave {
-    double expected, measured, stepped;  // ω, 1/s; `stepped` includes leapfrog's error
+    double expected, measured, stepped;  // ω in 1/s; `stepped` includes leapfrog's error
 };
 
 /// Standing wave of a chain between two held discs. @param step_share step relative to √(m/k)

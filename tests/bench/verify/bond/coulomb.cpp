@@ -165,7 +165,7 @@ std::vector<ClaimRow> coulomb_bond_cycled_below_its_envelope_loses_nothing() {
         return Vec2{world.bodies.force[driven].fx, world.bodies.force[driven].fy};
     };
     double work = 0.0, largest = 0.0;  // J
-    // Three loops of the two forces: pulled, sheared, released, sheared back.
+    // The bond is loaded three times along the same closed path: pulled, sheared, released, sheared back.
     for (int loop = 0; loop < 3; ++loop) {
         for (const auto& [normal, shear] : {std::pair{-to, 0.0}, {0.0, 0.5 * to}, {to, 0.0}, {0.0, -0.5 * to}}) {
             drive(world, normal, shear);
@@ -190,8 +190,8 @@ std::vector<ClaimRow> coulomb_bond_cycled_below_its_envelope_loses_nothing() {
     return rows.take();
 }
 
-/// Compressed to five newtons, sheared until it breaks, and then as far again. @return closing error relative to the
-/// losses
+/// Compresses a pair to 5 N, shears it until the bond breaks, and then as far again. @return closing error relative to
+/// the losses
 /// @param rows receives further rows; may be null
 double pair_sheared_under_pressure(int steps, Rows* rows) {
     const double press = 5.0, sticks = mean_cohesion * factor_of_pair() + friction * press,

@@ -77,7 +77,7 @@ FirstBreak pull(const Pull& request) {
     bond_all(world, 0.0);
     const Array<BodyState> start = world.bodies.state;
     const BodyIndex inner = body_of_id(world, 12);           // the middle of rows of 5, 4, 5, 4, 5
-    const double by = 1.4 * overlap / spacing / increments;  // bonds across open by less than the strain
+    const double by = 1.4 * overlap / spacing / increments;  // strain per increment; inclined bonds open by less
     const double c11 = std::sqrt(3.0) / 4.0 * (3.0 + request.shear_share) * kn;
     double axial = 0.0, lateral = 0.0;
     compute_forces(world);

@@ -38,7 +38,7 @@ struct Bouncing {
     int bounces = 0;
 };
 
-/// Drops a disc on a floor. Ends early if the energy has changed beyond measure.
+/// Drops a disc on a floor. Ends early if the disc sinks too deep, which shows that its energy has grown.
 Bouncing bounce(Integrator integrator, double step_share, double drop, int bounces) {
     Scene scene;
     scene.materials = {undamped_rock(kn, 0.0)};
@@ -251,8 +251,8 @@ std::vector<ClaimRow> spinning_square_in_a_box_keeps_its_energy() {
                 most = std::max(most, square_error(integrator, share, seed));
             }
         }
-        // One bounce under leapfrog changes the energy by at most κs(1-s) = λ². Here that error must suffice for
-        // hundreds of bounces.
+        // One bounce under leapfrog changes the energy by at most κs(1-s) = λ². The error of hundreds of bounces under
+        // the consistent integrator must not exceed this.
         rows.at_most(fmt::format("{} of the limit, 8 throws: largest closing error in flight, consistent", share),
                      worst[1], share * share, "one leapfrog bounce");
         rows.shown("leapfrog", worst[0]);

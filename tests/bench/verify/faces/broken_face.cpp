@@ -37,7 +37,7 @@ FaceForces integral(double stiffness, double half_lap, double opening, double tu
     return sum;
 }
 
-/// Integral with the pressures of both cells, which the face itself sets: p̄ L/k_n adds to the opening.
+/// Integral with the pressures of both cells, which depend on the face's own forces: p̄ L/k_n adds to the opening.
 FaceForces integral(const TwoCells& cells, double half_lap, double opening, double turn) {
     const double stiffness = cells.moduli.contact, share = 0.5;
     double low = -1.0, high = 1.0;  // Pa
@@ -53,7 +53,7 @@ FaceForces integral(const TwoCells& cells, double half_lap, double opening, doub
 
 std::vector<ClaimRow> broken_face_presses_as_an_integral_does() {
     Rows rows;
-    constexpr double turn = 0.01;  // rad, below the turns at which contact points take over
+    constexpr double turn = 0.01;  // rad, too small for contact points to replace the face
     FaceLaw law;
     law.tensile_strength = law.cohesion = 0.0;
     for (const bool pressure : {false, true}) {
@@ -62,7 +62,7 @@ std::vector<ClaimRow> broken_face_presses_as_an_integral_does() {
                 TwoCells cells = pressure ? two_cells(law, 0.4, 0.8) : two_cells(law, 0.0, 1.0);
                 cells.place(1e-6, 0.0, 0.0);
                 const double half_lap = 0.5 * (TwoCells::length - sliding), opening = share * half_lap * turn;
-                // The late pressure converges by a factor of ten in each pass.
+                // The pressure lags by one call, so it converges by a factor of ten per call.
                 for (int n = 0; n < 100; ++n) cells.place(opening, sliding, turn);
                 const FaceForces got = cells.forces(), expected = integral(cells, half_lap, opening, turn);
                 const double scale = cells.moduli.contact * turn * half_lap * half_lap;  // N
@@ -80,7 +80,7 @@ std::vector<ClaimRow> broken_face_presses_as_an_integral_does() {
 
 // ---- energy
 
-/// Work on both cells by what moves them, less energy and losses, J.
+/// Work done on both cells by the prescribed motion, compared with their energy and losses, J.
 class Account {
   public:
     explicit Account(TwoCells& cells) : cells_(cells), last_(now()), start_(energy()) {}
@@ -225,7 +225,7 @@ std::vector<ClaimRow> cell_rolls_over_another_as_a_rigid_block() {
     const auto kinetic = [&] {
         return 0.5 * mass * (body.vx * body.vx + body.vy * body.vy) + 0.5 * moment * body.omega * body.omega;
     };
-    // A turn about the lower right corner, with half again as much energy as the square needs to come over it.
+    // The square turns about its lower right corner, with 1.5 times the energy that it needs to tip over the corner.
     const double diagonal = std::sqrt(0.5), energy = 1.5 * pressing * (diagonal - 0.5);
     body.omega = -std::sqrt(2.0 * energy / (moment + 0.5 * mass));
     body.vx = body.vy = -0.5 * body.omega;

@@ -44,7 +44,7 @@ std::vector<int> depths(const World& world) {
     return depth;
 }
 
-/// Strains a box without rotation, so that forces are linear in the strain, and adds the rows of its inner cells.
+/// Strains a box without rotation, so that forces are linear in the strain, and adds rows about its inner cells.
 void add_patch(Rows& rows, const std::string& name, CellWorld cells, const FaceBonding& bonding) {
     Faces& faces = cells.world.faces = bond_faces(cells.world, bonding);
     constexpr double xx = 0.3, yy = -0.1, xy = 0.2;
@@ -62,8 +62,8 @@ void add_patch(Rows& rows, const std::string& name, CellWorld cells, const FaceB
     const Array<CellPressure> pressures = faces.cells;
     double largest = 0.0;
     for (const PointForce& one : faces.force) largest = std::max(largest, std::hypot(one.fx, one.fy));
-    // Forces act in the middle of the opening, so that moments have a part of second order, which is the same for the
-    // opposite strain.
+    // Forces act in the middle of the opening, so moments have a second-order part. It is the same for the opposite
+    // strain and cancels in the difference.
     const Array<BodyForce> opposite = strain(-2.0);
     const double modulus = bonding.materials[0].moduli.pressure;
     const std::vector<int> depth = depths(cells.world);
@@ -136,7 +136,7 @@ struct BoxModuli {
     double youngs, poissons;
 };
 
-/// Moduli of a shortened box. @param motion of the bodies from the state of the world @param force on the upper platen
+/// Moduli of a shortened box. @param motion displacements from the world's state @param force on the upper platen, N
 BoxModuli moduli_from(const CellBox& box, const CellWorld& cells, const std::vector<BodyMotion>& motion, double force,
                       double shortening) {
     // Lateral strain by regression over the reference points.
@@ -217,7 +217,7 @@ std::vector<ClaimRow> box_is_run_to_the_moduli_of_its_rock() {
 
 // ---- beams
 
-/// Bending stiffness of a beam of cells, whose ends turn against each other without shear, over E I/l.
+/// Bending stiffness of a beam of cells, relative to E I/l. Its ends are rotated in opposite senses, without shear.
 double bending_stiffness(int depth, double ratio) {
     constexpr double span = 3.0, turn = 1e-3;  // m, rad
     const CellBox box{
@@ -240,7 +240,7 @@ std::vector<ClaimRow> beam_of_cells_bends_as_timoshenkos() {
     for (const int depth : {6, 12, 24}) {
         rows.relative(fmt::format("{} cells, κ = 1: M over E I φ/l", depth), bending_stiffness(depth, 1.0), 1.0, 0.005,
                       "reference");
-        // A shear stiffness below that of the normal springs stiffens rows at the sides, which have a share of 1/depth.
+        // If the shear springs are softer than the normal springs, the outermost rows, 1/depth of all, are stiffer.
         rows.relative(fmt::format("{} cells, κ = 1/1.6: M over E I φ/l", depth), bending_stiffness(depth, 1.0 / 1.6),
                       1.0, 0.4 / depth, "rows at the sides");
     }
@@ -262,7 +262,7 @@ std::vector<ClaimRow> step_of_faces_is_exact_and_its_bound_close() {
             const std::string name = fmt::format("{} Lloyd rounds, damping {}: ", lloyd, damping);
             rows.exactly(name + "proved by Cholesky", exact.proved ? 1.0 : 0.0, 1.0);
             rows.at_most(name + "guaranteed bound over the exact step", bound, 1.0 + 1e-9, "a bound");
-            // Stiffness and damping have their largest forces in different cells.
+            // With damping, the bound is less tight, since stiffness and damping are largest in different cells.
             rows.at_least(name + "the same", bound, damping > 0.0 ? 0.88 : 0.9, "reference");
         }
     }

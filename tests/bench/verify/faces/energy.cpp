@@ -18,7 +18,7 @@ namespace {
 constexpr double shear_ratio = 1.0 / 1.6;
 
 struct Loading {
-    double closing_error = 0.0;     ///< largest one, of the work
+    double closing_error = 0.0;     ///< largest closing error, relative to the work
     double peak = 0.0, last = 0.0;  ///< N, force of the platen
 };
 
@@ -70,7 +70,7 @@ void add_shaken(Rows& rows, const std::string& name, CellSpecimen s, int steps) 
     load(s, -2e-4, 0.2);
     for (FaceLaw& law : s.faces().laws) law.tensile_strength = law.cohesion = std::numeric_limits<double>::infinity();
     const std::size_t broken = s.faces().broken.size();
-    // Contact points lower the step where they take over from faces.
+    // Where contact points replace faces, they lower the stable step.
     s.world().stepping.automatic_step = true;
     s.world().stepping.step_goal = 0.8 * s.exact_step();
     drive_platens(s, 0.0);
@@ -91,7 +91,7 @@ void add_shaken(Rows& rows, const std::string& name, CellSpecimen s, int steps) 
     rows.at_least(name + "share of broken faces", static_cast<double>(broken) / static_cast<double>(s.faces().size()),
                   0.2, "the loading");
     rows.exactly(name + "further breaks", static_cast<double>(s.faces().broken.size() - broken), 0.0);
-    // The energy of a leapfrog oscillates with the square of the step times the frequency of the moving modes.
+    // Under leapfrog the energy oscillates in proportion to (ω Δt)², where ω is the frequency of the moving modes.
     rows.at_most(name + "largest energy over the first", largest / start, 1.0 + 2e-3, "leapfrog");
     rows.at_most(name + "last energy over the first", (now.kinetic + now.strain) / start, 1.0, "losses");
     rows.absolute(name + "closing error, of the first energy", now.closing_error / start, 0.0, 0.02, "large steps");

@@ -19,12 +19,12 @@ namespace {
 constexpr double tensile = 1e-4, cohesion = 3e-4, knee = 2e-4;         // Pa, of a rock of E = 1 Pa
 constexpr double slope = 1.0, slope_beyond = 0.4, moment_share = 0.6;  // tan φ, tan φ₂, β
 
-/// Loads F_n and F_t in N and M in N m, of which a multiple acts on the face.
+/// Forces F_n and F_t in N, and moment M in N m. A multiple of all three acts on the face.
 struct Load {
     double normal, shear, moment;
 };
 
-/// Multiples of a load at which the tension and the shear of the envelope are reached.
+/// Multiples of a load at which the tension limit and the shear limit of the envelope are reached.
 struct Limits {
     double tension, shear;
 };

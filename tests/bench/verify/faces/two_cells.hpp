@@ -7,8 +7,8 @@
 
 namespace crackle::verification {
 
-/// Two square cells of side 1 m and E = 1 Pa, of which nothing but the face and three free sides each is loaded. Every
-/// face and side is 0.5 m from the centre of its cell. The closed forms are those of this geometry.
+/// Two square cells of side 1 m and E = 1 Pa, joined by one face; only it and the three free sides of each cell carry
+/// load. Every face and side is 0.5 m from the centre of its cell. The closed forms hold for this geometry.
 struct TwoCells {
     static constexpr double length = 1.0;  // m
 
@@ -16,15 +16,15 @@ struct TwoCells {
     Array<BodyState> rest;
     FaceModuli moduli;
 
-    /// Places both cells for a motion of the face, with its midpoint and mean rotation at rest, and computes forces.
+    /// Moves both cells symmetrically, so that the face has this opening, sliding and turn, and computes forces.
     void place(double opening, double sliding, double turn);
     /// Force and moment of the face on body i, from the forces on that body.
     FaceForces forces() const;
     bool broken() const { return !world.faces.broken.empty(); }
 
-    /// p̄ over the opening of an intact face, Pa/m.
+    /// Ratio of p̄ to the opening of an intact face, Pa/m.
     double pressure_rate() const;
-    /// Dilation pressure of a cell per area of its face's opening: λ/(A + λ Σ L h_b/E_c), Pa/m².
+    /// Dilation pressure of a cell per area by which its face has opened: λ/(A + λ Σ L h_b/E_c), Pa/m².
     double pressure_per_area() const;
 };
 

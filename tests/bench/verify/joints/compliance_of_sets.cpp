@@ -20,8 +20,8 @@ namespace {
 
 constexpr double per_degree = std::numbers::pi / 180.0;
 
-/// Relative error of the moduli times the spacing in circles: a row of circles on either side of a joint carries less
-/// than one inside the rock.
+/// Error of the moduli of a rock of circles: relative error times the joint spacing in circles. A row of circles beside
+/// a joint carries less load than a row inside the rock.
 constexpr double one_circle_off = 0.8;
 constexpr double small_diameter = 0.5 * circles_diameter;  // m
 

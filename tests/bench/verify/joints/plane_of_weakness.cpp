@@ -54,8 +54,8 @@ MeasuredTraces plane_at(double beta) {
     return {"plane", std::vector<Vec2>{{0.0, 0.5 * rock_height - rise}, {rock_width, 0.5 * rock_height + rise}}, open};
 }
 
-/// Applies the pressure to each cell with a face on a side, inwards, and to each circle that reaches the side. The
-/// length of a face is that before the inset.
+/// Applies the inward pressure to each cell with a face on one side, and to each circle that reaches this side. Faces
+/// have their lengths before the inset.
 /// @param gap gap between cells, m
 void press_side(Scene& scene, bool left, double gap) {
     struct Face {

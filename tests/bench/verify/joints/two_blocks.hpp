@@ -8,7 +8,7 @@
 namespace crackle::verification {
 
 struct TwoBlocks {
-    static constexpr double width = 0.04, height = 0.04, thick = 4e-5;  // m, size of the upper block, and the gap
+    static constexpr double width = 0.04, height = 0.04, thick = 4e-5;  // m, size of the upper block; gap
     static constexpr double modulus = 50e9, ratio = 2.0;                // Pa, k_n over k_s
     static constexpr double distance = 0.5 * height;                    // m, distance that sets the stiffness of a face
     static constexpr double density = 2500.0;
@@ -16,7 +16,7 @@ struct TwoBlocks {
     World world;
     BodyIndex lower = 0, upper = 0;
 
-    /// Stiffness of the face without a joint, N/m, or in series with a stiffness per length, Pa/m.
+    /// Stiffness of the face without a joint, N/m; in_series() adds the joint's stiffness per length, Pa/m, in series.
     static constexpr double normal_stiffness() { return modulus * width / distance; }
     static constexpr double in_series(double face, double joint) { return 1.0 / (1.0 / face + 1.0 / (joint * width)); }
 };

@@ -81,12 +81,12 @@ std::vector<ClaimRow> plane_joint_slips_at_its_friction_and_yields_by_its_shear_
     const double to_slip = strength / stiffness / side;
     // The couple of the shear forces reduces the normal force at one end; far below the strength, neither end slips.
     const Sheared sticking = sheared(0.05 * to_slip, slow);
-    const std::vector<CurveRow>& held = sticking.test.state.rows;  // the first row is due to dashpots
+    const std::vector<CurveRow>& held = sticking.test.state.rows;  // the first row has only dashpot forces
     rows.relative("shear stiffness, Pa/m", (held.back().axial_stress - held.front().axial_stress) / sticking.slip,
                   stiffness, 1e-3, "reference");
     const Sheared sliding = sheared(3.0 * to_slip, slow);
     rows.relative("largest stress, Pa", sliding.test.state.failure.largest_stress, strength, 1e-3, "reference");
-    // The faces to the boxes are as compliant as the joint until it slips.
+    // The faces at the boxes are as compliant as the joint, so the joint slips only after several times `to_slip`.
     double sum = 0.0, count = 0.0;
     for (const CurveRow& row : sliding.test.state.rows) {
         if (row.axial_strain < 2.0 * to_slip) continue;

@@ -23,12 +23,12 @@ struct CellBox {
     double width = 1.0, height = 1.0;  // m
     int columns = 10, rows = 10;       // their product is the number of seeds
     int lloyd = 2;                     // rounds in which each seed moves to the centroid of its cell
-    double gap = 1e-7;                 // m; so small that the inset takes no edge away
+    double gap = 1e-7;                 // m; so small that the inset removes no edge
     bool platens = false;
     unsigned seed = 1;
 };
 
-/// A world of cells, and their seeds by body (unset for platens).
+/// A world of cells, with the seed of each body (unset for platens).
 struct CellWorld {
     World world;
     std::vector<Vec2> seeds;
@@ -48,7 +48,7 @@ inline Point centroid_of(std::span<const Point> outline) {
     return {sum.x / area, sum.y / area};
 }
 
-/// Seeds of a box: random places, evened out.
+/// Seeds of a box: random positions, spread more evenly by Lloyd rounds.
 inline std::vector<Point> seeds_of(const CellBox& box) {
     std::mt19937 random(box.seed);
     const auto number = [&] { return (static_cast<double>(random()) + 0.5) / 4294967296.0; };

@@ -14,7 +14,7 @@ struct LatticeCase {
     static constexpr double kn = 1e9, share = 0.5;                                            // N/m, k_s/k_n
 
     int columns = 0, rows = 0;
-    std::string loading;     ///< table [loading] and those that follow it, as TOML
+    std::string loading;     ///< table [loading] and any further tables, as TOML
     bool hexagons = false;   ///< whether the particles are hexagons with coulomb bonds
     std::string shape = {};  ///< table [shape], as TOML
     /// Additional width of the packing's box at its right side, so that its middle lies between the centres of every

@@ -29,7 +29,7 @@ struct CellSpecimen {
     double exact_step() { return critical_step(cells.world, ClosedPoints::touching).root; }
 };
 
-/// Strengths as of a rock whose Young's modulus is 1.
+/// Strengths in proportion to those of rock, for a Young's modulus of 1 Pa.
 inline FaceLaw brittle_cells() {
     FaceLaw law;
     law.tensile_strength = 1e-4;

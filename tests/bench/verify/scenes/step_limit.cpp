@@ -34,7 +34,7 @@ void shake_free(World& world, double energy, std::uint64_t seed) {
     }
 }
 
-/// The run stops once the limit is clearly exceeded.
+/// Largest energy relative to the initial energy. The run stops once largest_growth_below is clearly exceeded.
 double energy_growth(World world, double time_step) {
     world.stepping.time_step = time_step;
     const double energy = 1e-15 * breaking_energy(world);  // a hundredth of what the weakest bonds withstand
@@ -133,8 +133,8 @@ void check_step_limit(Rows& rows, const std::string& name, const World& rest) {
     const double above = (1.0 + distance) * exact.root;
     const double predicted = growth_per_step(rest, ClosedPoints::touching, above);
     const Growth growth = measured_growth(rest, exact.mode, above, predicted);
-    // With uneven damping, the modes at the limit and 1 % above it differ by about 1 %. Other modes are excited by as
-    // much, which changes the projection by 1 % of that.
+    // With uneven damping, the modes at the limit and 1 % above it differ by about 1 %. Other modes are therefore
+    // excited to about 1 %, which changes the projection by 1 % of 1 %.
     rows.relative(name + ": growth a step at 1.01, less 1", growth.per_step - 1.0, predicted - 1.0, 1e-4,
                   "other modes");
     rows.exactly(name + ": bonds broken during the run", static_cast<double>(growth.broken), 0.0);
