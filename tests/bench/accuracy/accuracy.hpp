@@ -27,7 +27,7 @@ struct AccuracyRow {
 struct AccuracyStudy {
     std::string name;   ///< as in AccuracyRow
     std::string title;  ///< title of the panel
-    std::string error;  ///< title of the error axis: what is compared with what
+    std::string error;  ///< title of the error axis, which names the compared values
     std::function<std::vector<AccuracyRow>(bool quick)> run;
 };
 

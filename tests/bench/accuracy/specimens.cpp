@@ -88,7 +88,7 @@ double distance(const Peaks& got, const Peaks& best) {
 std::vector<AccuracyRow> peak_stress(const char* study, const char* kind, bool quick) {
     std::vector<AccuracyRow> rows;
     for (const SegmentLaw law : {SegmentLaw::rounded, SegmentLaw::demseg}) {
-        if (law != SegmentLaw::rounded && std::strcmp(kind, "circles") == 0) continue;  // the same for circles
+        if (law != SegmentLaw::rounded && std::strcmp(kind, "circles") == 0) continue;  // laws are the same for circles
         const Sweep sweep = sweep_for(law, std::strcmp(kind, "circles") == 0, quick);
         const double coarsest = sweep.steps.front(), slowest = sweep.rates.back();
         const auto peaks = [&](Integrator integrator, double share, double rate, double tolerance) {

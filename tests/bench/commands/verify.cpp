@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle-bench verify`: checks every verification claim and writes them as a page.
+// `crackle-bench verify`: checks verification claims and writes them with their results as a page.
 // Tested by tests/bench_tests/commands/bench_test.cpp.
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Settings that the guide does not state and that may have been different. Each experiment changes one setting of the
-// shipped cases.
+// Settings that the guide does not state, so that its tests may have used other values. Each experiment changes one
+// setting of the shipped cases.
 // Tested by tests/bench_tests/guide/ensemble_test.cpp.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes the results for the guide's rock as a page and as CSV. They contain no date, version or wall-clock time, but
-// measured processor times.
+// Writes the results for the guide's rock as a page and as CSV. They contain measured processor times, but no date,
+// version or wall-clock time.
 // Tested by tests/bench_tests/guide/ensemble_test.cpp.
 #pragma once
 

@@ -319,7 +319,7 @@ void add_observers(const FeatureStudy& study, const std::string& kind, const Add
                 steps_alone, observed));
 }
 
-/// Hexagons at rest that are bonded by faces, with or without pressures of the cells; faces hold all loads.
+/// Hexagons at rest that are bonded by faces, with or without pressures of the cells; faces carry all loads.
 World world_of_faces(const Scene& hexagons, bool pressure) {
     Scene scene = hexagons;
     scene.bond_law = BondLaw::face;

@@ -39,7 +39,7 @@ struct FeatureRow {
     std::string feature;                       // the feature that is added or absent
     std::string beside;                        // scene or kernel with which it is compared
     std::int64_t particles, contacts;          // contacts: points that carry load, or faces
-    double contact_seconds, particle_seconds;  // median of a step or a force pass
+    double contact_seconds, particle_seconds;  // median time of a step or a force pass, s
     MedianInterval difference;                 // extra time per contact and step, s; NaN if nothing is compared
     MedianInterval ratio;                      // ratio of the two times per contact and step
 };

@@ -61,7 +61,7 @@ std::string case_text(const TimedSpecimen& specimen) {
             "units = \"area\"\ntensile_strength = 1e9\ncohesion = 4e9\nfriction_angle = 40\nresidual_friction_angle = "
             "20\n";
     if (coulomb) text += "contact_modulus = 50e9\nstiffness_ratio = 1.6\n";
-    // Without a ratio of stiffnesses, it follows from Poisson's ratio, and cells have no pressure.
+    // If no stiffness ratio is given, it follows from Poisson's ratio, and cells have no pressure.
     if (faces) text += "youngs_modulus = 50e9\npoissons_ratio = 0.25\nmoment_share = 0.6\n";
     if (pressure) text += "stiffness_ratio = 1.6\n";
     text += fmt::format("[mesh]\nkind = \"{}\"\nthick = {}\n[bond]\n", coulomb || faces ? "voronoi" : specimen.kind,

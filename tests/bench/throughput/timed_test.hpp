@@ -44,7 +44,7 @@ Scene timed_discs(std::int64_t count);
 /// row every 100 steps, takes more than `seconds` on any machine, and nothing breaks.
 VirtualTest bond_timed_test(const TimedSpecimen& specimen, const std::filesystem::path& folder);
 
-/// Loads such a test for `seconds`, writing its files.
+/// Loads a test made by bond_timed_test() for `specimen.seconds` and writes its files.
 /// @param empty_process resident set of this process before anything was allocated, bytes
 TimedTest time_test(const TimedSpecimen& specimen, const std::filesystem::path& folder, std::size_t empty_process,
                     Profile* profile = nullptr);

@@ -185,7 +185,7 @@ std::vector<ClaimRow> voronoi_edges_are_orthogonal_to_their_duals() {
         }
     });
     rows.at_least("Voronoi edges between seeds", edges, 1000.0, "seeds");
-    // In a badly shaped triangle, the round-off of the circumcentre is multiplied.
+    // In a badly shaped triangle, the round-off of the circumcentre is amplified.
     rows.absolute("rise of an edge along its dual, m", slant, 0.0, 1e-11 * scale, "rounding");
     rows.absolute("distance of its ends from the middle of its dual, m", off_middle, 0.0, 1e-11 * scale, "rounding");
     return rows.take();

@@ -79,7 +79,7 @@ std::vector<ClaimRow> bound_stays_near_the_exact_step() {
     Rows rows;
     for (const StressScene& scene : stress_scenes()) {
         World world = scene.build();
-        if (world.points.size() < 10 || world.bodies.size() > 100) continue;  // no bodies are close to each other
+        if (world.points.size() < 10 || world.bodies.size() > 100) continue;  // few contacts, or many bodies
         const CriticalStep exact = critical_step(world, ClosedPoints::listed);
         const double share = stable_step_bound(world) / exact.root;
         rows.at_most(scene.name + ": bound over the exact step, listed points closed", share, 1.0 + 1e-9, "a bound");
@@ -358,8 +358,8 @@ std::vector<ClaimRow> bonded_specimens_turn_round_unharmed() {
             farthest = std::max(farthest, norm(arm));
             off = std::max(off, norm(Vec2{world.bodies.state[b].x, world.bodies.state[b].y} - expected));
         }
-        // When released, it stretches by up to twice its static strain, and its moment of inertia grows by twice that,
-        // so that the rotation lags.
+        // When released, the specimen stretches by up to twice its static strain, and its moment of inertia grows by
+        // twice this strain, so that the rotation lags.
         const double strain = 2500.0 * spin * spin * farthest * farthest / 2.0 / 1e7;
         rows.at_most(name + ": largest distance of a body from its place after the rotation, m", off,
                      (2.0 + 4.0 * pi) * strain * farthest, "stretched by its spin");

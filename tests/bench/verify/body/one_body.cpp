@@ -46,7 +46,7 @@ struct Rebound {
     double restitution, contact_time;
 };
 
-/// @param phase fraction of a step that remains at the beginning of the contact, 0 to 1
+/// @param phase fraction of a step that remains when the contact begins, 0 to 1
 Rebound rebound(double h, double speed, double steps_in_contact, double phase) {
     constexpr double stiffness = 1e7;
     const double dt = contact_time(stiffness, h) / steps_in_contact;

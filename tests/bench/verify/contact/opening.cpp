@@ -25,7 +25,7 @@ namespace {
 constexpr double radius = 0.02, density = 2500.0, kn = 1e5, gravity = 9.81;
 constexpr double mass = density * std::numbers::pi * radius * radius;
 
-/// Total energy in flight or in contact, J; gravity's potential has the sign used in the account.
+/// Error of the total energy since the start, J, which includes the potential of gravity.
 double energy_now(World& world) {
     compute_forces(world);
     return measure_ledger(world).closing_error;

@@ -23,7 +23,7 @@ constexpr double granite_nu = 0.26;
 
 // ---- patches
 
-/// Number of faces between each cell and the nearest cell with less than a full ring of faces.
+/// Number of faces between each cell and the nearest cell that is not completely surrounded by faces.
 std::vector<int> depths(const World& world) {
     const Faces& faces = world.faces;
     std::vector<Vec2> closing(world.bodies.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Energy of boxes of cells whose faces break: a balance that closes, and no energy from nothing.
+// Energy of boxes of cells whose faces break: the balance closes, and the energy does not grow.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <algorithm>
@@ -101,8 +101,8 @@ std::vector<ClaimRow> broken_specimen_gains_no_energy() {
     Rows rows;
     const CellBox box{.columns = 8, .rows = 8, .platens = true};
     add_shaken(rows, "Voronoi cells, 100,000 steps: ", bond_cells(box, shear_ratio, brittle_cells()), 100'000);
-    // Plain late pressures would grow here, so that the lag is slowed. Corners of triangles meet at nodes, where points
-    // need a gap that is wide compared with the motion.
+    // If lagged pressures moved by their full changes, the energy would grow here, so they move by fractions of them.
+    // Corners of triangles meet at nodes, where contact points need a gap that is wide compared with the motion.
     add_shaken(
         rows, "triangles, 20,000 steps: ",
         bond_cells({.kind = MeshKind::delaunay, .columns = 6, .rows = 6, .lloyd = 20, .gap = 4e-3, .platens = true},

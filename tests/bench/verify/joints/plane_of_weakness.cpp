@@ -45,7 +45,7 @@ double strength_of_plane(double beta) {
     return pressure + 2.0 * pressure * f / ((1.0 - f * std::tan(beta)) * std::sin(2.0 * beta));
 }
 
-/// A trace from the middle of the left side, up to the middle of the right side.
+/// A trace through the centre, from the left side up to the right side. @param beta angle to the vertical, rad
 MeasuredTraces plane_at(double beta) {
     const double rise = 0.5 * rock_width / std::tan(beta);
     Joint open;

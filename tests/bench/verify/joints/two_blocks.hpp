@@ -21,7 +21,7 @@ struct TwoBlocks {
     static constexpr double in_series(double face, double joint) { return 1.0 / (1.0 / face + 1.0 / (joint * width)); }
 };
 
-/// @param x, y controls of the upper block, which then does not rotate; if both are free, it is not held at all @param
+/// @param x, y controls of the upper block. Its rotation is held, unless both controls are free @param
 /// damping_ratio -
 TwoBlocks two_blocks(const Joint& joint, const DofControl& x, const DofControl& y, double damping_ratio,
                      Integrator integrator = Integrator::leapfrog);

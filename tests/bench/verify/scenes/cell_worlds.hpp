@@ -142,7 +142,7 @@ inline void compute_face_forces(World& world) {
     add_face_forces(world);
 }
 
-/// Rock of E = 1 for a shear ratio, without failure.
+/// A rock with E = 1 Pa and the given ratios, which never fails.
 inline FaceBonding elastic_rock(const CellWorld& cells, double gap, double poissons_ratio, double shear_ratio,
                                 double correction = 0.0) {
     FaceBonding bonding;
