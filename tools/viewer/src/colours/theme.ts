@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours of the figures in light and dark. Curves keep to ink, teal and purple. Only the two breakage modes are blue
+// Colours of the figures in light and dark. Curves are ink, teal or purple. Only the two breakage modes are blue
 // and vermilion (Okabe and Ito's pair, distinguishable with any colour vision), so each colour has one meaning.
 
 export interface Theme {

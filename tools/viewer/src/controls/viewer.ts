@@ -216,7 +216,7 @@ export class Viewer {
         this.onShown();
     }
 
-    /// All tests shown have the same time scale, since the legend has only one bar.
+    /// Colours of cracks. All tests shown have the same time scale, since the legend has only one bar.
     private crackColours(views: readonly SpecimenView[]): CrackColours {
         return {
             by: this.settings.crackColour, listed: views.some((view) => view.listsBreaks),
@@ -261,7 +261,7 @@ export class Viewer {
 
     private working: Promise<void> | undefined;
 
-    /// Runs tasks one after another, each a pass over frames, and then updates the picture.
+    /// Runs tasks one after another, each of which reads all frames of a test, and then updates the picture.
     private inBackground(tasks: (() => Promise<void>)[]): void {
         if (this.working) return;
         this.working = (async () => {

@@ -145,7 +145,7 @@ export class Frames {
         return histories;
     }
 
-    /// Passes over every `stride`-th frame without changing the groups kept for playing.
+    /// Yields every `stride`-th frame without changing the groups kept for playing.
     async* pass(stride: number): AsyncGenerator<Frame> {
         for (const entry of this.test.groups) {
             const group = this.groups.get(entry) ?? new Group(entry, await readBlock(this.test.index, entry.block));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Finds where broken bonds are drawn: on the two faces that the bond held together. Each face moves with its body, so that an
 // open crack shows both sides. Faces are found once, in the first frame, in which the bodies still touch.
-//   circle on circle      a tangent at the contact point of each
-//   polygon or platen     the parts of the two nearest parallel edges that face each other; where none do (corner on
-//                         corner), short ticks across the line of the two nearest corners
+//   circle on any body    a short tangent to the circle at the contact, and a parallel line on the other body
+//   other bodies          the parts of the two nearest parallel edges that face each other; where none do (corner on
+//                         corner), short ticks across the line between the nearest points of the two outlines
 
 import {centre, outline, reach, type Cells, type Point} from '../data/cells';
 import type {Events} from '../data/report';
@@ -85,7 +85,7 @@ function outlineFaces(cells: Cells, i: number, j: number): CrackFace[] {
     for (const a of edges(cells, i)) {
         for (const b of edges(cells, j)) {
             const found = facing(a, b);
-            // A wide gap weighs more than a long overlap, so that edges on the far sides are not chosen.
+            // A wide gap counts more than a long overlap, so that edges on the far sides are not chosen.
             if (found && found.gap < found.length && (!best || found.length - 4 * found.gap > best.length - 4 * best.gap)) best = found;
         }
     }

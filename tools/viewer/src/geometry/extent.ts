@@ -93,8 +93,8 @@ export function extentOfBondEvents(test: TestData): Extent {
     return {x1: box.x1 - roomX - marks, x2: box.x2 + roomX + marks, y1: box.y1 - roomY - marks, y2: box.y2 + roomY + marks};
 }
 
-/// Bounding box of the first frame and the walls, computed without the arrays of frames. Of platens it includes little more
-/// than the specimen's width. At the sides it has room for fragments in later frames.
+/// Bounding box of the first frame and the walls, computed without the arrays of frames. It is little wider than the specimen,
+/// even if platens are wider. At the sides it has room for fragments in later frames.
 export function extentAtStart(test: TestData): Extent {
     const {cells, walls, sides} = test;
     const extent = {x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity};

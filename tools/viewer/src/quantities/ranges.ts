@@ -84,7 +84,7 @@ export function joined(ranges: readonly Range[]): Range {
     return {low: over('low', 0, Math.min), high: over('high', 0, Math.max), least: over('least', Infinity, Math.min), most: over('most', -Infinity, Math.max)};
 }
 
-const stressesExcluded = 0.1; // the collapse of a specimen presses some corners several times as much as its peak
+const stressesExcluded = 0.1; // after a collapse, stresses at some corners are several times as large as at the peak
 
 /// A scale whose end excludes the largest of the non-zero sizes: two per cent of the forces, ten of the stresses.
 interface SizeScale {
