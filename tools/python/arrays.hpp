@@ -60,7 +60,7 @@ inline void need_numpy() {
     there = true;
 }
 
-/// The numpy dtype for a type; created only once.
+/// The numpy dtype for a C++ type. A structured dtype is created only once.
 template <class T>
 py::object dtype_of() {
     need_numpy();

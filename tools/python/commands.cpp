@@ -69,8 +69,8 @@ py::list options(const std::string& name) {
     return all;
 }
 
-/// During its lifetime, std::cout is redirected to this object, and only this thread polls for interrupts. Only one may
-/// exist in a process.
+/// During its lifetime, std::cout writes to this object, and tools::interrupted() polls the given Interrupts. Only one
+/// such object may exist in a process.
 class OneCommand {
   public:
     explicit OneCommand(Interrupts& interrupts) {
@@ -96,7 +96,7 @@ class OneCommand {
     std::streambuf* before_ = nullptr;
 };
 
-/// Runs a command whose only output is its result. @return its exit code and output
+/// Runs a command and captures what it prints to stdout. @return its exit code and output
 template <class Run>
 py::tuple run_words(const std::string& name, const tools::Arguments& words, const py::object& report, const Run& run) {
     const tools::ParsedWords parsed = tools::parse_words("crackle " + name, command(name).describe(), words);
@@ -118,7 +118,7 @@ py::tuple run_joints(const JointCase& test, const std::string& name, const tools
                      [&](const tools::Invocation& given) { return tools::joints_of(test, name, given); });
 }
 
-/// @return result as JSON text, all bonds, and notices
+/// Computes the linear solution for a case. @return result as JSON text, all bonds, and notices
 py::tuple elastic(const ResolvedCase& description, double strain, int modes, const py::object& report) {
     if (!(strain > 0.0) || !(strain < 1.0))
         throw InputError(fmt::format("crackle elastic: strain: found {}, expected a number > 0 and < 1", strain));
@@ -142,7 +142,7 @@ py::tuple elastic(const ResolvedCase& description, double strain, int modes, con
     return py::make_tuple(json, view_of(analysis->bonds, analysis), notices);
 }
 
-/// @return result as JSON text
+/// Estimates results and cost of a test. @return result as JSON text
 std::string check(ResolvedCase description, int threads, const py::object& report) {
     tools::Messages messages(tools::Loudness::quiet);
     if (threads > 0) description.numerics.threads = threads;

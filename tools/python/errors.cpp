@@ -18,8 +18,8 @@ namespace {
 
 namespace py = pybind11;
 
-/// @param text message, which may contain names and contents of files; bytes that are not valid UTF-8 are replaced, as
-/// Python requires
+/// Raises a Python exception. @param text message, which may contain names and contents of files; bytes that are not
+/// valid UTF-8 are escaped, since Python accepts only UTF-8
 void raise(const char* kind, const std::string& text) {
     const py::object type = py::module_::import("crackle._errors").attr(kind);
     PyErr_SetString(type.ptr(), tools::printable(text).c_str());

@@ -16,7 +16,7 @@ struct Particles {
     Scene scene;
     std::optional<PackingReport> packing;  ///< report of the packing, if it was made in this process
     std::optional<MeshReport> mesh;        ///< report of the mesh, if it was made in this process
-    std::vector<std::string> notices;      ///< notices about the joints of that mesh
+    std::vector<std::string> notices;      ///< report lines on the mesh's joints, or notices on a case's specimen
 };
 
 }  // namespace crackle::python

@@ -38,7 +38,7 @@ def given_or_shipped(path: _Path) -> str:
 
 
 def _plain(value, name):
-    """The value converted for JSON. Numbers of numpy become those of Python."""
+    """The value converted for JSON. Numbers and arrays of numpy become numbers and lists of Python."""
     if isinstance(value, dict):
         out = {}
         for key, inner in value.items():

@@ -14,7 +14,7 @@ def printable(text: str) -> str:
 
 
 def tell(error: BaseException, text: str) -> None:
-    """Adds a note to an exception. A bare Ctrl-C gets it as its message, since not every notebook shows notes."""
+    """Adds a note to an exception. In a KeyboardInterrupt without a message, it becomes the message, since not every notebook shows notes."""
     if isinstance(error, KeyboardInterrupt) and not error.args:
         error.args = (text,)
     else:
@@ -34,7 +34,7 @@ _FORMS = (
     # where: what is wrong
     re.compile(r"(?P<where>[^:\n]+(?::\d+)?): (?P<key>)(?P<found>.*?)" + _END, re.DOTALL),
 )
-# If only one name precedes «found», it is a place rather than a key if it matches _PLACE, or if `found` matches _OF_A_PLACE.
+# A single name before «found» is a place rather than a key if it matches _PLACE, or if the text found matches _OF_A_PLACE.
 _PLACE = re.compile(r".*(:\d+|/.*|\.(toml|dat|csv|json|txt|svg|pdf|png|html|sqlite))|case|centres|particles", re.DOTALL)
 _OF_A_PLACE = re.compile(r"(no such (file|folder)|results|there already|an input of the same command|a folder|a file)"
                          r"\b.*", re.DOTALL)

@@ -105,7 +105,7 @@ class Temporary:
         self._removal = weakref.finalize(self, shutil.rmtree, self.name, ignore_errors=True)
 
     def keep(self):
-        """Keeps the folder."""
+        """Keeps the folder when this object is deleted."""
         self._removal.detach()
 
 
@@ -142,7 +142,7 @@ def _read_object(folder, name):
     return value
 
 
-# Pragmas that only read.
+# SQLite pragmas that only read.
 _LOOKING_PRAGMAS = ("index_info", "index_list", "table_info", "table_list", "table_xinfo")
 
 
