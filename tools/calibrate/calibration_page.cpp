@@ -53,8 +53,8 @@ std::string keys_table(const Rock& rock, const CalibrationOutcome& outcome) {
     return text + "</tbody></table></div>\n";
 }
 
-/// Diagram of two targets against each other: all points that were tried, compromises, the target values, and the
-/// values reached by fresh packings.
+/// Diagram of one target against another, with the points tried, the compromises, the target values, and the values
+/// reached by fresh packings. Empty if there are fewer than two targets.
 std::optional<CampaignFigure> targets_plane(const Rock& rock, const CalibrationOutcome& outcome) {
     if (rock.targets.size() < 2) return std::nullopt;
     // The last two targets are used, since moduli are usually listed first and are met exactly.
@@ -66,8 +66,8 @@ std::optional<CampaignFigure> targets_plane(const Rock& rock, const CalibrationO
     plot::Series tried{"tried", {}, {}, false}, frontier{"compromises", {}, {}, true}, target{"target", {}, {}, false},
         reached{"reached by fresh packings", {}, {}, false};
     for (const std::vector<double>& means : outcome.tried_means) {
-        // Points are not shown if a mean differs from its target by more than this factor: the search may start so far
-        // away that nothing else could be distinguished.
+        // Points are not shown if a mean differs from its target by more than this factor. A search may start so far
+        // from the targets that the other points could not be distinguished.
         constexpr double near = 2.5;
         const auto off = [&](std::size_t k) { return std::abs(std::log(means[k] / rock.targets[k].value)); };
         if (!(std::max(off(x), off(y)) < std::log(near))) continue;

@@ -33,7 +33,7 @@ po::options_description common_options(const CommandLine& line) {
     return options;
 }
 
-/// Splits "FILE (=in_gm.dat)" into its two parts.
+/// Splits "FILE (=in_gm.dat)" into "FILE" and the default value "in_gm.dat".
 std::pair<std::string, std::string> split_argument(const std::string& name) {
     const std::size_t at = name.find(" (=");
     if (at == std::string::npos) return {name, ""};
@@ -120,7 +120,7 @@ std::size_t distance(const std::string& a, const std::string& b) {
     return row[b.size()];
 }
 
-/// Description of the values that an option accepts; empty if any text is accepted.
+/// End of an error message that describes the values of an option; empty if any text is accepted.
 std::string kind_of_value(const po::option_description& option) {
     const auto* const typed = dynamic_cast<const po::typed_value_base*>(option.semantic().get());
     if (typed == nullptr) return {};

@@ -94,8 +94,8 @@ struct ParsedWords {
     bool help = false;
 };
 
-/// @param name the command as typed by the user, for example "crackle campaign show" @throws InputError that states the
-/// invalid word and where to find help
+/// @param name the command as the user types it, for example "crackle campaign show" @throws InputError that names the
+/// invalid word and states where to find help
 ParsedWords parse_words(const std::string& name, const CommandLine& line, const Arguments& words);
 
 /// Error for an option or operand that has no effect for a given kind of input. @param input description of it, for
@@ -108,7 +108,7 @@ InputError without_effect(const std::string& name, const std::string& word, cons
 void refuse_unused(const std::string& name, const po::variables_map& given, const std::string& input,
                    const Arguments& used);
 
-/// Refuses further words next to an option that must be used alone.
+/// Refuses operands and other options next to an option that must be used alone.
 void expect_alone(const std::string& name, const Invocation& given, const std::string& option);
 
 /// Prints the help text to stdout.

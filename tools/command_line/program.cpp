@@ -144,7 +144,7 @@ bool reader_is_gone() {
 
 /// Refuses a stack limit that is too small for a thread. @throws SystemFailure
 void refuse_small_stack() {
-    constexpr rlim_t least = rlim_t{1} << 20;  // bytes; readers, solvers and fonts use between a tenth and a half of it
+    constexpr rlim_t least = rlim_t{1} << 20;  // bytes; file readers, solvers and fonts use a tenth to a half of it
     rlimit stack{};
     if (getrlimit(RLIMIT_STACK, &stack) != 0 || stack.rlim_cur == RLIM_INFINITY || stack.rlim_cur >= least) return;
     throw SystemFailure(

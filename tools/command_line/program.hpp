@@ -28,7 +28,7 @@ struct Command {
 struct Program {
     const char* name;        ///< name as typed by the user
     const char* summary;     ///< description in one line
-    const char* first_word;  ///< name of the first word in messages, for example "command"
+    const char* first_word;  ///< what messages call the first word, for example "command"
     const std::vector<Command>& (*commands)();
 };
 
@@ -65,9 +65,9 @@ struct SelectedCommand {
 
 /// Prepares the process and selects a command. @throws InputError, SystemFailure
 SelectedCommand select_command(const Program& program, int argc, char** argv);
-/// Writes all pending output to stdout after a command. @return `code`, or exit_system_fails after an error is reported
+/// Writes pending output to stdout after a command. @return `code`, or exit_system_fails if it was 0 and writing failed
 int end_output(int code);
-/// Reports the exception that is being handled. @param called  the command, for messages @return exit code
+/// Reports the exception that is being handled. @param called  name of the command in messages @return exit code
 int report_failure(const char* called);
 
 }  // namespace crackle::tools

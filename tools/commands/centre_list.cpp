@@ -17,7 +17,7 @@
 namespace crackle::tools {
 namespace {
 
-/// Values in the first line that has values; empty if no line has values.
+/// Words of the first line that contains values; empty if no line does.
 std::optional<std::vector<std::string>> first_values(std::string_view text) {
     if (text.find('"') != std::string_view::npos) {  // quotes occur only in a heading, since numbers need none
         TableReader reader("", text, TableReader::Form::table);
@@ -40,7 +40,7 @@ double coordinate(const TableReader& reader, std::size_t place, const char* what
     return *value;
 }
 
-/// The columns of a list, and a description of their order.
+/// Indices of the columns of a list, and a description of their order.
 struct Columns {
     std::size_t x = 0, y = 1;
     std::optional<std::size_t> z;

@@ -81,12 +81,12 @@ std::string bench_program();
 
 // Functions that do the work of commands without printing, for callers that need the values (tools/python).
 
-/// @throws InputError that states the invalid option
+/// The packing that the options of `crackle pack` request. @throws InputError that names the invalid option
 PackingRequest packing_request(const po::variables_map& values, Messages& messages);
 /// The kind of mesh that --kind selects. @throws InputError if it is not given
 MeshKind mesh_kind(const po::variables_map& values);
 /// Makes polygons from the text of a packing or of a list of centres. @param name name of the text, for errors @param
-/// of_joints receives the report lines about traces, if there are any, before and after meshing @param interrupted as
+/// of_joints receives the report lines about joint traces, before and after meshing; may be null @param interrupted as
 /// in MeshRequest
 /// @throws TestInterrupted
 Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values, MeshKind kind,

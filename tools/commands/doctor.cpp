@@ -26,7 +26,7 @@
 namespace crackle::tools {
 namespace {
 
-/// Text such as "x86-64-v3, chosen from x86-64-v2, x86-64-v3, x86-64-v4; ...".
+/// Instruction sets as text, such as "x86-64-v3, chosen from x86-64-v2, x86-64-v3, x86-64-v4; ...".
 std::string instructions() {
     std::string built_in;
     for (const InstructionSet set : built_in_sets())

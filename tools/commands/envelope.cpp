@@ -32,14 +32,14 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 using plot::EnvelopeFigure;
 
-/// Ratio of unconfined to tensile strength as a function of m: Hoek & Martin, J. Rock Mech. Geotech. Eng. 6, 2014.
+/// Ratio of unconfined to tensile strength for Hoek-Brown's m: Hoek & Martin, J. Rock Mech. Geotech. Eng. 6, 2014.
 double hoek_martin(double m) { return 8.62 + 0.7 * m; }
 
-// Confinements needed to fit the two parameters of Hoek-Brown (Hoek & Brown 2019).
+// Number of confinements needed to fit the two parameters of Hoek-Brown (Hoek & Brown 2019).
 constexpr std::size_t enough_confinements = 5;
 // Largest confinement for Hoek-Brown, relative to the unconfined strength (ibid.).
 constexpr double largest_share = 0.5;
-constexpr double trusted_misfit = 0.1;  // misfit about as large as the scatter between packings
+constexpr double trusted_misfit = 0.1;  // largest misfit without a notice, about the scatter between packings
 // Accepted factor between a strength ratio and hoek_martin(); it is about the scatter of Hoek and Martin's data.
 constexpr double trusted_factor = 1.5;
 constexpr double smallest_m = 4.0, largest_m = 35.0;  // range of m for intact rocks in Hoek and Brown's tables
@@ -230,7 +230,7 @@ StrengthMeasure measure_of(const po::variables_map& values) {
     return measure;
 }
 
-/// Fits both laws. @throws InputError if there are too few tests; the message lists the tests that were left out
+/// Fits both laws. @throws InputError if there are too few tests; the message names tests that were left out
 EnvelopeFigure fitted_to(const MeasuredStrengths& tests) {
     try {
         return {fit_envelope(tests.compressions), tests, mean_of(tests.tensions)};
@@ -244,7 +244,7 @@ EnvelopeFigure fitted_to(const MeasuredStrengths& tests) {
     }
 }
 
-/// Adds strengths that a laboratory measured. @throws InputError also if their scale is not that of the tests
+/// Adds strengths measured in a laboratory. @throws InputError also if their magnitude shows that the unit is wrong
 void add_measured(EnvelopeFigure& e, const fs::path& file) {
     e.measured = read_measured_strengths(file);
     e.measured_label = fmt::format("measured ({})", file.filename().string());

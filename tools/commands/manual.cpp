@@ -58,7 +58,7 @@ std::string literal(std::string_view text) {
     return out;
 }
 
-/// The paragraphs of a text, which are separated by empty lines.
+/// The text in roff, with a new paragraph at each empty line.
 std::string paragraphs(const std::string& text) {
     std::string out = ".PP\n";
     std::size_t begin = 0;

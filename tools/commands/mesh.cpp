@@ -62,12 +62,12 @@ Domain parse_domain(const std::string& text) {
     return domain;
 }
 
-/// Centres to be meshed, and a description of where each comes from.
+/// Centres to be meshed, and a description of the origin of each.
 struct Source {
     Scene scene;  ///< contains materials and domain of the result, but no bodies
     std::vector<CellCentre> centres;
-    std::vector<int> materials;       ///< by centre: index of its material
-    std::vector<std::string> origin;  ///< by centre: where it comes from, for messages
+    std::vector<int> materials;       ///< index of each centre's material
+    std::vector<std::string> origin;  ///< origin of each centre, for messages
     std::optional<double> thick;      ///< m, gap between facing edges as given in the deck
 };
 

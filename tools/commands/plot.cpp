@@ -103,7 +103,7 @@ std::string strain_text(double strain) {
     return strain == 0.0 ? "ε = 0" : fmt::format("ε = {:.3g}·10⁻³", 1e3 * strain);
 }
 
-/// @param asked the requested moments; if empty, start, peak and end, of which two may coincide
+/// @param asked the requested moments; if empty, start, peak and end, each frame drawn only once
 /// @param forces whether the forces of faces are drawn
 Panel drawings_of(const Recording& test, const fs::path& folder, const std::optional<Words>& asked,
                   const DrawingStyle& style, bool forces) {
@@ -138,7 +138,7 @@ Words everything_of(const std::vector<Recording>& tests) {
     return what;
 }
 
-/// Adds one panel with the magnitudes of all tests, and rows of maps for the tests that have frames.
+/// Adds one panel with the magnitudes of emissions in all tests, and rows of emission maps for tests that have frames.
 void add_emission_panels(std::vector<Panel>& panels, const std::vector<Recording>& tests, const Words& folders,
                          const std::vector<PlottedTest>& plotted) {
     panels.push_back(magnitude_frequency(plotted));
@@ -228,7 +228,7 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
             if (tests.size() > 1) panels.back().title = labels[k];
         }
     }
-    // A figure of a single test has no legend, so its name is the title.
+    // A figure of a single test has no legend, so the first panel has the test's label or title as its title.
     if (tests.size() == 1)
         panels.front().title =
             given.contains("labels") ? labels.front() : tests.front().results.summary.about.title.value_or("");

@@ -91,8 +91,8 @@ void print_figures(const TestOutcome& outcome) {
     print_out("  results in {}\n", outcome.folder.string());
 }
 
-// Smallest number of bodies per thread. With fewer, a test takes longer than on one thread, because its frames are
-// drawn on a further thread.
+// Smallest number of bodies per thread. With fewer, a test takes longer than on one thread, because a further thread
+// already draws its frames.
 constexpr std::int64_t bodies_worth_a_thread = 2000;
 
 TestHooks hooks_for(Messages& messages) {
@@ -178,7 +178,7 @@ Json disc_as_json(const DiscOutlook& disc) {
             {"can_be_valid", valid ? Json(*valid) : Json(nullptr)}};
 }
 
-/// Units and meanings of the keys of a check. @param stress unit of stress
+/// Units and meanings of the keys that `--check --json` prints. @param stress unit of stress
 Json units_of_check(const std::string& stress, bool of_disc) {
     Json units{
         {"grains_across", "width of the specimen divided by the mean grain size sqrt(width height / particles)"},
@@ -281,7 +281,7 @@ int check(const Invocation& given) {
     TestHooks hooks = hooks_for(given.messages);
     const bool json = values.contains("json");
     if (json && !given.messages.verbose()) hooks.stage = {};
-    // Notices are printed together with the warnings.
+    // Notices are not printed here, since print_check() prints them together with the warnings.
     else if (hooks.stage)
         hooks.stage = [say = hooks.stage](const std::string& text) {
             if (!text.starts_with("notice: ")) say(text);

@@ -27,7 +27,7 @@ std::vector<Legend::Entry> entries_of(const JointNetwork& network) {
     return entries;
 }
 
-/// Axes of the box in m, drawn as large as possible with the same scale for both axes.
+/// Axes of a map of the box. Both have the same unit (m with an SI prefix) and the same spacing of ticks.
 struct MapAxes {
     Unit unit;
     Scale x, y;

@@ -45,7 +45,7 @@ inline std::string packed(const std::vector<unsigned char>& bytes) {
     return encode_base64(std::span(out).first(size));
 }
 
-/// Arrays placed one after another, and the position of each array.
+/// A block of plain arrays, one after another, and the position of each array in it.
 class PlainBlock {
   public:
     template <class T>

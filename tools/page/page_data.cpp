@@ -28,14 +28,14 @@ constexpr std::size_t frames_in_block = 16;
 /// Member of a recorded frame that has one number per cell (or bond).
 using Field = std::vector<double> RecordedFrame::*;
 
-// These quanta are so fine that errors remain invisible even if displacements are magnified a hundred times. Finer
-// quanta would only store more noise, and pages would be larger.
-constexpr double place_share = 0x1p-22;    // quantum, relative to the specimen's size
-constexpr double angle_quantum = 0x1p-18;  // rad
+// Stored values are multiples of a quantum. These quanta are so fine that errors remain invisible even if displacements
+// are magnified a hundred times. Finer quanta would only make pages larger.
+constexpr double place_share = 0x1p-22;    // quantum of positions, relative to the specimen's size
+constexpr double angle_quantum = 0x1p-18;  // quantum of angles, rad
 // Quantum, relative to the block's largest value, for quantities of varying magnitude.
 constexpr double least_share = 0x1p-20;
-constexpr double growth = 0x1p-7;  // growth (see Code) for velocities and stresses: a relative resolution of 0.4 %
-// Growth (see Code) for forces, which need much space: a relative resolution of 0.8 %.
+constexpr double growth = 0x1p-7;  // growth (see Code) for velocities and cells' stresses: a relative error below 0.4 %
+// Growth (see Code) for forces and faces' stresses, which need much space: a relative error below 0.8 %.
 constexpr double force_growth = 0x1p-6;
 
 double largest_of(const std::vector<std::vector<double>>& rows) {
@@ -108,7 +108,7 @@ double size_of(const std::vector<RecordedCell>& cells) {
     return std::max({x2 - x1, y2 - y1, std::numeric_limits<double>::min()});
 }
 
-/// Left and right ends, over all frames, of the part of the specimen between the platens, m. The viewer thus leaves
+/// Left and right ends of the specimen over all frames, without platens and splinters, m. They let the viewer leave
 /// enough space from the start.
 class Sides {
   public:
@@ -178,7 +178,7 @@ void add_bonds(PlainBlock& block, const std::vector<RecordedBond>& bonds) {
     block.add("bonds.x", listed<float>(bonds, [](const RecordedBond& b) { return b.place.x; }));
     block.add("bonds.y", listed<float>(bonds, [](const RecordedBond& b) { return b.place.y; }));
     if (std::ranges::none_of(bonds, [](const RecordedBond& b) { return norm(b.end - b.begin) > 0.0; })) return;
-    // The other end is as far on the other side of the bond's place.
+    // The face's half length as a vector; its ends are the bond's position plus and minus this vector.
     block.add("bonds.half_x", listed<float>(bonds, [](const RecordedBond& b) { return 0.5 * (b.end.x - b.begin.x); }));
     block.add("bonds.half_y", listed<float>(bonds, [](const RecordedBond& b) { return 0.5 * (b.end.y - b.begin.y); }));
 }
@@ -210,8 +210,8 @@ void add_breaks(PlainBlock& block, const TestResults& results) {
     if (results.slips) real("slips.", *results.slips, {"time", "axial_strain", "x", "y", "orientation"});
 }
 
-/// Rows needed to draw a curve: the first row, the last row, and the extremes of each column. Each of `intervals` parts
-/// of the curve has extremes of its own.
+/// Rows needed to draw a curve: the first row, the last row, and the rows with the extremes of each column in each of
+/// `intervals` equal parts of the curve.
 std::vector<std::size_t> rows_seen(const std::vector<const std::vector<double>*>& columns, std::size_t intervals) {
     const std::size_t rows = columns.front()->size();
     std::vector<std::size_t> seen;
@@ -251,7 +251,7 @@ class ThinnedCurve {
         all.push_back(&time);
         const std::vector<std::size_t> rows = rows_seen(all, intervals);
         const auto put = [&](const std::string& name, const std::vector<double>& values) {
-            // stored as double, because displacements are differences of positions
+            // Stored as double, because displacements are computed as differences of positions.
             block_.add(prefix_ + name, listed<double>(rows, [&](std::size_t row) { return values[row]; }));
         };
         put("time", time);
@@ -267,7 +267,7 @@ class ThinnedCurve {
 
 constexpr std::size_t most_bodies = 8;  // largest number of curves that a reader can distinguish
 
-/// @return the curves' entry in the manifest
+/// Adds the curves of a deck run. @return their entry in the page's manifest
 Json add_curves(PlainBlock& block, const DeckCurves& curves) {
     ThinnedCurve energy(block, "energy.");
     for (std::size_t k = 0; k < deck_energy_names.size(); ++k) energy.add(deck_energy_names[k], curves.energy.parts[k]);
@@ -295,7 +295,7 @@ Json add_curves(PlainBlock& block, const DeckCurves& curves) {
             {"velocities", listed_ids(curves.velocities)}};
 }
 
-/// Summary of a recording, with the sentence of each claim that does not hold.
+/// Summary of a recording, with a sentence about each condition of validity that does not hold.
 Json listed_summary(const Summary& summary) {
     Json all = json_of(summary);
     const std::vector<JudgedClaim> claims = summary.validity.validity.value_or(std::vector<JudgedClaim>());

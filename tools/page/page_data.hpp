@@ -13,7 +13,7 @@
 // in each frame. For positions, angles and integers, a stored number n means the value q·n, with q = 2⁻²² of the
 // specimen's size for positions and 2⁻¹⁸ rad for angles. If an entry has a `growth` g, n means q/g·sinh(g·n). This is
 // used for velocities, stresses and forces, whose small values are as important as large ones. The resolution is then
-// √(q² + (g·value)²), with g = 2⁻⁷ (2⁻⁶ for forces) and q = 2⁻²⁰ of the block's largest value.
+// √(q² + (g·value)²), with g = 2⁻⁷ (2⁻⁶ for forces and faces' stresses) and q = 2⁻²⁰ of the block's largest value.
 // Tested by tests/tools/page/page_data_test.cpp.
 #pragma once
 

@@ -17,7 +17,7 @@
 
 namespace crackle::tools {
 
-/// Number of frames if the user gives none. On a laptop screen, one frame then corresponds to one pixel of the curve.
+/// Default number of frames. On a laptop screen, one frame then corresponds to about one pixel of the curve.
 inline constexpr std::size_t default_page_frames = 500;
 
 enum class PageView { report, view };  ///< what is shown first: tables and curves, or the animation
@@ -29,7 +29,7 @@ struct PageHead {
     std::optional<LabelledCurve> measured = {};  ///< drawn over the curves of the tests
 };
 
-/// @param page the template, which contains each marker once
+/// @param page the template, which contains each of the markers for data once
 /// @return the page; identical recordings give identical bytes
 std::string filled_page(std::string_view page, const PageHead& head, const std::vector<Recording>& recordings,
                         Messages& messages);

@@ -12,9 +12,9 @@
 
 namespace crackle::tools {
 
-/// The text with all control characters escaped except newlines and tabs. Those of C0 are written like \x1b. DEL and
-/// those of C1 are written like \u009b, so that JSON remains valid. Bytes that are not valid UTF-8 are written like
-/// \x9b.
+/// The text with all control characters escaped, except newlines and tabs. C0 characters are written like \x1b. DEL
+/// and C1 characters are written like \u009b, so that JSON remains valid. Bytes that are not valid UTF-8 are written
+/// like \x9b.
 std::string printable(std::string_view text);
 
 /// Prints results to standard output in printable form. Commands print results only through this function and

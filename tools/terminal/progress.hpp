@@ -10,7 +10,7 @@
 
 namespace crackle::tools {
 
-/// Progress to show. NaN means unknown; such values are not shown.
+/// Progress of some work. Values that are NaN are unknown and not shown.
 struct Progress {
     double share = std::numeric_limits<double>::quiet_NaN();  ///< completed fraction, 0 to 1
     double rate = std::numeric_limits<double>::quiet_NaN();   ///< number of `unit` per second
@@ -22,7 +22,7 @@ struct Progress {
 /// A duration as text, for example "31 s", "2 min 5 s" or "1 h 12 min"; empty if it is not finite. @param seconds >= 0
 std::string spoken_time(double seconds);
 
-/// Text of the line, without control sequences. @param columns width at which it is cut off
+/// Text of the progress line, without control sequences. @param columns width at which it is cut off
 std::string progress_text(const Progress& progress, std::size_t columns);
 
 class ProgressLine {

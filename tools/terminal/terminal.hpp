@@ -11,7 +11,7 @@ namespace crackle::tools {
 
 enum class Stream : std::uint8_t { out, err };
 
-/// Whether a stream is a terminal on which a line can be overwritten, and not a pipe, a file or TERM=dumb.
+/// Whether a stream is a terminal on which a line can be overwritten. False for pipes and files, or if TERM is dumb.
 bool is_terminal(Stream stream);
 
 /// Width in columns of the terminal on stderr; 80 if unknown.

@@ -10,12 +10,12 @@
 namespace crackle::tools {
 
 /// Number of worker processes that run tests: as requested, or one for each processor that this process may use.
-/// @throws InputError if the requested number is 0 or above 1024
+/// @throws InputError if the requested number is below 1 or above 1024
 int workers_of_machine(std::optional<int> asked, const std::string& command);
 
 struct ThreadRoom {
     int threads = 1;
-    std::string why;  ///< reason why fewer threads are used than requested; empty otherwise
+    std::string why;  ///< what limits the number of threads, for a notice if fewer are used than requested
 };
 
 /// Number of threads worth using: at most the number requested, the number of processors that this process may use, and

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace plot;
 
-constexpr std::size_t most_bundles = 6;  // largest number of curve bundles in one diagram
+constexpr std::size_t most_bundles = 6;  // largest number of bands or lines in one diagram
 
 std::size_t place_of(const LedgerTable& table, const std::string& column) {
     const auto at = std::find(table.columns.begin(), table.columns.end(), column);
@@ -75,7 +75,7 @@ std::optional<Panel> panel_over(const std::vector<const PointSummary*>& points, 
         series.x.push_back(*x);
         series.samples.push_back(sample_of(*point, figure, ""));
     }
-    // The points of a design differ in more than one axis, so they are drawn as a single cloud without lines.
+    // Points of a [design] differ in several axes at once, so they are drawn as a single cloud without lines.
     const bool cloud = all.size() > most_bundles ||
                        std::all_of(all.begin(), all.end(), [](const auto& one) { return one.second.x.size() < 2; });
     std::vector<Series> listed;
@@ -135,7 +135,7 @@ CampaignFigure curve_figure(const CampaignRecord& record, const std::string& tes
     return figure;
 }
 
-/// All results of one test against an axis of the plan.
+/// Plots each result of one test against an axis of the plan.
 CampaignFigure axis_figure(const CampaignRecord& record, const std::string& test, const Points& points,
                            const std::string& axis) {
     CampaignFigure figure{"axes",
@@ -148,7 +148,7 @@ CampaignFigure axis_figure(const CampaignRecord& record, const std::string& test
     return figure;
 }
 
-/// Scatter of all results of one test.
+/// Plots the scatter of each result of one test over the packings.
 CampaignFigure scatter_figure(const CampaignRecord& record, const std::string& test, const Points& points) {
     constexpr std::size_t most_samples = 12;
     CampaignFigure figure{

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Diagrams of the results in a campaign's folder: stress-strain curves of its packings as bands, and the values of each
-// numeric result. Identifiers call such a result, a key of summary.json, a «figure».
+// numeric result. In identifiers, a «figure» is such a result, named by its key in summary.json.
 // Tested by tests/tools/campaign/campaign_test.cpp.
 #pragma once
 
@@ -52,8 +52,8 @@ void add_measured_curve(CampaignRecord& record, const std::filesystem::path& fil
 /// Name of a result in titles, for example "peak stress" for peak_stress.
 std::string spoken_figure(const std::string& figure);
 
-/// Diagrams of one test of the plan: bands of curves if these were kept, the distribution of each result, and each
-/// result against every axis that has several values.
+/// Diagrams of one kind for one test of the plan: bands of curves, the distribution of each result, or each result
+/// against one axis that has several values.
 struct CampaignFigure {
     std::string part;  ///< value of --what that selects these diagrams: "curve", "axes" or "scatter"
     std::string test;  ///< name of the test in the plan

@@ -14,7 +14,7 @@
 namespace crackle::tools {
 namespace {
 
-/// Keys that have a customary name with a symbol.
+/// Keys that have a customary name, most of them with a symbol.
 constexpr std::array<std::pair<const char*, const char*>, 11> symbols{{
     {"confinement.pressure", "confining pressure σ₃"},
     {"loading.normal_stress", "normal stress σₙ"},

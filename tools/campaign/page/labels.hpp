@@ -15,7 +15,7 @@ struct AxisLabel {
     std::string unit;  ///< for example "Pa", "N/m", "°"; empty if there is no unit
 };
 
-/// @param key key of a case, for example "confinement.pressure" or "mineral[1].friction_angle"
+/// Label for the axis of a key. @param key for example "confinement.pressure" or "mineral[1].friction_angle"
 AxisLabel axis_label(const std::string& key, bool area_units);
 
 /// A setting as text, for example "confining pressure σ₃ 10 MPa" or "mesh kind voronoi".
