@@ -14,7 +14,7 @@ def printable(text: str) -> str:
 
 
 def tell(error: BaseException, text: str) -> None:
-    """Adds a note to an exception. In a KeyboardInterrupt without a message, it becomes the message, since not every notebook shows notes."""
+    """Adds a note to an exception. A KeyboardInterrupt without a message gets it as its message, since some notebooks hide notes."""
     if isinstance(error, KeyboardInterrupt) and not error.args:
         error.args = (text,)
     else:

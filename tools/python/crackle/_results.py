@@ -130,7 +130,7 @@ def _not_a_number(word):
 
 
 def _read_object(folder, name):
-    """Object of a JSON file in a folder. Raises InputError if there is none."""
+    """The JSON object in a file of a folder. Raises InputError if the file is missing or contains no object."""
     text = _read(folder, name)
     try:
         value = json.loads(text, parse_constant=_not_a_number)

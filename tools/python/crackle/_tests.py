@@ -177,7 +177,7 @@ def _every(every):
 
 
 def _number(name, value, beyond, expected):
-    """Returns a whole number >= 1, which may be numpy's, after checking that it fits the engine's type."""
+    """Checks that a value is a whole number (of Python or numpy) from 1 to below `beyond`, and returns it as an int."""
     try:
         number = 0 if isinstance(value, bool) else operator.index(value)
     except TypeError:
@@ -207,9 +207,9 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
     phases of a step. threads: number of threads; results do not depend on it. long: run the test even if it takes more
     than a day. allow_unstable: accept a time step above the stability limit.
 
-    call: a function called with the State of the test. every = "row": at each row by which peak and failure are judged, of
-    which curve.csv has output.curve_rows; every = N: at each multiple of N steps. It is not called at the row at which the
-    test ends by itself. It may read arrays, set state.platen_speed, and end the test with state.stop(). If it raises an
+    call: a function called with the State of the test. every = "row": at each row that is used to judge peak and failure
+    (curve.csv has about output.curve_rows of them); every = N: at each multiple of N steps. It is not called at the row at
+    which the test ends by itself. It may read arrays, set state.platen_speed, and end the test with state.stop(). If it raises an
     exception, the test ends as by Ctrl-C: results so far are kept, and resume() continues it.
 
     Returns Result. Raises InputError, UnstableRun (results so far are kept), KeyboardInterrupt.

@@ -37,8 +37,8 @@ export function categoricalPalette(grain: string): Rgb[] {
     return Array.from({length: paletteSize}, (_, at) => rgb(at === 0 ? grain : distinct[(at - 1) % distinct.length]!));
 }
 
-/// Palette index of a category. Categories beyond the palette repeat it from its second colour; negative ones (platens) get the
-/// first colour.
+/// Palette index of a category. Beyond the end of the palette, categories repeat it from its second colour. Negative
+/// categories (platens) get the first colour.
 export function categoryColour(category: number): number {
     const last = paletteSize - 1;
     return category <= last ? Math.max(0, category) : 1 + (category - 1) % last;

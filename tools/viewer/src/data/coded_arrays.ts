@@ -21,7 +21,7 @@ const valueOf = ({quantum, growth}: CodedEntry, n: number): number => (growth ? 
 /// Spacing of representable values near a value.
 export const resolutionAt = ({quantum, growth}: CodedEntry, value: number): number => Math.hypot(quantum, (growth ?? 0) * value);
 
-/// Returns valueOf() with a table of known results, since computing each sinh would double the time for decoding.
+/// A version of valueOf() that remembers its results, since computing every sinh would double the time for decoding.
 function valuesBy(entry: CodedEntry): (n: number) => number {
     if (!entry.growth) return (n) => entry.quantum * n;
     const known: number[] = []; // values for n = 0, 1, 2 …, at most some thousands

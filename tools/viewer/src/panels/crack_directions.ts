@@ -17,7 +17,7 @@ export function countDirections(events: Events): Directions {
     const tension = new Array<number>(2 * half).fill(0), shear = new Array<number>(2 * half).fill(0);
     for (let event = 0; event < events.count; ++event) {
         const crack = events.orientation[event]! * 180 / Math.PI + 90; // 0 to 180
-        const at = Math.round(crack / directionWidth) % half; // each axis is at the centre of a class
+        const at = Math.round(crack / directionWidth) % half; // both coordinate axes are at the centres of classes
         const counts = events.shear[event] === 1 ? shear : tension;
         counts[at]! += 1;
         counts[at + half]! += 1;

@@ -53,7 +53,7 @@ export function panels(labelled: LabelledTest<CurvedTest>[], view: View): Panel[
     });
 }
 
-const leastStress = 0.25, leastStrain = 0.2; // relative to the largest value of all tests
+const leastStress = 0.25, leastStrain = 0.2; // smallest ratios between the largest values of the kinds
 
 /// Whether the curves of one kind of test would be hard to see on the scales of the other kind. They then get separate panels.
 function hasSlivers(members: readonly LabelledTest<CurvedTest>[]): boolean {
