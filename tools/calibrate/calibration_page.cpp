@@ -27,13 +27,15 @@ std::string targets_table(const Rock& rock, const CalibrationOutcome& outcome) {
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const Target& target = rock.targets[k];
         const ReachedTarget& reached = outcome.targets[k];
-        const std::string unit = target.unit(in_area_units(rock, outcome, k));
+        const plot::Unit unit = plot::figure_unit(target.value, target.unit(in_area_units(rock, outcome, k)));
         text += fmt::format(
             "<tr><td>{} of {}{}</td><td>{}</td><td>{} ± {:.2g}</td><td>{:.2g}</td><td>{:+.1f}</td><td>{:.1f}</td>"
             "<td class=\"word{}\">{}</td></tr>\n",
-            html(spoken_figure(target.quantity())), html(target.source(rock.tests)), unit.empty() ? "" : ", " + unit,
-            in_cell(target.value), in_cell(reached.fresh.mean), reached.fresh.standard_error, reached.fresh.deviation,
-            100.0 * reached.off, 100.0 * reached.limit, reached.reached() ? "" : " wrong", name_of(reached.verdict));
+            html(spoken_figure(target.quantity())), html(target.source(rock.tests)),
+            unit.name.empty() ? "" : ", " + unit.name, in_cell(target.value / unit.factor),
+            in_cell(reached.fresh.mean / unit.factor), reached.fresh.standard_error / unit.factor,
+            reached.fresh.deviation / unit.factor, 100.0 * reached.off, 100.0 * reached.limit,
+            reached.reached() ? "" : " wrong", name_of(reached.verdict));
     }
     return text + "</tbody></table></div>\n";
 }

@@ -8,19 +8,11 @@
 
 #include "specimens/recordings/curve_points.hpp"
 #include "specimens/statistics/mean.hpp"
-#include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
 #include "tools/plot/plotted_curves.hpp"
 
 namespace crackle::plot {
 namespace {
-
-/// Unit of a result: small dimensionless values, such as strains, are shown in thousandths.
-Unit figure_unit(double largest, const std::string& name) {
-    constexpr double small = 0.02;
-    if (!name.empty()) return unit_for(largest, name);
-    return largest > 0.0 && largest < small ? Unit{strain_unit, strain_unit_title} : Unit{1.0, ""};
-}
 
 /// A row's label, broken after commas into lines of at most this width, pt. Longer parts are not broken.
 std::string broken(const Canvas& canvas, const std::string& label, double text, double width) {
@@ -99,7 +91,26 @@ void draw_series(Canvas& canvas, const Axes& axes, const Series& series, const C
     }
 }
 
+/// Range of the values and of the intervals. Intervals that would make the range of the values more than three times
+/// as long, such as those of two packings, are cut off.
+Range range_of(const std::vector<Sample>& samples) {
+    Range range;
+    for (const Sample& sample : samples) range.include(sample.values);
+    if (!std::isfinite(range.low)) return {0.0, 0.0};
+    const double most = 3.0 * (range.high - range.low);
+    Range whole = range;
+    for (const Sample& sample : samples)
+        if (sample.high - sample.low <= most) whole.include({sample.low, sample.high});
+    return whole;
+}
+
 }  // namespace
+
+Unit figure_unit(double largest, const std::string& name) {
+    constexpr double small = 0.02;
+    if (!name.empty()) return unit_for(largest, name);
+    return largest > 0.0 && largest < small ? Unit{strain_unit, strain_unit_title} : Unit{1.0, ""};
+}
 
 Band band_of(const CurveBundle& bundle, double share, std::size_t strains) {
     std::vector<double> ends;
@@ -193,9 +204,7 @@ Panel distributions(const std::string& title, const std::string& unit_name, cons
         return rows * static_cast<double>(samples.size()) + Axes::room_below(measure) + 1.6 * size;
     };
     panel.draw = [title, unit_name, samples](Canvas& canvas, const Rect& place) {
-        Range range;
-        for (const Sample& sample : samples) range.include(sample.values);
-        if (!std::isfinite(range.low)) range = {0.0, 0.0};
+        const Range range = range_of(samples);
         const Unit unit = figure_unit(range.high, unit_name);
         const RowLabels labels = labels_of(canvas, samples, place.width);
         Axes axes;
@@ -236,12 +245,14 @@ Panel over_axis(const std::string& x_title, const std::string& x_unit, const std
         return 0.55 * proportional(width) + legend_of(measure, entries_of_labels(all), width).more_rows();
     };
     panel.draw = [=](Canvas& canvas, const Rect& place) {
-        Range x, y;
+        Range x;
+        std::vector<Sample> samples;
         for (const Series& series : all) {
             x.include(series.x);
-            for (const Sample& sample : series.samples) y.include(sample.values);
+            samples.insert(samples.end(), series.samples.begin(), series.samples.end());
         }
-        if (!std::isfinite(y.low)) x = y = {0.0, 0.0};
+        const Range y = range_of(samples);
+        if (y.size() == 0.0) x = y;
         const Unit unit = figure_unit(y.high, y_unit);
         // Stresses and lengths get SI prefixes; other units get a power of ten.
         const bool has_prefix = x_unit == "Pa" || x_unit == "N/m" || x_unit == "m";

@@ -9,9 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "tools/plot/axes.hpp"
 #include "tools/plot/panels.hpp"
 
 namespace crackle::plot {
+
+/// Unit in which a result is shown: small dimensionless values, such as strains, are in thousandths. @param name the SI
+/// unit; empty if the result has no unit
+Unit figure_unit(double largest, const std::string& name);
 
 /// Curves of all packings for one point of a plan.
 struct CurveBundle {

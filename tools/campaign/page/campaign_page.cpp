@@ -9,6 +9,7 @@
 #include "solver/files/read_file.hpp"
 #include "specimens/statistics/spoken.hpp"
 #include "tools/campaign/page/html_page.hpp"
+#include "tools/plot/campaign_panels.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -20,21 +21,23 @@ constexpr std::size_t most_rows = 2000;  // largest number of rows in the table 
 std::string points_table(const CampaignRecord& record) {
     std::string text =
         "<div class=\"wide\"><table><thead><tr><th>test</th><th "
-        "class=\"word\">figure</th><th>packings</th><th>mean</th>"
-        "<th>deviation</th><th>cv, %</th><th>95 % interval of the mean</th></tr></thead><tbody>\n";
+        "class=\"word\">figure</th><th>mean</th><th>95 % interval of the mean</th>"
+        "<th>deviation</th><th>deviation, %</th><th>packings</th></tr></thead><tbody>\n";
     for (const PointSummary& point : record.points) {
         bool first = true;
         for (const std::string& figure : record.figures) {
             const MeanFigure& mean = point.figures.at(figure);
-            const std::string unit = unit_of_figure(figure, point.area_units);
+            const plot::Unit unit = plot::figure_unit(std::abs(mean.mean), unit_of_figure(figure, point.area_units));
+            const auto number = [&](double value) { return in_cell(value / unit.factor); };
             text += fmt::format(
                 "<tr><td>{}</td><td "
                 "class=\"word\">{}{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                 first ? html(point.axes.empty() ? point.test : fmt::format("{}, {}", point.test, point.at())) : "",
-                html(spoken_figure(figure)), unit.empty() ? "" : ", " + unit, mean.count, in_cell(mean.mean),
-                in_cell(mean.deviation),
+                html(spoken_figure(figure)), unit.name.empty() ? "" : ", " + unit.name, number(mean.mean),
+                std::isfinite(mean.low) ? fmt::format("{} to {}", number(mean.low), number(mean.high)) : "–",
+                number(mean.deviation),
                 std::isfinite(mean.variation()) ? fmt::format("{:.1f}", 100.0 * std::abs(mean.variation())) : "–",
-                std::isfinite(mean.low) ? fmt::format("{} to {}", in_cell(mean.low), in_cell(mean.high)) : "–");
+                mean.count);
             first = false;
             if (const auto bias = point.biases.find(figure); bias != point.biases.end())
                 text += fmt::format("<tr><td></td><td class=\"note\" colspan=\"6\">{}</td></tr>\n",
