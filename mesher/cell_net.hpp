@@ -56,18 +56,18 @@ class CellNet {
     /// Whether the cell is convex. Flat corners, which lie on the line between their neighbours, are ignored.
     bool convex(const Loop& l) const;
     double area(const Loop& l) const;
-    /// Union of two cells across their common edges; empty if those edges are not consecutive or if one of them lies on
-    /// a trace.
+    /// Union of two cells across their common edges. It is empty if the common edges are not consecutive, or if one of
+    /// them lies on a trace.
     static Loop together(const Loop& a, const Loop& b);
     /// Part of a cell's outline between the corners at positions `begin` and `end`, closed by a straight edge.
     static Loop part_of(const Loop& l, std::size_t begin, std::size_t end);
 
-    /// Merges the piece with a neighbour, across the longest edge that is not on a trace and for which the union is
-    /// convex. @return index of the union; -1 if there is no such neighbour
+    /// Merges a piece of a cut cell with a neighbour, across the longest edge that is not on a trace and for which the
+    /// union is convex. @return index of the union; -1 if no neighbour qualifies
     int join(int piece);
-    /// Cuts the union of the piece and a neighbour again between two of its corners, so that both parts are convex and
-    /// the smaller one is as large as possible. @return false, and nothing changes, if every such cut leaves a part
-    /// smaller than `least_area` @param least_area smallest area of a part, m2
+    /// Unites a piece of a cut cell with a neighbour and cuts the union between two of its corners. Both parts are
+    /// convex, and the smaller part is as large as possible. @return false, and nothing changes, if every such cut
+    /// leaves a part smaller than `least_area` @param least_area smallest area of a part, m2
     bool divide_again(int piece, double least_area);
 
     /// Cells that may extend into the box, in ascending order.
@@ -81,8 +81,8 @@ class CellNet {
 
   private:
     Box box_of(const Loop& l) const;
-    /// Calls use(cell, union, length) for each neighbour of the piece across an edge that is not on a trace, with the
-    /// length of this edge.
+    /// Calls use(neighbour, union, length) for each neighbour across an edge that is not on a trace. `union` is the
+    /// outline of both cells together, `length` the length of their common edge.
     template <class Use>
     void each_union(int piece, Use use) const;
 

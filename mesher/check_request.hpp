@@ -9,7 +9,7 @@
 
 namespace crackle {
 
-/// Refuses input that cannot be meshed: lengths, centres, the outline and traces. @throws MeshError
+/// Checks lengths, centres, the outline and traces. @throws MeshError if they cannot be meshed
 void check_request(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request);
 
 /// Distance between a convex outline and a point inside it, m.

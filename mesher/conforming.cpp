@@ -36,7 +36,7 @@ namespace {
 // spacing on the trace and its apex at a distance of 0.4 spacings has angles above 21 degrees.
 constexpr double left_out_seed_share = 0.4;
 constexpr double near_share =
-    1.3;  // triangles closer to a trace than this, relative to the spacing, are checked (the first row beside it)
+    1.3;  // largest distance from a trace, relative to the spacing, of the triangles to be checked (the first row)
 // Narrowest passage between traces, relative to the spacing, and sine of the smallest angle between them (1 degree).
 // Smaller values are refused, since they would require triangles with equally small edges or angles.
 constexpr double narrowest_share = 0.02, least_sine = 0.0175;
@@ -45,7 +45,7 @@ constexpr double smallest_squared_sine = 0.125;
 
 struct PointInfo {
     int centre = -1;
-    bool near_trace = true;  // true unless set otherwise, and thus for points that refinement adds
+    bool near_trace = true;  // default value, which points added by refinement keep
     int number = -1;         // index of the point in the mesh
 };
 
@@ -83,7 +83,7 @@ using ConstrainedFace = Constrained::Face_handle;
 
 Point place_of(ConstrainedVertex v) { return {v->point().x(), v->point().y()}; }
 
-/// Whether two edges from a common point may meet at less than 60 degrees, allowing for round-off.
+/// Whether two edges from a common point meet at less than 60 degrees, or possibly do, given round-off.
 bool meet_sharply(Point u, Point v) {
     const double along = dot(u, v);
     return !(along <= 0.0 || 4.0 * along * along < 0.999 * dot(u, u) * dot(v, v));
@@ -98,7 +98,7 @@ void Constrained::list_constraints() {
     };
     std::vector<Edge> edges;
     std::vector<Arm> arms;
-    std::vector<int> last;    // index of the last arm of each vertex
+    std::vector<int> last;    // for each vertex, index of its last edge (arm)
     std::vector<char> sharp;  // by vertex
     // Points do not have an index yet, so their field `number` can hold the index of the vertex.
     const auto number = [&](Vertex_handle v) -> int& { return v->info().number; };
@@ -278,7 +278,7 @@ class Conforming {
         return std::sqrt(least);
     }
 
-    /// Centres that are far enough from traces, and the wall points of the mesh without traces.
+    /// Points to be triangulated: centres far enough from traces, and the wall points of the mesh without traces.
     std::vector<ChosenPoint> chosen_points(std::span<const CellCentre> centres, const SegmentGrid& grid) {
         std::vector<CellCentre> kept;
         std::vector<int> number;
@@ -435,7 +435,7 @@ class Conforming {
             a = best;
         }
     }
-    /// Marks an edge on each of its sides that belongs to the mesh.
+    /// Marks an edge as lying on a trace, in each of its two triangles that belongs to the mesh.
     void mark(ConstrainedFace face, int k, int trace) {
         const ConstrainedFace beyond = face->neighbor(k);
         for (const auto& [side, edge] : {std::pair{face, k}, {beyond, beyond->index(face)}})

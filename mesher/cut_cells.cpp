@@ -28,7 +28,7 @@ constexpr double on_line_share = 1e-12;
 // of the cut.
 constexpr double least_face_share = 0.15;
 
-/// An edge of the graph as a line, with coordinates along it and to its left.
+/// An edge of the graph as a straight line, with coordinates along it and perpendicular to it (positive to the left).
 struct Line {
     Point start, along;
     double length;

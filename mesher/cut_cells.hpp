@@ -29,7 +29,7 @@ struct TracedCells {
     double largest_move = 0.0;   ///< m, largest distance by which a trace end was moved
 };
 
-/// What becomes of pieces that cannot be merged with a neighbour into a convex cell.
+/// How to treat pieces that cannot be merged with a neighbour into a convex cell.
 struct SmallPieces {
     double least_share;  ///< smallest area that is accepted, relative to the mean cell area
     bool divided_again;  ///< whether a smaller piece is united with a neighbour and the union is cut again

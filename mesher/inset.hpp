@@ -12,7 +12,7 @@
 
 namespace crackle {
 
-/// Relative spacing of floating-point numbers, an upper limit of a single rounding error.
+/// Relative spacing of floating-point numbers: an upper limit on the relative error of a single rounding.
 inline constexpr double relative_rounding = std::numeric_limits<double>::epsilon();
 
 /// Insets polygons one after another and reuses its working memory.

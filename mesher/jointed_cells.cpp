@@ -130,7 +130,7 @@ class JointedPartition {
         number_pieces(made);
         return made;
     }
-    /// Refuses traces that are so crowded that pieces of cut cells would be too small.
+    /// Refuses traces so close together that pieces of cut cells would be too small.
     void refuse_crowds() const {
         Squares squares(spacing_);
         for (std::size_t e = 0; e < cuts_.size(); ++e) {
@@ -193,7 +193,7 @@ class JointedPartition {
         for (const VoronoiCells::Range& cell : cells.cells) {
             if (made.seeds.added[static_cast<std::size_t>(cell.centre)] == 0) continue;
             const auto outline = cells.outline(cell);
-            // An edge on a trace has both ends on it, so it is sufficient to check every other corner.
+            // A cell edge on a trace has both ends on it, so it is sufficient to check every other corner of the cell.
             for (std::size_t corner = 1; corner <= outline.size(); corner += 2) {
                 const std::size_t at = std::min(corner, outline.size() - 1);
                 grid_.each_near(outline[at], [&](std::size_t e) {

@@ -19,8 +19,8 @@
 namespace crackle {
 namespace {
 
-// An edge from a corner to the next one of the polygon, and the triangle it belongs to, through which the neighbour
-// across the edge is found.
+// An edge of a polygon, from one corner to the next, and the triangle that contains it. The neighbour across the edge
+// is found through this triangle.
 struct Side {
     int corner;
     int triangle;

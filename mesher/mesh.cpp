@@ -392,7 +392,7 @@ double rounded_down(double value) {
     return unit * std::floor(value / unit);
 }
 
-/// Advice on changes of the request that would give a mesh. Each change is tried before it is advised.
+/// Text that suggests changes to the request with which a mesh can be made. Each change has been tried.
 /// @param least_radius smallest inscribed radius of the cells that the inset destroys, m
 std::string advice(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
                    std::optional<double> least_radius) {

@@ -90,7 +90,7 @@ inline constexpr double smallest_piece_share =
 /// Sides of the domain, as bits in Cell::sides.
 enum SideBit : std::uint8_t { side_left = 1, side_right = 2, side_bottom = 4, side_top = 8 };
 
-/// A convex polygon, counter-clockwise after the inset.
+/// A cell of the mesh: a convex polygon whose corners after the inset are stored counter-clockwise.
 struct Cell {
     std::uint32_t first_corner = 0;  ///< first index into Mesh::corners
     std::uint32_t corner_count = 0;
@@ -181,9 +181,9 @@ class MeshInterrupted : public std::exception {
     const char* what() const noexcept override { return "interrupted while meshing"; }
 };
 
-/// Partitions `domain` and insets every cell. The same input gives identical results. The cost is two to three times
-/// that of inserting the centres with CGAL alone (tests/benchmarks/meshing.cpp), and as much again for each round of
-/// merging Voronoi cells.
+/// Partitions `domain` and insets every cell. The same input gives identical results. The time needed is two to three
+/// times that for inserting the centres with CGAL alone (tests/benchmarks/meshing.cpp). Each round of merging Voronoi
+/// cells takes as long again.
 /// @param centres  inside the domain or on its boundary
 /// @throws MeshError if there are no centres, if centres coincide, lie outside or are NaN, or if the domain has no
 /// area. It is also thrown if `mesh_gap` or `inset` is invalid, if there is no triangle, or if a cell is destroyed.

@@ -151,14 +151,14 @@ class SeedPlacing {
     }
     bool inside(Point p) const { return p.x > domain_.x1 && p.x < domain_.x2 && p.y > domain_.y1 && p.y < domain_.y2; }
 
-    /// An edge of the graph as a line, with coordinates along it and to its left.
+    /// An edge of the graph as a straight line, with coordinates along it and perpendicular to it.
     struct Line {
         Point start, along;
         double length;
         Point at(double s, double off = 0.0) const {
             return {start.x + s * along.x - off * along.y, start.y + s * along.y + off * along.x};
         }
-        /// Coordinates of a point: along the line, and to its left.
+        /// Coordinates of a point: along the line, and perpendicular to it (positive to the left).
         Point seen(Point p) const {
             const Point d{p.x - start.x, p.y - start.y};
             return {d.x * along.x + d.y * along.y, d.y * along.x - d.x * along.y};

@@ -41,7 +41,7 @@ constexpr double zero_edge_share = 1e-10;
 // round-off.
 constexpr double coincidence_share = 1e-9;
 // Distance of the guard points from the middle of the domain, in units of the domain's diagonal. Every point of the
-// domain is closer to its nearest centre.
+// domain is then closer to its nearest centre than to a guard point.
 constexpr double guard_distance = 4.0;
 
 // The circumcentre is computed relative to one corner, so that large coordinates cause round-off only in the last
@@ -111,15 +111,15 @@ Point Partition::on_wall(FaceHandle face, std::uint8_t wall) const {
     std::size_t i = 0, j = 1;
     if (std::abs(along[1] - along[2]) > std::abs(along[i] - along[j])) i = 1, j = 2;
     if (std::abs(along[0] - along[2]) > std::abs(along[i] - along[j])) i = 0, j = 2;
-    // This order ensures that the faces on both sides of a pair and its images get identical values.
+    // This order ensures that the two faces formed by a pair of centres and their images get identical values.
     if (along[i] > along[j]) std::swap(i, j);
     const double apart = along[j] - along[i];
     const double place = along[i] + 0.5 * apart + 0.5 * ((off[j] - off[i]) / apart) * (off[j] + off[i]);
     return upright ? Point{level, place} : Point{place, level};
 }
 
-// Circumcentre of the face. It is placed on the walls across which the face has an image, except walls on which all of
-// its centres lie.
+// Circumcentre of the face. It is placed exactly on each wall across which the face has an image, unless all centres of
+// the face lie on that wall.
 Point Partition::dual(FaceHandle face, const WallsOfFace& walls) const {
     const unsigned snapped = walls.images & ~walls.on_all;
     switch (snapped) {
@@ -388,7 +388,7 @@ Triangles Partition::points_with_flat_faces() const {
         out.points.push_back(p);
         out.centre_of.push_back(centre);
     };
-    std::set<std::pair<double, double>> taken;  // places of corners, of feet, and of the centres that have feet
+    std::set<std::pair<double, double>> taken;  // positions of corners, of projections, and of centres on a wall
     for (const VertexHandle v : triangulation_.finite_vertex_handles()) {
         if (!is_centre(v)) continue;
         add(position(v), v->info().index);

@@ -60,8 +60,8 @@ struct Square {
     std::uint32_t i, j;
 };
 
-/// Numbers (indices of points or segments), stored by grid square in one hash table. Each bucket is a list in insertion
-/// order.
+/// Indices of points or segments, stored by grid square in a hash table. Each bucket is a list in insertion order. One
+/// table serves all squares.
 class Squares {
   public:
     /// An empty grid. @param size side length of the squares, m, > 0

@@ -295,8 +295,8 @@ class PartWalk {
         if (lower(u) != lower(v)) return lower(v);
         return cross(u, v) > 0.0;
     }
-    /// Next half-edge of the boundary: of those that start at the far node of `half`, the first clockwise from its
-    /// reverse.
+    /// Next half-edge of the boundary. Of the half-edges that start at the far node of `half`, it is the first one
+    /// clockwise from the reverse of `half`.
     std::size_t next(std::size_t half) const {
         const std::vector<std::size_t>& leaving = around_[node(half ^ 1U)];
         const auto back = std::find(leaving.begin(), leaving.end(), half ^ 1U);
@@ -374,7 +374,7 @@ std::vector<std::pair<std::size_t, std::size_t>> near_pairs(std::span<const Segm
     const std::vector<Extent> oblique = extents_along(across_most(segments));
     const std::vector<Extent>& swept = sum_of(oblique) < sum_of(by_x) ? oblique : by_x;
     const std::vector<std::uint32_t> order = order_of(swept);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> by_places;  // sorted from the left
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> by_places;  // pairs of segments, by their ranks from the left
     const auto apart = [room](Extent s, Extent t) { return s.high + room < t.low || t.high + room < s.low; };
     for (std::size_t a = 0; a < order.size(); ++a) {
         const std::uint32_t i = order[a];
