@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The array type of a world's state. Large arrays use memory pages of 2 MiB. A step reads a dozen arrays in parallel.
+// Array type for the simulation state. Large arrays use memory pages of 2 MiB. A step reads a dozen arrays in parallel.
 // With pages of 4 KiB, the processor must translate an address every few points, and prefetching stops at the end of a
 // page. For a million circles, this would take a sixth of the time of a step.
 #pragma once
@@ -31,8 +31,8 @@ struct LargePages {
         if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
         void* const room = ::operator new(count * sizeof(T), alignment(count));
 #if defined(__linux__)
-        // Only whole large pages are requested, since one for the remainder would waste memory. If the operating system
-        // refuses the request, only speed is lost.
+        // Large pages are requested only for the part of the array that fills them, since a large page for the
+        // remainder would waste memory. If the operating system refuses the request, only speed is lost.
         if (is_large(count)) static_cast<void>(madvise(room, count * sizeof(T) / page * page, MADV_HUGEPAGE));
 #endif
         return static_cast<T*>(room);

@@ -54,13 +54,13 @@ class CheckedInput : public cereal::InputArchive<CheckedInput, cereal::AllowEmpt
     /// Number of bytes up to the end.
     std::streamoff left() const { return left_; }
 
-    /// Checks that `count` items of at least one byte fit into the rest of the stream. @throws InputError
+    /// Checks that `count` items of at least one byte each fit into the rest of the stream. @throws InputError
     void expect(std::uint64_t count) const {
         errno = 0;
         if (count > static_cast<std::uint64_t>(left_)) refuse();
     }
 
-    /// Throws the InputError, with the reason that the operating system gave, if any.
+    /// Throws the InputError, and includes the reason that the operating system gave, if any.
     [[noreturn]] void refuse() const {
         fail_reading(errno, errno == 0 ? refusal_ : refusal_ + " (" + std::strerror(errno) + ')');
     }
@@ -82,7 +82,7 @@ template <class T>
 void serialize(CheckedInput& in, cereal::NameValuePair<T>& named) {
     in(named.value);
 }
-/// Reads a length. @throws InputError if the rest of the stream cannot hold that many elements
+/// Reads the length of a container. @throws InputError if the rest of the stream cannot hold that many elements
 template <class T>
 void serialize(CheckedInput& in, cereal::SizeTag<T>& length) {
     in(length.size);

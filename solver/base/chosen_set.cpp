@@ -10,7 +10,7 @@
 namespace crackle {
 namespace {
 
-/// Names of the sets for which `wanted` holds, for example "x86-64-v2, x86-64-v3".
+/// Names of the instruction sets for which `wanted` returns true, for example "x86-64-v2, x86-64-v3".
 template <class Wanted>
 std::string names_of_sets(Wanted wanted) {
     std::string names;

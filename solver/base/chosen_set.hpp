@@ -13,10 +13,10 @@
 
 namespace crackle {
 
-/// Index of chosen_set() in built_in_sets().
+/// Index of the chosen instruction set in the list that built_in_sets() returns.
 std::size_t chosen_place();
 
-/// Returns call.operator()<S>() for the chosen set S.
+/// Returns call.operator()<S>() for the chosen instruction set S.
 template <class Call>
 auto of_chosen_set(Call call) {
     using Result = decltype(call.template operator()<sets_of_this_program[0]>());

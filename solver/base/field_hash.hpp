@@ -43,7 +43,7 @@ class FieldHasher {
             for (const T& value : values) add(value);
         }
     }
-    /// Adds the elements of an array. Its length is part of the type and is not hashed.
+    /// Adds the elements of an array. The length of the array is not hashed, since it is part of the type.
     template <class T, std::size_t N>
     void add(const std::array<T, N>& values) {
         for (const T& value : values) add(value);

@@ -33,7 +33,7 @@ namespace crackle {
 
 namespace detail {
 
-/// Converts to the type of any member.
+/// A value that converts to any type, used to count the initialisers that a struct accepts.
 struct AnyField {
     template <class T>
     operator T() const;
@@ -54,7 +54,7 @@ struct AnyVisitor {
     void operator()(auto&&...) const {}
 };
 
-/// Visitor that counts the initialisers needed for the listed fields. A field that is listed twice counts once.
+/// Visitor that counts the initialisers that the listed fields need. A field that is listed twice counts once.
 struct FieldCounter {
     std::size_t count = 0, seen = 0;
     std::array<const void*, 64> places{};
@@ -78,7 +78,7 @@ union RoomFor {
     char nothing;
     T value;
     constexpr RoomFor() : nothing{} {}
-    constexpr ~RoomFor() {}  // NOLINT(modernize-use-equals-default): a defaulted one is deleted
+    constexpr ~RoomFor() {}  // NOLINT(modernize-use-equals-default): a defaulted destructor would be deleted
 };
 
 template <class T>

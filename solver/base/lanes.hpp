@@ -45,7 +45,7 @@ CRACKLE_INLINE void clear_upper_halves() {
 #endif
 }
 
-/// Result type of comparing two Numbers: bool or LaneBits.
+/// Type of the result of comparing two Numbers: bool for doubles, LaneBits for Lanes.
 template <class Number>
 using Condition = decltype(Number{} < Number{});
 
@@ -164,7 +164,7 @@ CRACKLE_INLINE std::uint32_t count_of(const LaneBits& v) {
     return static_cast<std::uint32_t>(__builtin_popcount(mask_of(v)));
 }
 
-/// Whether the condition holds in any lane.
+/// Whether a condition holds in at least one lane.
 CRACKLE_INLINE bool any(bool condition) { return condition; }
 CRACKLE_INLINE bool any(const LaneBits& condition) { return mask_of(condition) != 0; }
 

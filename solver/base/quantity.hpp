@@ -11,7 +11,7 @@
 
 namespace crackle {
 
-/// Name, unit and meaning of a column, key or array.
+/// Declaration of a column, key or array: name, unit and meaning.
 struct Quantity {
     const char* name;
     const char* unit;       ///< "-" for a dimensionless number, "" for a value that is not a number

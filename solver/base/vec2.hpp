@@ -9,7 +9,7 @@
 
 namespace crackle {
 
-/// A vector in the plane, in the unit of the quantity that it represents.
+/// A vector in the plane. Its components have the unit of the quantity that the vector represents.
 struct Vec2 {
     double x = 0.0;
     double y = 0.0;
