@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Processes several contact points at once (a batch) in the common cases: a point carries load through a contact or
-// bond (it holds), or its bodies do not touch. If any contact opens or any bond breaks, the points of the batch are
-// computed one by one.
+// Processes several contact points (a batch) at once in the common cases: a point carries load through a contact or
+// bond, or its bodies do not touch. If any contact opens or any bond breaks, the points of the batch are computed one
+// by one.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ CRACKLE_INLINE bool take_laws(const Features& has, const PassView& view, const P
     return true;
 }
 
-/// Determines the state of a batch, without changing any point. @param k the index of the batch's first point
+/// Determines which points of a batch carry load, without changing any point. @param k the index of the first point
 /// @param batch_law on entry the law of the previous batch, on return the law of this batch
 template <PointKind K, class Features>
 CRACKLE_INLINE BatchState look_at_batch(const Features& has, const PassView& view, PointIndex k, const BatchOf<K>& g,

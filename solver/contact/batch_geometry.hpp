@@ -52,7 +52,7 @@ CRACKLE_INLINE void circle_batch(const BatchBodies& i, const BatchBodies& j, Cir
     g.motion = relative_motion<Lanes>(g.contact, {ivx - jvx, ivy - jvy, spin_i, spin_j});
 }
 
-/// Relative position and motion, and orientations, of the two bodies at each element_outline point in a batch.
+/// For each element_outline point in a batch: relative position and motion of the two bodies, and their orientations.
 struct PairLanes {
     Lanes dx, dy;  // m, position of i relative to j
     PairMotion<Lanes> motion;
@@ -157,7 +157,7 @@ CRACKLE_INLINE void prefetch_outlines(const PassView& view, const BodyPair* poin
     }
 }
 
-/// Number of points above which a scene is assumed to exceed the caches (about 8 MB).
+/// Number of points above which the data of a scene are assumed to exceed the caches (about 8 MB).
 inline constexpr std::size_t points_in_cache = 50'000;
 
 /// Prefetches the bodies of later circle contacts and the list of body pairs. In scenes larger than the caches this
@@ -281,7 +281,7 @@ CRACKLE_INLINE void face_batch(const PassView& view, const BodyPair* points, con
     g.motion = relative_motion<Lanes>(g.contact, g.pair, view.drift);
 }
 
-/// Geometry type for batches of one kind of point.
+/// Type of the geometry of a batch, for each kind of point.
 template <PointKind K>
 using BatchOf = std::conditional_t<K == PointKind::circle_circle, CircleBatch,
                                    std::conditional_t<K == PointKind::face_face, FaceBatch, OutlineBatch>>;

@@ -16,8 +16,8 @@
 
 namespace crackle {
 
-/// Constants of all contact laws, with the values of each constant stored contiguously. The table is used only if there
-/// are few laws.
+/// Constants of all contact laws, with the values of each constant stored contiguously. The table is used only in
+/// scenes with few laws.
 struct LawTable {
     static constexpr std::size_t most_laws = 8;  // number of entries that the widest vector lanes can look up at once
     bool filled = false;
@@ -81,8 +81,8 @@ CRACKLE_INLINE bool load_laws(const Features& has, const PassView& view, const P
     batch.number = BatchLaw::several_laws;
     if (!batch.table.filled) batch.table.fill(view);
     if (batch.table.fits) {
-        // Constants that are equal in all laws are still in place from the previous batch; checking costs less than
-        // writing them again.
+        // Constants that have the same value in all laws are still set from the previous batch. Checking this takes
+        // less time than writing them again.
         const auto look_up = [&](std::size_t n, Lanes& number) {
             if (batch.table.differ[n]) number = looked_up(batch.table.numbers[n], numbers);
         };

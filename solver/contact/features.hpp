@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Features that the contacts of a scene use. Kernels test them through a parameter, for example `has.friction`.
-// FeaturesOf tests them at run time. CompiledFeatures tests them at compile time, which removes unused code
-// (kernels.cpp).
+// Features that the contacts of a scene use. Kernels query them through a parameter, for example `has.friction`.
+// With FeaturesOf, features are tested at run time. With CompiledFeatures, they are tested at compile time, and the
+// compiler removes unused code (kernels.cpp).
 // Tested by tests/solver/contact/batch_test.cpp.
 #pragma once
 

@@ -17,14 +17,14 @@ ContactLaw law_across(const ContactLaw& rock, const Joint& joint, const IntactOp
 /// Derives the laws across joints from those of the material pairs and appends them to `settings.laws`.
 void derive_joint_laws(Settings& settings);
 
-/// Factors by which a joint's springs, acting in series with a face, reduce the face's own stiffnesses.
+/// Factors by which the springs of a joint, in series with the springs of a face, reduce the face's stiffnesses.
 struct SeriesShares {
     double normal = 1.0, shear = 1.0;
     double root_of_shear() const { return std::sqrt(shear / normal); }  ///< Points::shear_root
 };
 /// Computes the factors for one face. @param law the point's law, with stiffnesses in Pa for a face as long as the
 /// distance between its bodies
-/// @param distance the length over which the face's own stiffness acts, m
+/// @param distance the length over which the face's own springs deform, m
 SeriesShares in_series_with(const Joint& joint, const ContactLaw& law, double distance);
 
 /// Factors for point k; both are 1 if the point does not lie across a joint.

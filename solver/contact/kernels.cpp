@@ -92,7 +92,7 @@ template <PointKind K, class Features>
     if (has.bonds) bonded = (state.flags & point_bonded) != 0;
     Law<double> room, law(view.laws[state.law]);
     law = own_law<K>(has, view, k, law, room);
-    if constexpr (K == PointKind::face_face)  // no shear spring if the faces no longer lie opposite each other
+    if constexpr (K == PointKind::face_face)  // there is no shear spring if the faces no longer lie opposite each other
         law.has_shear_spring = law.shear_stiffness > 0.0;
     const double overlap = beyond_rest<K>(has, view, k, g.overlap);
     const auto rest = [&] {
@@ -138,8 +138,8 @@ struct CompiledFeatures {
                           own_shares = F.own_shares, own_shear = F.own_shear;
 };
 
-/// Bond law that kernels of a kind are compiled for, given the scene's bond law. Call it only in constant expressions,
-/// because the facts about bond laws must not be stored in kernels.
+/// Bond law for which the kernels of a kind are compiled, given the scene's bond law. Call it only in constant
+/// expressions, so that kernels do not contain the table of bond-law facts.
 constexpr BondLaw law_for(PointKind kind, BondLaw law) {
     if (by_guide(kind))
         return known_facts(law).with_guide_segments ? law : first_law_with(&BondLawFacts::with_guide_segments);
@@ -153,7 +153,7 @@ constexpr ContactFeatures features_for(PointKind kind, ContactFeatures f) {
     if (by_guide(kind)) f.consistent = f.own_shares = false;
     // Only outlines and flat faces occur at joints; for all other kinds the shear stiffness factor is 1.
     if (kind != PointKind::element_outline && kind != PointKind::face_face) f.own_shear = false;
-    // Before bonding, a kernel of flat faces simply finds no bonds.
+    // Flat faces are always compiled with bonds; before bonding, their kernel finds no bonded points.
     if (kind == PointKind::face_face) {
         f.friction = f.bonds = f.own_shares = true;
         f.consistent = false;
@@ -168,7 +168,7 @@ struct FeaturesOf : ContactFeatures {
     using Bond = BondLawType<L>;
 };
 
-/// The set of features that a kernel of this kind is compiled for.
+/// The set of features for which a kernel of this kind is compiled.
 template <PointKind K>
 constexpr ContactFeatures compiled_for(ContactFeatures f) {
     f = features_for(K, f);
@@ -310,7 +310,7 @@ ForceKernel force_kernel_of<InstructionSet::CRACKLE_SET>(const ContactFeatures& 
         case PointKind::element_wall:
             return kernel_of<PointKind::element_wall>(features);
         case PointKind::bonded_face:
-            break;  // not a point
+            break;  // bonded faces are not contact points, so they have no kernel
     }
     return nullptr;
 }

@@ -11,9 +11,9 @@
 
 namespace crackle {
 
-/// Losses of a block of points. Dashpot losses are summed separately by the point's position modulo 8, so that
-/// consecutive additions do not depend on each other. There are always eight sums, so that the result does not depend
-/// on the number of lanes.
+/// Losses of a block of points. Dashpot losses are added to one of eight sums, selected by the point's position in the
+/// block modulo 8, so that consecutive additions are independent. The number of sums is fixed, so that the result does
+/// not depend on the number of lanes.
 struct BlockLosses {
     static constexpr PointIndex places = 8;
     alignas(64) double dashpot[places] = {};

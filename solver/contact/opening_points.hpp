@@ -16,7 +16,7 @@
 
 namespace crackle {
 
-/// Stores the overlaps of unbonded points, closed or open, for the next force pass.
+/// Stores the overlaps of unbonded points, whether closed or open, for use in the next force pass.
 template <class Number>
 CRACKLE_INLINE void remember_overlaps(const PassView& view, PointIndex k, const Condition<Number>& bonded,
                                       const Number& overlap) {

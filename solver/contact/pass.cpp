@@ -8,7 +8,7 @@
 namespace crackle {
 namespace {
 
-/// Start of an array, or null if the world does not keep it.
+/// Pointer to the first element of an array; null if the array is empty because the world does not use it.
 template <class T>
 T* start_of(Array<T>& values) {
     return values.empty() ? nullptr : values.data();

@@ -15,7 +15,7 @@ namespace crackle {
 ContactFeatures features_of(const World& world);
 
 PointIndex blocks_of_kind(const World& world, std::size_t kind);
-/// Index of a kind's first block.
+/// Index of the first block of a kind of point.
 std::size_t first_block_of(const World& world, std::size_t kind);
 /// Number of blocks of all kinds.
 std::size_t block_count(const World& world);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Inputs and outputs of a force pass, as plain pointers to the arrays of bodies and contact points. A view is made once
-// per pass, from a world or from the caller's own arrays; kernels see nothing else. Members have the same meaning as in
-// Bodies, Points, Settings and StepControl.
+// per pass, from a world or from the caller's own arrays, and is all that kernels can access. Members have the same
+// meaning as in Bodies, Points, Settings and StepControl.
 // Tested by tests/solver/contact/force_test.cpp.
 #pragma once
 

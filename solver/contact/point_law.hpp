@@ -19,7 +19,7 @@ CRACKLE_INLINE Number stiffness_share(const PassView& view, PointIndex k) {
         return share;
 }
 
-/// Applies the points' stiffness factors, if points have them, to a law. @param law the law of the points' materials
+/// Returns a law with the points' own stiffness factors, if there are any. @param law the law of the points' materials
 /// @param room the storage for the result if it differs from `law` @param share a function that returns the stiffness
 /// factor
 template <class Features, class Number, class Share>
@@ -30,7 +30,7 @@ CRACKLE_INLINE const Law<Number>& with_shares_of(const Features& has, const Pass
     else if (has.own_shares)
         room = law.with_share(share());
     else
-        return law;  // returned by reference, to avoid a copy in each batch
+        return law;  // returned by reference, so that the law is not copied for each batch
     return room;
 }
 

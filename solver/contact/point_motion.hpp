@@ -34,7 +34,7 @@ inline auto geometry_of_point(const PassView& view, PointIndex k) {
         return contact_geometry<K>(view.bodies, point, view.parts[k - view.circle_points].feature_j);
     }
 }
-/// Returns a geometry that already has lever arms.
+/// Returns the geometry unchanged, since it already has lever arms.
 inline ContactGeometry with_arms(const ContactGeometry& g) { return g; }
 
 /// Closing and slip velocities at a point, m/s, for the current velocities of its bodies. @param g the point's current
