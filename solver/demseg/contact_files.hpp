@@ -28,8 +28,8 @@ void write_contacts(std::ostream& out, const Scene& scene, const World& world);
 /// is bonded
 void read_contacts(DeckReader& reader, const Scene& scene, World& world);
 
-/// Writes in_cf0.dat: the back-tensions -k_n δ0, by body. In a world without bonds, writes the back-tensions that
-/// bonding at the current overlaps would give.
+/// Writes in_cf0.dat: for each body, the back-tensions -k_n δ0 of its contacts. Without bonds, writes the back-tensions
+/// that bonding at the current overlaps would give.
 void write_back_tensions(std::ostream& out, const Scene& scene, const World& world);
 /// Bonds a newly built world with δ0 = -f_b/k_n. Every bond must be in the lists of both bodies, with the same value.
 void read_back_tensions(DeckReader& reader, const Scene& scene, World& world);

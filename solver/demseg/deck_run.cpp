@@ -330,8 +330,8 @@ void DeckRun::write_rows(DeckOutputs& outputs) const {
 void DeckRun::write_breaks(DeckOutputs& outputs) {
     const std::span<const BreakEvent> found = std::span(world_.bonds.events).subspan(breaks_written_);
     if (found.empty()) return;
-    // The previous part has already written the breaks of its last step, which the first force pass of this part finds
-    // again.
+    // The first force pass of this part finds the breaks of the previous part's last step again. The previous part has
+    // already written them.
     const auto ours = [&](const BreakEvent& event) { return first_part() || event.step > first_step_; };
     outputs.write_breaks(world_,
                          found.subspan(static_cast<std::size_t>(std::ranges::find_if(found, ours) - found.begin())));
@@ -393,7 +393,7 @@ void DeckRun::step_to_end(DeckOutputs& outputs, const std::function<bool(const W
             continue;
         }
         const FileSet files = files_for_next();
-        do_step(outputs);  // the files for the next part assume that this step's row has been written
+        do_step(outputs);  // writes this step's row, which the files for the next part assume to exist
         save(files, outputs);
         saved = Clock::now();
     }

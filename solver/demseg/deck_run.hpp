@@ -106,8 +106,8 @@ class DeckRun {
     void step_to_end(DeckOutputs& outputs, const std::function<bool(const World&)>& go_on);
     bool first_part() const { return asked_.start != DeckStart::continued; }
     OutputMode mode() const;
-    /// Whether earlier outputs can no longer be kept: none exist, or a journal of their replacement exists, which
-    /// the next run would complete.
+    /// Whether earlier outputs can no longer be kept. This is the case if there are none, or if a journal of their
+    /// replacement exists, which the next run would complete.
     bool counts_as_done(const DeckOutputs& outputs) const;
     /// Removes the files that were to replace the earlier outputs. @return part of a message that says what happened to
     /// the earlier outputs
@@ -124,7 +124,7 @@ class DeckRun {
     DeckOptions options_;
     // Lock of the output folder. A run that continues in its input folder acquires the lock before reading the files.
     std::optional<FolderLock> lock_;
-    BoundaryConditions asked_;  // in_bc.dat of this run
+    BoundaryConditions asked_;  // contents of in_bc.dat for this part of the run
     bool drawn_ = false;        // whether the bodies were generated at random from the seed
     DeckGeometry base_;         // bodies at the start of the first part of the run
     // Boundary conditions at the start of the first part of the run; steps of ramps count from boundary_.steps_before.

@@ -117,7 +117,7 @@ std::optional<DeckLaws> laws_of_deck_state(const std::filesystem::path& path, st
     const std::uint64_t asked = hash_of(text);
     for (std::size_t k = 0; k < deck_text_names.size(); ++k)
         if (source.number() != asked && k == which) return std::nullopt;
-    source.text();  // skips the geometry and boundary conditions at the beginning of the run
+    source.text();  // skips the initial geometry and boundary conditions
     source.text();
     const World world = load_world(source.text(), name, "remove the file to run without it");
     return DeckLaws{world.settings.segment_law, world.settings.integrator};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// new_state.bin, the state file beside a deck's text files. It contains data that DEMseg's text files cannot
-// (body-frame outlines, full turns, the energy account, the neighbour list). With these data, a run in several parts
-// performs exactly the same arithmetic as a single run.
+// new_state.bin, the state file beside a deck's text files. It contains data for which DEMseg's text files have no
+// place (body-frame outlines, full turns, the energy account, the neighbour list). With these data, a run in several
+// parts performs exactly the same arithmetic as a single run.
 //
 // A state file belongs to one set of text files: it contains a hash (XXH3, 64 bits) of each, and is valid only while
 // they are unchanged.
@@ -43,7 +43,7 @@ std::string save_deck_state(const DeckState& state, const DeckTexts& texts);
 
 /// Reads a state file if it belongs to the text files. @param present whether each text file exists; absent files are
 /// not compared. @param edited receives the names of the files that differ
-/// @return empty if any file differs @throws InputError if the state file is truncated, foreign or newer
+/// @return empty if any file differs @throws InputError if it is truncated, not a state file, or of another version
 std::optional<DeckState> load_deck_state(const std::filesystem::path& path, const DeckTexts& texts,
                                          const std::array<bool, 4>& present, std::vector<std::string>& edited);
 

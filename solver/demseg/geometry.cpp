@@ -22,7 +22,7 @@ namespace crackle {
 namespace {
 
 constexpr std::int64_t largest_count = std::numeric_limits<int>::max();
-// Ends of adjacent segments, and of a closed chain, count as coincident within this fraction of the chain's length.
+// Largest distance at which the ends of adjacent segments count as coincident, relative to the length of the chain.
 constexpr double joint_tolerance = 1e-6;
 
 /// Values at the beginning of a file, common to both modes.

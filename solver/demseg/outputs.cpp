@@ -53,10 +53,10 @@ const std::array<std::string, deck_output_names.size()>& headers() {
     return lines;
 }
 
-constexpr std::int64_t most_lines_a_count = 1'000'000'000;  // largest count accepted in the head of a frame
+constexpr std::int64_t most_lines_a_count = 1'000'000'000;  // largest count accepted in the first line of a frame
 
 /// Reads the step and the number of further lines from the beginning of a row. In a table the step is the second value;
-/// in a frame's head the number of lines is the sum of the counts. @return false if the row is foreign
+/// in the first line of a frame, the counts are added up. @return false if this program cannot have written the row
 bool read_head(std::string_view line, Layout layout, std::int64_t& step, std::int64_t& lines) {
     const char *at = line.data(), *end = line.data() + line.size();
     double time = 0.0;
@@ -85,7 +85,7 @@ bool read_head(std::string_view line, Layout layout, std::int64_t& step, std::in
 std::uintmax_t length_up_to(const std::filesystem::path& path, std::int64_t step, std::size_t which) {
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    const auto refuse_unread = [&] {  // an unreadable file would otherwise look empty and be truncated to nothing
+    const auto refuse_unread = [&] {  // without this check, an unreadable file would count as empty and be truncated
         fail_reading(errno, fmt::format("{}: cannot be read ({}), expected the rows of an earlier part", path.string(),
                                         std::strerror(errno)));
     };

@@ -75,7 +75,7 @@ class DeckOutputs {
 /// Truncates the outputs of an earlier part after the last complete row or frame whose step is at most `step`. An
 /// earlier part that failed or was killed may have written rows beyond the step from which the run is resumed. Missing
 /// files are skipped.
-/// @throws InputError if a file is foreign, before any file is changed
+/// @throws InputError if a file was not written by this program; all files are then unchanged
 void drop_rows_after(const std::filesystem::path& folder, std::int64_t step);
 
 /// Checks the first line of each existing output. @throws InputError if a file was not written by this program

@@ -43,7 +43,7 @@ int read_id(DeckReader& reader, const char* key, int lowest) {
     return static_cast<int>(reader.integer(key, lowest, largest_number));
 }
 
-/// Head of the frame of a given step; nullptr if the file has no such frame.
+/// First line (head) of the frame of a given step; nullptr if the file has no such frame.
 const DeckFrameFile::Head* head_of_step(const DeckFrameFile& file, std::int64_t step) {
     const auto& heads = file.heads();
     const auto found = std::lower_bound(heads.begin(), heads.end(), step,

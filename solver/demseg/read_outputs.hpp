@@ -42,8 +42,8 @@ struct DeckBreaks {
     int names_line = 1;  ///< line number of the column names; 0 for a later part of a run, whose file starts with rows
 };
 
-/// One output file as a list of frames. Each frame begins with a line `step time count [count]`, followed by as many
-/// lines as the sum of the counts.
+/// An output file as a list of frames. Each frame begins with a line `step time count [count]`, called its head,
+/// followed by as many lines as the sum of the counts.
 class DeckFrameFile {
   public:
     /// First line of a frame.
@@ -78,7 +78,7 @@ class DeckFrames {
   public:
     /// Opens the outputs. If a replacement of files in the folder was interrupted, it is completed first.
     /// @param folder must contain output.dat; the other files are optional
-    /// @throws InputError if files are foreign, or if a run replaces them at the same time
+    /// @throws InputError if a file was not written by this program, or if a run replaces the files at the same time
     explicit DeckFrames(const std::filesystem::path& folder);
 
     /// Heads of the frames of output.dat.
