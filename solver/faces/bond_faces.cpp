@@ -160,7 +160,7 @@ class Bonder {
         return count > 0 ? sum / static_cast<double>(count) : 0.0;
     }
 
-    /// Reference point of a cell at a free side, or at a face on a rigid body.
+    /// Reference point of a cell with respect to a free side, or to a face on a rigid body.
     Vec2 reference_at_side(BodyIndex b, Vec2 middle, Vec2 normal) {
         if (dot(middle - centres_[b], normal) > 0.5 * least_distance_) return centres_[b];
         ++quality_.by_centroid;
@@ -251,14 +251,14 @@ class Bonder {
         return static_cast<std::uint16_t>(entry->second);
     }
 
-    /// Puts the stiffnesses of a joint in series with those of a face.
+    /// Adds the springs of a joint in series with the springs of a face.
     void soften(FaceSprings& springs, const Joint& joint, const SharedFace& face) {
         const auto left = [&](double own, const std::optional<double>& per_length) {
             return per_length && own > 0.0 ? 1.0 / (1.0 + own / (*per_length * springs.length)) : 1.0;
         };
         const double normal = left(springs.normal, joint.normal_stiffness),
                      shear = left(springs.shear, joint.shear_stiffness);
-        // The joint opens or closes under the pressure of the cells, as a free side does.
+        // Under the pressure of its cells, a joint opens or closes in the same way as a free side moves.
         const double yields = (1.0 - normal) * springs.length * springs.length / springs.normal;
         in_joint_.resize(world_.bodies.size(), 0.0);
         in_joint_[face.i] += springs.share_i * springs.share_i * yields;

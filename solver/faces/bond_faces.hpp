@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bonds the polygons of a world by faces: computes the springs of every face, and the shares by which faces and
-// pressures of cells act on each other.
+// Bonds the polygons of a world by faces: computes the springs of every face, and the coefficients that couple faces to
+// the pressures of cells.
 //
 // Each cell i has one reference point x_i: its seed or, if that is not given, the circumcentre of a triangle or the
 // centroid of any other polygon. Let c be the midpoint of a face, n its normal from i to j, t this normal turned by +90
@@ -34,7 +34,7 @@ struct FaceMaterial {
     FaceLaw law;
 };
 
-/// Law of the faces between two materials. It replaces the law with the smaller strengths of the two, weaker_law().
+/// Law of the faces between two materials. It replaces the default, which is weaker_law() of the two materials' laws.
 struct FacePair {
     std::size_t a = 0, b = 0;  ///< as in Settings::materials
     FaceLaw law;

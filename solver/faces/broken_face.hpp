@@ -76,7 +76,7 @@ inline double end_closure(const FaceSprings& s, const BondFaceMotion& m, double 
     return (1.0 - taken) * 0.25 * s.normal / s.length * (square(d - a * m.turn) + square(d + a * m.turn));
 }
 
-/// Updates the damage D of a broken face that carries tension, and computes its contact at the late pressure.
+/// Updates the damage D of a broken face under tension, and computes its contact at the late pressure (faces.hpp).
 inline BrokenContact late_contact(BrokenFace& face, const FaceSprings& s, const FaceLaw& law, double share,
                                   const BondFaceMotion& m) {
     const double before = face.held;
@@ -87,7 +87,7 @@ inline BrokenContact late_contact(BrokenFace& face, const FaceSprings& s, const 
     return contact;
 }
 
-/// State of a broken face whose cells have the pressure at which `contact` was found, without that pressure and its
+/// State of a broken face whose contact was computed at a given pressure. The caller adds the pressure itself and the
 /// forces. @param pressure Pa @param skewing τ, Pa
 inline BrokenState broken_state(const BrokenFace& face, const FaceSprings& s, const BondFaceMotion& m,
                                 const BrokenContact& contact, double pressure, double skewing) {
@@ -156,7 +156,7 @@ inline BrokenStep step_broken(BrokenFace& face, const FaceSprings& s, const Face
     return step;
 }
 
-/// State of a face after its break, and the pressures of its two cells, which are computed again.
+/// State of a face after its break, and the pressures of its two cells after the break.
 struct BreakResult {
     BrokenFace face;
     FaceForces forces;              // remaining after the break
@@ -164,12 +164,12 @@ struct BreakResult {
     double energy;                  // J, released; never negative
 };
 
-// Rounds of descent after a break, and the relative change after which it has settled.
+// Largest number of iterations after a break, and the relative change below which the iteration has converged.
 inline constexpr int most_rounds_of_break = 1000;
 inline constexpr double settled_break = 1e-15;
 
-/// Pressure p̄ at which p̄ = before + by_normal (q_n(p̄) - δ_n) - slipped. The difference of both sides is convex in p̄,
-/// so Newton's method converges from any start. @param pressure the start, Pa
+/// Solves p̄ = before + by_normal (q_n(p̄) - δ_n) - slipped for the pressure p̄. The difference of the two sides is
+/// convex in p̄, so Newton's method converges from any start. @param pressure the start, Pa
 inline double balanced_pressure(const BrokenFace& face, const FaceSprings& s, const BondFaceMotion& m, double pressure,
                                 double before, double by_normal, double slipped) {
     for (int round = 0; round < most_rounds_of_break; ++round) {
@@ -182,9 +182,9 @@ inline double balanced_pressure(const BrokenFace& face, const FaceSprings& s, co
     return pressure;
 }
 
-/// Breaks an intact face. Two solutions alternate, each of which reduces the energy: one for the contact and the cells'
-/// pressures, and one for the slip if the shear force exceeds its limit. @param cell_i, cell_j pressures of the cells
-/// while the face is intact @param taken 1 - q
+/// Breaks an intact face. Two steps alternate, each of which reduces the energy. The first solves for the contact and
+/// the pressures of the cells, the second for the slip if the shear force exceeds its limit. @param cell_i, cell_j
+/// pressures of the cells while the face is intact @param taken 1 - q
 inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceLaw& law, double share,
                               const BondFaceMotion& m, const CellPressure& cell_i, const CellPressure& cell_j,
                               bool in_shear, double taken = 0.0) {
@@ -193,8 +193,8 @@ inline BreakResult break_face(FaceIndex index, const FaceSprings& s, const FaceL
     face.face = index;
     face.in_shear = in_shear;
     face.taken = taken;
-    // L (P_i a_i b_i + P_j a_j b_j), with P = per_area: change of a_i p_i + a_j p_j per unit of q_n or q_t, if A_i e_i
-    // changes by L b_i and A_j e_j by L b_j.
+    // Change of a_i p_i + a_j p_j per unit of q_n or q_t, if A_i e_i changes by L b_i and A_j e_j by L b_j.
+    // It is L (P_i a_i b_i + P_j a_j b_j), with P = per_area.
     const auto answer = [&](double a_i, double a_j, double b_i, double b_j) {
         return s.length * (cell_i.per_area * a_i * b_i + cell_j.per_area * a_j * b_j);
     };

@@ -37,7 +37,7 @@ CRACKLE_INLINE void load_pairs(Of of, Number& first, Number& second) {
     }
 }
 
-/// Values of one member in consecutive records, from record k on. @param c index of the member within a record
+/// Values of one member in consecutive records, starting at record k. @param c index of the member within a record
 template <class Number, class Record>
 CRACKLE_INLINE Number column(const FaceColumns<Record>& records, std::size_t c, FaceIndex k) {
     return load_as<Number>(records.column(c) + k);
@@ -90,7 +90,7 @@ CRACKLE_INLINE void move_some(Faces& faces, const BodyState* bodies, FaceIndex k
     store_as(faces.dilation_j.data() + k, length * (spring(k_share_j) * m.opening - spring(k_skew_j) * m.sliding));
 }
 
-/// Strengths of consecutive faces, from face k on. In most cases all of these faces have the same law.
+/// Strengths of consecutive faces, starting at face k. In most cases all of these faces have the same law.
 template <class Number>
 CRACKLE_INLINE FaceStrength<Number> strengths(const Faces& faces, FaceIndex k) {
     const Number share = load_as<Number>(faces.strength_share.data() + k);

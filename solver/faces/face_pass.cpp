@@ -25,7 +25,7 @@ template <class Visit>
 void over_blocks(const World& world, std::size_t count, Visit visit) {
     const std::size_t blocks = (count + block_size - 1) / block_size;
     const auto block = [&](std::size_t n) { visit(n, n * block_size, std::min(count, (n + 1) * block_size)); };
-    if (world.workers.threads == 1 || blocks < 2) {  // starting several threads would take longer
+    if (world.workers.threads == 1 || blocks < 2) {  // starting several threads would take longer than the work
         for (std::size_t n = 0; n < blocks; ++n) block(n);
         return;
     }
@@ -87,7 +87,7 @@ class Pass {
         return sum;
     }
 
-    /// Corrects the motion of a broken face whose bodies have turned far against each other.
+    /// Computes the motion of a broken face again if its two bodies have rotated far relative to each other.
     void follow_far_turn(std::size_t n) {
         const FaceIndex k = faces_.broken[n].face;
         if (std::abs(faces_.motion[k].turn) <= last_bisected_turn) return;
@@ -196,7 +196,7 @@ class Pass {
         losses.lag = -half_drift * ((before.normal - result.forces.normal) * rate.opening +
                                     (before.shear - result.forces.shear) * rate.sliding +
                                     (before.moment - result.forces.moment) * rate.turn);
-        // Half of the work that the pressure lost by a cell has done on the cell's other faces in this step.
+        // Half of the work that the lost part of a cell's pressure has done on the cell's other faces in this step.
         const auto others = [&](const CellPressure& cell, double left, double own_rise) {
             if (cell.per_area == 0.0) return 0.0;
             return 0.5 * (cell.pressure - left) * (cell.rise / cell.per_area - own_rise * world_.stepping.drift);

@@ -9,7 +9,7 @@
 namespace crackle {
 namespace {
 
-/// Linear stress with a given resultant. @param length m
+/// Linear stress along a face with a given normal force and moment. @param length m
 FaceTraction linear(double length, double normal, double moment) {
     const double mean = normal / length, bending = 6.0 * moment / (length * length);
     return {0.5 * length, moment, mean - bending, mean + bending};

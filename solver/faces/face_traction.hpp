@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Normal stress along a face, which is linear between its ends. It follows from the motion of the face and its normal
-// force N, so that pictures need not store it. L is the length of an intact face, M its moment:
+// force N, so that frames need not store it. L is the length of an intact face, M its moment:
 //     σ = N/L ± 6M/L²     N/m, compression positive
 // A broken face presses over its lap 2a, without tension. Where it is partly open, the pressure of lap_pressure() falls
 // to 0 over the closed length b = (2N/(q k |δ_φ|))^½, and

@@ -29,7 +29,7 @@ struct Box {
     }
 };
 
-/// A polygon before the mesh was inset, and the parts of each edge that faces cover.
+/// The outline of a polygon before the mesh was inset, and the parts of each edge that faces cover.
 struct Cell {
     std::vector<OutsetEdge> edges;
     std::vector<std::vector<FacingPart>> covered;

@@ -33,8 +33,8 @@ FaceIndex face_between(const World& world, BodyIndex i, BodyIndex j) {
     return no_face;
 }
 
-/// Changes the stiffness of a contact point without moving it, and its forces in proportion. @return energy that the
-/// point loses, J
+/// Changes the stiffness of a contact point without moving it; the forces of the point change in proportion. @return
+/// energy that the point loses, J
 double change_share(World& world, const BodyView& bodies, PointIndex p, float share) {
     Points& points = world.points;
     const double ratio = static_cast<double>(share) / static_cast<double>(points.stiffness_share[p]);
@@ -118,7 +118,7 @@ void hand_over(World& world) {
     Faces& faces = world.faces;
     for (BrokenFace& face : faces.broken) {
         face.taken = share_of_points(faces.springs[face.face], faces.motion[face.face], world.settings.thick);
-        if (face.alone && face.taken > 0.0) world.list.valid = false;  // the list lacks the contact points of this pair
+        if (face.alone && face.taken > 0.0) world.list.valid = false;  // this pair's contact points are not listed
     }
     if (faces.hand_over.empty()) return;
     const BodyView bodies(world);

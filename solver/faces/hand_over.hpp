@@ -29,10 +29,10 @@ namespace crackle {
 /// start without force. @param is_new returns whether a point was missing in the previous list
 void rest_new_points(World& world, const std::function<bool(PointIndex)>& is_new);
 
-/// Whether the two bodies have a common face and need no contact points, neither now nor after a small further motion.
+/// Whether the two bodies have a common face and need no contact points, either now or after a small further motion.
 bool face_replaces_points(const World& world, BodyIndex i, BodyIndex j);
 
-/// 1 - q of a broken face: the share of the contact points. @param thick thickness of segments, m
+/// Weight 1 - q of the contact points that replace a broken face. @param thick thickness of segments, m
 double share_of_points(const FaceSprings& springs, const BondFaceMotion& motion, double thick);
 
 /// After a rebuild of the neighbour list, finds the contact points between bodies with a common face, and sets
