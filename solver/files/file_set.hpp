@@ -21,7 +21,7 @@ using FileSet = std::vector<std::pair<std::string, std::string>>;
 /// Pairs of temporary and final names of completely written files in the folder.
 using Renames = std::vector<std::pair<std::string, std::string>>;
 
-/// Suffix of a file that receives its final name together with the rest of its set.
+/// Suffix of a file that receives its final name together with the other files of its set.
 inline constexpr const char* staged_suffix = ".new";
 
 /// First half of a replacement: writes the files under temporary names, and then the journal. After a successful

@@ -30,7 +30,7 @@ class DescriptorBuffer : public std::streambuf {
 
     /// Directs output to an open descriptor and takes ownership of it.
     void attach(int descriptor);
-    /// The descriptor, or -1 if no file is open.
+    /// The file descriptor; -1 if no file is open.
     int descriptor() const { return descriptor_; }
     int error() const { return error_; }  ///< errno of the first failure; 0 if there was none
     /// Writes the buffer and closes the file. @return whether everything was written
@@ -69,7 +69,7 @@ class FileStream : public std::ostream {
     /// Writes the buffered output and closes the file; a failure sets the stream's badbit.
     void close();
 
-    /// The descriptor; -1 if no file is open.
+    /// The file descriptor; -1 if no file is open.
     int descriptor() const { return buffer_.descriptor(); }
     /// Checks that all output was written. @param shown name of the file in messages @throws OutputError, SystemFailure
     void require_written(const std::filesystem::path& shown) const;

@@ -101,7 +101,7 @@ std::string_view without_byte_order_mark(std::string_view text) {
 
 namespace {
 
-/// Whether a text is UTF-16, recognised by its byte order mark, or by a zero in one byte of each of its first two
+/// Whether a text is UTF-16. It is recognised by its byte order mark, or by a zero in one byte of each of its first two
 /// characters.
 bool is_of_wide_letters(std::string_view bytes) {
     if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) return true;

@@ -35,7 +35,7 @@ class ScratchFile {
     int descriptor_;
 };
 
-/// An array on disc with one section at a time in memory; fast for sequential access.
+/// An array stored on disc; only one section at a time is in memory. Sequential access is fast.
 template <class T>
 class ScratchArray {
     static_assert(std::is_trivially_copyable_v<T>);

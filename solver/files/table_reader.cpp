@@ -155,7 +155,7 @@ void TableReader::split(std::string_view line) {
     unquoted_.clear();
     const bool by_blanks = separator_ == ' ';
     for (std::string_view rest = line;;) {
-        // leading white space to skip; tabs are kept if they are the separator
+        // Leading white space to be skipped. Tabs are not skipped if they are the separator.
         const std::string_view passed_over = separator_ == '\t' ? " " : blanks;
         rest.remove_prefix(std::min(rest.find_first_not_of(passed_over), rest.size()));
         if (rest.starts_with('"')) {
@@ -172,7 +172,7 @@ void TableReader::split(std::string_view line) {
         }
         const std::size_t end = std::min(by_blanks ? rest.find_first_of(blanks) : rest.find(separator_), rest.size());
         const std::string_view value = stripped(rest.substr(0, end));
-        if (form_ == Form::list && !value.empty()) {  // "1,2 3,4" is a list of four values
+        if (form_ == Form::list && !value.empty()) {  // in a list, "1,2 3,4" stands for four values
             const std::vector<std::string_view> words = words_of(value);
             values_.insert(values_.end(), words.begin(), words.end());
         } else if (!by_blanks || !value.empty()) {
