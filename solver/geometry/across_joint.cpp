@@ -11,7 +11,7 @@
 namespace crackle {
 namespace {
 
-/// Side of a trace on which each edge of a body's outline lies. Empty for a body without an outline.
+/// For each edge of a body's outline: the side of a trace on which it lies. Empty for a body without an outline.
 std::span<const TraceSide> sides_of(const World& world, BodyIndex b) {
     const BodyInfo info = world.bodies.info(b);
     if (world.bodies.element_sides.empty() || info.piece_count == 0) return {};
@@ -26,7 +26,7 @@ std::int32_t joint_of_trace(const World& world, std::int32_t trace) {
     return world.settings.trace_joints[static_cast<std::size_t>(trace)];
 }
 
-/// Trace of the first straight part along which the two circles have flat faces on opposite sides.
+/// Trace of the first straight part (piece) along which the two circles have flat faces on opposite sides.
 std::optional<std::int32_t> trace_between_circles(const World& world, BodyIndex i, BodyIndex j) {
     for (const FlatFace& own : world.bodies.flat_faces_of(i))
         for (const FlatFace& other : world.bodies.flat_faces_of(j))

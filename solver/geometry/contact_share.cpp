@@ -17,7 +17,7 @@ bool held(const World& world, BodyIndex b) {
     return world.bodies.inertia[b].inverse_mass_x == 0.0 && world.bodies.inertia[b].inverse_mass_y == 0.0;
 }
 
-/// Radius of the disc with the body's area, m; 0 for a held body; the bounding radius for an open chain.
+/// Radius of a disc with the area of the body, m. It is 0 for a held body, and the bounding radius for an open chain.
 double equivalent_radius(const World& world, BodyIndex b) {
     if (held(world, b)) return 0.0;
     const BodyInfo info = world.bodies.info(b);

@@ -35,8 +35,8 @@ struct ContactShare {
     double stiffness() const { return length / distance; }
 };
 
-/// Length and distance of a contact point that is not part of a face between two polygons: the other rows of the table
-/// above. At a wall, the distance is the body's radius, or √(area/π) for a polygon.
+/// Length and distance of a contact point that is not part of a face between two polygons (see the table at the top).
+/// At a wall, the distance is the body's radius, or √(area/π) for a polygon.
 ContactShare share_of_contact(const World& world, PointKind kind, const ContactPoint& point);
 
 /// Length and distance of the face between two bodies at their current positions; at least one must be a polygon.

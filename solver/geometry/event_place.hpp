@@ -11,7 +11,7 @@
 
 namespace crackle {
 
-/// Angle of a normal, regardless of its sense, rad, in (-π/2, π/2].
+/// Angle of the line along a normal, rad, in (-π/2, π/2]; it is the same for opposite normals.
 inline double orientation_of(Vec2 normal) {
     double angle = correctly_rounded::atan2(normal.y, normal.x);
     if (angle > 0.5 * std::numbers::pi) angle -= std::numbers::pi;

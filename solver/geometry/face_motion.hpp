@@ -12,7 +12,7 @@
 
 namespace crackle {
 
-/// One vector, or one in each lane.
+/// A vector in the plane, or one vector in each lane.
 template <class Number>
 struct VecOf {
     Number x, y;
@@ -65,7 +65,7 @@ inline FaceBody<double> face_body(const BodyState& body) {
 }
 inline FaceBodyRates<double> face_body_rates(const BodyState& body) { return {{body.vx, body.vy}, body.omega}; }
 
-/// The values of one FacePlace, or of one in each lane.
+/// The values of one FacePlace, or those of several faces in lanes.
 template <class Number>
 struct PlaceOf {
     VecOf<Number> normal_i, normal_j, arm_i, arm_j;
@@ -76,7 +76,7 @@ inline PlaceOf<double> place_of(const FacePlace& place) {
     return {of(place.normal_i), of(place.normal_j), of(place.arm_i), of(place.arm_j), place.rest_turn};
 }
 
-/// The values of one BondFaceMotion, or of one in each lane.
+/// The values of one BondFaceMotion, or those of several faces in lanes.
 template <class Number>
 struct MotionOf {
     VecOf<Number> normal;
@@ -99,8 +99,8 @@ inline Vec2 turned_by(const BodyState& body, Vec2 v) {
     return {body.shape[0] * v.x - body.shape[1] * v.y, body.shape[1] * v.x + body.shape[0] * v.y};
 }
 
-/// Relative rotation up to which the normal bisects the two turned normals, rad. Beyond it, only the scalar motion_of()
-/// is right.
+/// Largest relative rotation for which the normal bisects the two turned normals, rad. For larger rotations, only the
+/// scalar motion_of() is right.
 inline constexpr double last_bisected_turn = 2.0;
 
 /// Unit normal of a face, turned by the mean of both rotations. It is continuous for any relative rotation, while the
@@ -162,8 +162,8 @@ struct FaceOnBodies {
     Number torque_i, torque_j;
 };
 
-/// Forces of a face on its bodies. They act midway between the two positions to which the bodies
-/// have carried the face's midpoint.
+/// Forces of a face on its two bodies. They act midway between the two positions to which the bodies have carried the
+/// midpoint of the face.
 template <class Number>
 CRACKLE_INLINE FaceOnBodies<Number> forces_on_bodies(const PlaceOf<Number>& place, const MotionOf<Number>& motion,
                                                      const FaceBody<Number>& i, const FaceBody<Number>& j,

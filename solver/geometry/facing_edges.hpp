@@ -25,9 +25,9 @@ inline std::vector<Vec2> corners_of(const World& world, BodyIndex b) {
     return corners;
 }
 
-/// An edge of an outline whose edges have all been shifted outwards by the same distance.
+/// An edge of an outline after all edges of the outline have been shifted outwards by the same distance.
 struct OutsetEdge {
-    Vec2 start, along;  // m; unit vector
+    Vec2 start, along;  // m, start; unit vector from the start to the end
     double length;      // m
 
     /// Unit normal that points out of the body.
@@ -59,7 +59,7 @@ inline std::vector<OutsetEdge> outset_edges(const std::vector<Vec2>& corners, do
     return edges;
 }
 
-/// Part of an edge that faces another edge, as distances from its start, m; empty if `to` is at most `from`.
+/// Part of an edge that faces another edge: distances from the edge's start, m; empty if `to` is at most `from`.
 struct FacingPart {
     double from = 0.0, to = 0.0;
 };

@@ -12,7 +12,7 @@ namespace crackle {
 namespace {
 
 /// Circles within this distance from a trace, in diameters of the largest circle, are assigned to one of its sides. A
-/// circle that reaches the trace later from farther away has no face and is treated as rubble.
+/// circle that reaches the trace later from farther away has no flat face there.
 constexpr double depth_in_diameters = 2.0;
 
 /// Largest distance of a face's end from the circle's centre, in radii of the circle. Neighbouring circles along a
@@ -25,7 +25,7 @@ constexpr double farthest_reach = 3.0;
 /// radius.
 constexpr int fewest_neighbours = 2;
 constexpr double neighbour_gap = 0.3;
-/// Largest number of rounds. Circles that change sides may leave others with too few neighbours for the next round.
+/// Largest number of rounds in which circles change sides. After a round, other circles may have too few neighbours.
 constexpr int most_rounds = 4;
 
 struct StraightPart {

@@ -89,8 +89,8 @@ struct TraceShare {
     double from, to;
 };
 
-/// A circle beside a straight trace: projection of its centre on the trace, distance of the centre from the trace, and
-/// radius, m.
+/// A circle beside a straight trace, m: projection of its centre on the trace, distance of its centre from the trace,
+/// and its radius.
 struct CircleAtTrace {
     double foot, distance, radius;
 };

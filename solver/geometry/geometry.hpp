@@ -41,8 +41,8 @@ inline Bar bar_of(const BodyView& bodies, const BodyState& body, std::uint32_t e
             edge.length};
 }
 
-/// Calls visit(bar, centre of the disc, radius, sense) for every disc and the bare segment (bar) that it may touch, for
-/// a point that follows the DEMseg guide's segment law. Positions are relative to i's centroid; sense is +1 if the disc
+/// Calls visit(bar, centre of the disc, radius, sense) for every disc that may touch a bare segment (bar) at a point.
+/// The point follows the DEMseg guide's segment law. Positions are relative to i's centroid; sense is +1 if the disc
 /// belongs to i, otherwise -1.
 template <PointKind K, typename Visit>
 inline void visit_discs(const BodyView& bodies, const ContactPoint& point, const BodyState& i, const BodyState& j,

@@ -49,8 +49,8 @@ struct OutlineDistance {
     Number distance, gx, gy;
 };
 
-/// Distance and gradient from the position relative to an edge. @param at_corner whether an end of the edge is the
-/// closest point @param tx, ty unit direction of the edge
+/// Distance and its gradient at a given position relative to an edge. @param at_corner whether an end of the edge is
+/// the closest point @param tx, ty unit direction of the edge
 template <class Number>
 CRACKLE_INLINE OutlineDistance<Number> outline_distance(const Condition<Number>& at_corner, const Number& over,
                                                         const Number& across, const Number& tx, const Number& ty) {
@@ -99,7 +99,7 @@ struct OutlineFacing : OutlineDistance<double> {
 
 namespace detail {
 
-/// @param at_corner whether the edge's end is the closest point
+/// Closest feature, from the position relative to an edge. @param at_corner whether the edge's end is the closest point
 inline OutlineFacing facing_of(bool at_corner, double over, double across, const Edge& edge, std::uint32_t index) {
     return {outline_distance(at_corner, over, across, edge.tx, edge.ty), index};
 }
@@ -127,7 +127,7 @@ inline OutlineFacing face_every_edge(const Edge* edges, const Piece& piece, doub
     for (std::uint32_t e = piece.first_edge; e < end; ++e) {
         const BeforeEdge<double> p = before_edge_of(edges[e], px, py);
         if (p.across > inside.distance) inside = facing_of(false, 0.0, p.across, edges[e], e);
-        if (p.across <= 0.0) continue;  // an edge can be the closest only if the point is in front of it
+        if (p.across <= 0.0) continue;  // only an edge that the point lies in front of can be the closest
         const OutlineFacing candidate = facing_of(p.over != 0.0, p.over, p.across, edges[e], e);
         if (candidate.distance < outside.distance) outside = candidate;
     }

@@ -23,7 +23,7 @@ struct Disc {
     double radius, sense;
 };
 
-/// Up to four discs. The array has a fixed size, because it is used within a step, which must not allocate memory.
+/// Up to four discs, in an array of fixed size, because a step must not allocate memory.
 struct Discs {
     std::array<Disc, 4> all;
     std::size_t count = 0;
@@ -71,7 +71,7 @@ OverlapGradient case_gradient(const Disc& disc, Vec2 to_j) {
     return row;
 }
 
-/// Rotation term n·dn_c of one disc that is in contact.
+/// Part of the derivative due to rotation of a disc's normal, n·dn_c, for a disc that is in contact.
 OverlapGradient turning_gradient(const Disc& disc, Vec2 n, Vec2 to_j) {
     const DiscCase& c = disc.found;
     const Vec2 normal = disc.sense * c.normal, aside = perpendicular(normal);

@@ -25,7 +25,7 @@ inline OverlapGradient closing_gradient(Vec2 direction, Vec2 arm_i, Vec2 arm_j) 
 /// @param kind disc_segment or segment_segment
 OverlapGradient guide_gradient(const World& world, PointKind kind, const ContactPoint& point);
 
-/// Overlap gradients of the discs of a point that are not in contact now, but could come into contact before the
+/// Overlap gradients of the discs of a point that are not in contact at present, but may come into contact before the
 /// neighbour list is rebuilt.
 std::vector<OverlapGradient> idle_discs(const World& world, PointKind kind, const ContactPoint& point);
 

@@ -26,7 +26,7 @@ struct PairMotion {
     Number spin_i, spin_j;
 };
 
-/// Chord term of one arm in the slip rate, m/s. @param half half the duration of the drift, s
+/// Part of the slip rate due to the chord along which an arm's end moves, m/s. @param half half the drift time, s
 template <class Number>
 CRACKLE_INLINE Number chord(double half, const Number& spin, const Number& arm_x, const Number& arm_y,
                             const PointGeometry<Number>& g) {
