@@ -34,7 +34,7 @@ struct BondConstant {
     bool is_angle;               ///< true: degrees, from 0 to the friction angle; false: a strength, N or Pa, >= 0
     const char* meaning;         ///< description for users, one or two sentences
 
-    /// The value that the law uses: a strength is unchanged; an angle is converted to its friction coefficient.
+    /// Value as the law uses it: an angle is converted to a friction coefficient, a strength is unchanged.
     double in_law(double value) const { return is_angle ? friction_coefficient(value) : value; }
     /// The key in words, for messages: "tensile strength".
     std::string spoken() const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bond laws, and the facts about them that code outside the kernels needs. Each law is one header with one type,
-// listed in bond_laws.hpp.
+// The bond laws, and the facts about them that code outside the kernels needs. Each bond law is one type in a header of
+// its own, listed in bond_laws.hpp.
 // Tested by tests/solver/laws/bond_laws_test.cpp.
 #pragma once
 
@@ -35,7 +35,7 @@ struct BondLawFacts {
     /// Whether a material's tensile strength, cohesion and residual friction are given. Otherwise the strength follows
     /// from the overlap at bonding.
     bool strengths_are_given = false;
-    bool bonds_across_gaps = false;  ///< whether a point with a gap can be bonded
+    bool bonds_across_gaps = false;  ///< whether a point can be bonded although its bodies do not touch
     /// Whether a bonded point never slides. Its shear stiffness is then greater than 0, and its world has friction.
     bool sticks = false;
     /// Whether forces are 0 at the point's Points::bond_overlap, while bonded and afterwards. Otherwise the bond adds a
@@ -45,7 +45,7 @@ struct BondLawFacts {
     bool across_joints = false;        ///< whether joints can have bonds of this law
     bool with_guide_segments = false;  ///< whether the law can be combined with the DEMseg guide's segment law
     bool by_faces = false;             ///< whether whole faces are bonded (world/faces.hpp) instead of contact points
-    /// Whether a point remembers its forces in the last step in which it carried at least half its strength.
+    /// Whether points store their forces in the last step in which they carried at least half their strength.
     bool remembers_strong_forces = false;
 
     /// The constant with this key, if the law has it.
@@ -62,10 +62,10 @@ constexpr BondLaw law_of_points(BondLaw law) { return law == BondLaw::face ? Bon
 /// Constants of all laws, each key once.
 const std::vector<BondConstant>& all_bond_constants();
 
-/// Names of the bond laws for which `fact` is true, formatted for messages: "a" or "b".
+/// Names of the bond laws that have a given property, formatted for messages: "a" or "b".
 std::string laws_with(bool BondLawFacts::*fact);
 
-/// Checks the strengths of a law. @param what words at the beginning of the message, such as the name of the material
+/// Checks the strengths of a law. @param what beginning of the message, for example the name of the material
 /// @throws InputError for a tensile strength beyond_apex()
 void check_strengths(const ContactLaw& law, const std::string& what);
 

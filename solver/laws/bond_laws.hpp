@@ -56,13 +56,13 @@ constexpr decltype(auto) with_law(BondLaw law, const Visit& visit) {
     return visit.template operator()<Bond>();
 }
 
-/// facts_of() for constant expressions.
+/// Like facts_of(), but usable in constant expressions.
 constexpr const BondLawFacts& known_facts(BondLaw law) {
     if (law == BondLaw::face) return FaceBond::facts;
     return with_law(law, []<class Bond>() -> const BondLawFacts& { return Bond::facts; });
 }
 
-/// The first bond law for which `fact` is true.
+/// The first bond law that has a given property.
 constexpr BondLaw first_law_with(bool BondLawFacts::*fact) {
     std::size_t n = 0;
     while (!(known_facts(static_cast<BondLaw>(n)).*fact)) ++n;

@@ -61,12 +61,12 @@ inline double strain_of_loss(double now, Rate slope) {
     return slope.value < -slope.error ? -now / slope.value : std::numeric_limits<double>::infinity();
 }
 
-/// Changes of a bonded point's overlap (m) and elastic forces (N) per unit of strain.
+/// Changes of the overlap (m) and of the elastic forces (N) of a bonded point per unit of strain.
 struct BondGrowth {
     Rate closing, normal, shear;  ///< normal: positive in compression; shear: magnitude of the shear force
 };
 
-/// Limits of a bond in a linear solution. A strain is infinite if the bond never reaches that limit.
+/// Strains at which a bond reaches its limits in a linear solution; infinite if the bond never reaches the limit.
 struct ElasticLimits {
     double strength = 0.0;  // N, in tension
     double break_strain = 0.0, slip_strain = 0.0;

@@ -115,7 +115,7 @@ struct CoulombBond {
                share_to_limit(s.tensile + before.normal, s.tensile + now.normal);
     }
 
-    /// @param law law of the point, with μ_r @param opening current δ - δ0, m @param bond_overlap δ0, m
+    /// Breaks a bond. @param law law of the point, with μ_r @param opening current δ - δ0, m @param bond_overlap δ0, m
     static BrokenBond break_bond(const Law<double>& law, const BondStrength<double>& strength,
                                  const BondForces<double>& before, const BondForces<double>& now, double opening,
                                  double bond_overlap) {

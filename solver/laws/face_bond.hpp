@@ -43,8 +43,8 @@
 
 namespace crackle {
 
-/// Properties of this law among the bond laws of scenes and cases. Users give the strengths of a coulomb bond, and
-/// further constants (FaceConstants).
+/// Describes bonds by faces as one of the bond laws of scenes and cases. Users give the strengths of a coulomb bond,
+/// and further constants (FaceConstants).
 struct FaceBond {
     static constexpr BondLaw law = BondLaw::face;
     static constexpr BondLawFacts facts = [] {
@@ -138,21 +138,21 @@ struct FaceStress {
     Number tension, shear, shear_strength;
 };
 
-/// Failure mode of an intact face under given forces. @param length L, m @param share random factor on T and C
+/// Failure mode of an intact face under given forces. @param length L, m @param share random factor on the strengths
 inline FaceFailure face_failure(const FaceLaw& law, double length, double share, const FaceForces& f) {
     const FaceStrength<double> strength(law, share);
     const FaceStress<double> stress(strength, length, f.normal, f.shear, f.moment);
     const bool parts = stress.tension > strength.tensile, slips = stress.shear > stress.shear_strength;
     if (!parts && !slips) return FaceFailure::none;
-    // The mode with the larger ratio of stress to strength is chosen. The comparison avoids divisions, since a strength
-    // may be 0.
+    // The mode with the larger ratio of stress to strength is chosen. The ratios are compared without division, since a
+    // strength may be 0.
     if (parts && (!slips || stress.tension * std::max(0.0, stress.shear_strength) >= stress.shear * strength.tensile))
         return FaceFailure::tension;
     return FaceFailure::shear;
 }
 
-/// Factor on the given forces at which an intact face fails; infinite if it never fails. @param length L, m @param
-/// share random factor on T and C
+/// Factor by which given forces must be multiplied so that an intact face fails; infinite if it never fails. @param
+/// length L, m @param share random factor on the strengths
 inline double face_failure_load(const FaceLaw& law, double length, double share, const FaceForces& f) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     const FaceStrength<double> strength(law, share);
@@ -209,7 +209,7 @@ inline LapPressure lap_tension(double stiffness, double half_lap, double opening
 inline double tension_held(const FaceLaw& law, double held, double stiffness, double stress, double share) {
     const double residual = std::min(law.residual_tensile_strength, share * law.tensile_strength);
     if (stress <= residual) return held;
-    // -infinity if softening_opening is 0.
+    // This is -infinity if softening_opening is 0, or NaN if the residual strength is also 0.
     const double steepness = 1.0 - residual / (stiffness * law.softening_opening);
     if (!(steepness > 0.0)) return 0.0;
     return std::min(held, std::max(0.0, 1.0 - (1.0 - residual / stress) / steepness));

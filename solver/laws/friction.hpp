@@ -19,7 +19,7 @@ CRACKLE_INLINE Number coulomb_limit(const Law<Number>& law, const Number& overla
     return law.limit_stiffness * select(overlap < 0.0, Number{}, overlap);
 }
 
-/// Trial shear force, computed as if the point did not slide, and whether the point slides.
+/// Shear force of a point computed as if it did not slide, and whether the point slides.
 template <class Number>
 struct ShearTrial {
     Number before, force;  // N, shear force at the beginning of the step, and at its end without sliding

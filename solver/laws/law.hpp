@@ -47,7 +47,7 @@ struct Law {
     }
 
     /// The law with a stiffness factor and an additional shear stiffness factor. @param root the square root of the
-    /// latter factor, Points::shear_root
+    /// additional factor, Points::shear_root
     CRACKLE_INLINE Law with_shares(const Number& share, const Number& root) const {
         Law own = with_share(share);
         own.shear_stiffness *= root * root;
