@@ -16,7 +16,7 @@ class MassScaled;
 
 /// A stable time step, s; infinite without stiffness. @param rounds number of products with |A|
 double absolute_step_bound(const MassScaled& pencil, int rounds = 10);
-/// Overload for a world whose springs are its faces and the points given by `which`.
+/// As above, for a world whose springs are its faces and the contact points given by `which`.
 double absolute_step_bound(const World& world, ClosedPoints which, int rounds = 10);
 
 /// Sets Faces::stiffness_bound and damping_bound of a world whose neighbour list has no points yet.

@@ -76,7 +76,7 @@ bool positive_definite(const MassScaled& pencil, double dt) {
     return factor.info() == Eigen::Success;
 }
 
-/// Positive root of 4 - 2Δt c - Δt² k = 0.
+/// Positive root Δt of 4 - 2Δt c - Δt² k = 0, with c and k the quotients for damping and stiffness.
 double step_of(const MassScaled::Quotient& q) {
     return 4.0 / (std::sqrt(q.damping * q.damping + 4.0 * q.stiffness) + q.damping);
 }
@@ -92,7 +92,7 @@ CriticalStep critical_step(const World& world, ClosedPoints which) {
     if (pencil.size() == 0 || !std::isfinite(guaranteed)) return {infinite, infinite, true, result.mode};
     const auto unproved = [&] {
         result.step = std::max(guaranteed, lanczos_step(pencil, guaranteed));
-        result.proved = std::isinf(result.step);  // no closed points
+        result.proved = std::isinf(result.step);  // the step is infinite only if no point is closed
         return result;
     };
     if (pencil.size() > most_exact_unknowns) return unproved();

@@ -27,8 +27,8 @@ constexpr double shift = 1e-12;
 constexpr double free_energy = 1e-9;
 constexpr double residual_goal = 1e-9;
 constexpr int refinements = 20;
-// Number of random vectors that are projected onto the free motions. A body that takes part in a free motion is missed
-// only by coincidence.
+// Number of random vectors that are projected onto the free motions. Only by coincidence can they all miss a body that
+// takes part in a free motion.
 constexpr int probes = 3;
 constexpr double taking_part = 1e-6;
 
@@ -181,7 +181,7 @@ Refined solve(const Workers& workers, const ScaledSystem& system, const Vector& 
     return refine(workers, factor, stiffness, load);
 }
 
-/// Right-hand side of the free degrees of freedom: the loads, less the forces of the prescribed motions.
+/// Right-hand side for the free degrees of freedom: the loads minus the forces due to the prescribed motions.
 Vector load_of(const ScaledSystem& system, const std::vector<Spring>& springs, const LinearRows& rows,
                const std::vector<BodyMotion>& prescribed, const std::vector<BodyMotion>& loads) {
     Vector load = Vector::Zero(system.stiffness().rows());

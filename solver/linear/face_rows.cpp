@@ -10,7 +10,7 @@
 namespace crackle {
 namespace {
 
-/// Gradients of the motion of a face: over x, y and rotation of i, then of j.
+/// Derivatives of the motion of a face with respect to x, y and rotation of body i, then of body j.
 struct MotionGradients {
     std::array<double, 6> opening, sliding, turn;
 };
@@ -22,7 +22,7 @@ MotionGradients gradients_of(const World& world, FaceIndex k) {
     const BondFaceMotion m = motion_of(place, i, j);
     const Vec2 arm_i = turned_by(i, place.arm_i), arm_j = turned_by(j, place.arm_j);
     const Vec2 n = m.normal, t = perpendicular(n);
-    // The normal turns by half the rotation of each body.
+    // The normal rotates by half the rotation of each body.
     return {{-n.x, -n.y, -cross(arm_i, n) + 0.5 * m.sliding, n.x, n.y, cross(arm_j, n) + 0.5 * m.sliding},
             {-t.x, -t.y, -cross(arm_i, t) - 0.5 * m.opening, t.x, t.y, cross(arm_j, t) - 0.5 * m.opening},
             {0.0, 0.0, -1.0, 0.0, 0.0, 1.0}};
@@ -43,7 +43,7 @@ LinearRows face_rows(const World& world) {
                                           static_cast<int>(a % 3), factor * row[a]});
     };
     const auto end_row = [&](std::size_t first, double stiffness, double damping) {
-        // One entry for each degree of freedom: a cell has several faces.
+        // Combines the entries for the same degree of freedom, which occur because a cell has several faces.
         const auto begin = result.entries.begin() + static_cast<std::ptrdiff_t>(first);
         std::stable_sort(begin, result.entries.end(), [](const RowEntry& a, const RowEntry& b) {
             return std::pair(a.body, a.freedom) < std::pair(b.body, b.freedom);

@@ -12,7 +12,7 @@
 
 namespace crackle {
 
-/// Rows of all faces of a world as if none were broken, at the current positions of the bodies. Empty without faces.
+/// Rows of springs for all faces at the current positions, as if none were broken. Empty without faces.
 LinearRows face_rows(const World& world);
 
 /// Elastic forces (N) and moments (N m) of all faces of a world for small motions of its bodies, as if no face were

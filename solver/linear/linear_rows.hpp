@@ -20,14 +20,14 @@ struct RowEntry {
     double value;
 };
 
-/// A row with its stiffness and dashpot.
+/// A row of coefficients with the stiffness of its spring and its dashpot.
 struct LinearRow {
     double stiffness;            // N/m if the row's product is a length
     double damping;              // N s/m if the row's product is a length
     std::uint32_t first, count;  // range in LinearRows::entries; a degree of freedom may occur several times
 };
 
-/// Rows of a world, in addition to the springs of its contact points.
+/// Rows of a world: springs that act in addition to the springs of its contact points.
 struct LinearRows {
     std::vector<LinearRow> rows;
     std::vector<RowEntry> entries;

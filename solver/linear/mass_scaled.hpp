@@ -21,7 +21,7 @@ class MassScaled {
     using Matrix = Eigen::SparseMatrix<double>;
     using Vector = Eigen::VectorXd;
 
-    /// Assembles the matrices from the faces of a world and its points. @param which points that count as springs
+    /// Assembles the matrices from the faces and contact points of a world. @param which points that count as springs
     MassScaled(const World& world, ClosedPoints which);
 
     /// Number of free degrees of freedom.

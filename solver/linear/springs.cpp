@@ -50,7 +50,7 @@ std::vector<Spring> symmetric_majorant(const World& world, const std::vector<Spr
         const double push = scaled_square(world, s.push, s.i, s.j),
                      gradient = scaled_square(world, s.gradient, s.i, s.j);
         if (s.symmetric() || push == 0.0 || gradient == 0.0) {
-            result.push_back(s);  // the other body is held, and the product with its motion is 0
+            result.push_back(s);  // already symmetric, or without effect on free motions
             result.back().gradient = s.push;
             continue;
         }

@@ -26,7 +26,7 @@ inline double component(const BodyMotion& m, int d) { return d == 0 ? m.x : d ==
 /// Reference to a component of a motion. @param d 0 for x and 1 for y (m), 2 for the rotation (rad)
 inline double& component(BodyMotion& m, int d) { return d == 0 ? m.x : d == 1 ? m.y : m.rotation; }
 
-/// A spring with its dashpot. Each contact point has one along its normal and one along its tangent.
+/// A spring with its dashpot. Each contact point has one spring along its normal and one along its tangent.
 struct Spring {
     BodyIndex i, j;            ///< the two bodies; j is no_body for a domain wall
     PointIndex point;          ///< index into Points::contact
@@ -41,7 +41,7 @@ struct Spring {
     bool symmetric() const { return push == gradient; }
 };
 
-/// Set of contact points that are represented by springs.
+/// Which contact points are represented by springs.
 enum class ClosedPoints {
     bonded,    ///< bonded points and closed joints; in a world without bonds, points in contact; no walls
     touching,  ///< all points that currently carry load, including walls
@@ -53,7 +53,7 @@ enum class ClosedPoints {
 double times(const Spring& spring, const OverlapGradient& row, const std::vector<BodyMotion>& displacement);
 
 /// Springs for which the sum of ½k(push·u)² is at least |u·Ku| for every u. An unsymmetric spring is replaced by two
-/// symmetric ones of half the stiffness, ½k(s a aᵀ + g gᵀ/s), where s = |g|/|a| in the mass-scaled norm. The result
+/// symmetric springs of half the stiffness, ½k(s a aᵀ + g gᵀ/s), where s = |g|/|a| in the mass-scaled norm. The result
 /// bounds every real eigenvalue.
 std::vector<Spring> symmetric_majorant(const World& world, const std::vector<Spring>& springs);
 

@@ -100,7 +100,7 @@ void add_side(BodyBlocks& blocks, const Side& side, const ContactLaw& law, doubl
     add_damping(blocks.damping, side, law, root_mass, 1.0 + std::sqrt(share - 1.0));
 }
 
-/// (sqrt(c² + 4k) - c)/k, written without cancellation.
+/// Stable step (sqrt(c² + 4k) - c)/k, written without cancellation; infinite without stiffness.
 double stable_step_of(double k, double c) {
     return k > 0.0 ? 4.0 / (std::sqrt(c * c + 4.0 * k) + c) : std::numeric_limits<double>::infinity();
 }
@@ -110,7 +110,7 @@ struct Least {
     double bound = std::numeric_limits<double>::infinity();
     BodyIndex body = 0;
 
-    /// Lowers the bound if body b requires it. The cheap estimate rules out most bodies.
+    /// Lowers the bound if body b requires it. In most cases a simple estimate shows that it does not.
     void lower_to(const BodyBlocks& blocks, BodyIndex b) {
         if (stable_step_of(eigenvalue_at_most(blocks.stiffness), eigenvalue_at_most(blocks.damping)) >= bound) return;
         const double exact = stable_step_of(largest_eigenvalue(blocks.stiffness), largest_eigenvalue(blocks.damping));
@@ -118,8 +118,8 @@ struct Least {
     }
 };
 
-/// 1 + α for a body of weight `own`; `partner` is the other body's weight (0 if held). A body that cannot move along
-/// the point adds nothing.
+/// 1 + α for a body of weight `own`, where `partner` is the weight of the other body (0 if held). The result is 1 for a
+/// body of weight 0.
 double share_of(double own, double partner) { return own > 0.0 ? 1.0 + partner / own : 1.0; }
 
 bool with_wall(const World& world, PointIndex k) {
@@ -155,8 +155,8 @@ void add_row(SymmetricBlock& block, const Roots& roots, const Spring& row, bool 
     block.add(share * row.stiffness, roots.x * row.push[d], roots.y * row.push[d + 1], roots.r * row.push[d + 2]);
 }
 
-/// Law and root mass of a contact point at its stiffest before the neighbour list is rebuilt. Flat faces that slide
-/// have their largest lap (shared length) then, and points that replace a broken face have their full stiffness.
+/// Law and root mass of a contact point at the largest stiffness that it can have before the list is rebuilt. Sliding
+/// flat faces then have their largest lap (shared length), and points that replace a broken face have full stiffness.
 struct StiffestPoint {
     ContactLaw law;
     double root_mass;  // sqrt(kg)
@@ -215,7 +215,7 @@ void lower_to_first_meeting(Least& least, const World& world, BodyIndex b) {
     least.lower_to(corner, b);
 }
 
-/// Data that are the same in all rounds of raised().
+/// Data that stay the same in all rounds of raised().
 struct Surroundings {
     std::vector<Spring> rows;
     std::vector<bool> met;  // for each body, whether it has a listed point
@@ -269,7 +269,7 @@ constexpr auto every_point = [](PointIndex, double) { return true; };
 
 /// Scaled stiffness of each body from all listed points; 0 for held bodies.
 std::vector<double> first_weights(const World& world, const std::vector<Spring>& rows) {
-    const std::vector<double> alone(world.bodies.size(), 0.0);  // without partners, share_of() returns 1
+    const std::vector<double> alone(world.bodies.size(), 0.0);  // with weights of 0, share_of() returns 1
     std::vector<double> weights;
     weights.reserve(alone.size());
     for (const BodyBlocks& block : blocks_of(world, alone, rows, every_point))
@@ -309,7 +309,7 @@ bool weighed_before(const World& world, const std::vector<bool>& met) {
     return true;
 }
 
-/// Bound that is sufficient for the automatic or given time step, s.
+/// Bound on the time step that is sufficient for the automatic or given time step, s.
 double enough_for(const World& world) {
     if (!world.stepping.automatic_step) return world.stepping.time_step;
     return world.bonds.made ? world.stepping.step_goal
@@ -415,7 +415,7 @@ void find_step_bound(World& world) {
 bool lower_step_bound(World& world) {
     constexpr std::size_t most = 64;
     static_assert(most < std::numeric_limits<decltype(world.workers.marks)::value_type>::max());
-    // Bodies that gained points; the body at index k has the entry k + 1 in Workers::marks.
+    // Bodies that gained points. Workers::marks is k + 1 for the body at index k of this array.
     std::array<BodyIndex, most> gaining{};
     std::size_t count = 0, uncounted = 0;
     const auto gains = [&](BodyIndex b) {

@@ -11,8 +11,8 @@ namespace crackle {
 /// points carry load. Derivation: step_bound.cpp.
 /// @param limiting receives the body that determines the bound; unchanged if there is none
 double stable_step_bound(const World& world, BodyIndex* limiting = nullptr);
-/// Computes StepControl::step_bound for the points that carry load, or, in a world without bonds, for all points within
-/// the common skin.
+/// Computes StepControl::step_bound for the points that carry load. In a world without bonds, all points within the
+/// common skin count instead.
 void find_step_bound(World& world);
 /// Lowers StepControl::step_bound for the points that began to carry load in the last force pass.
 /// @return false if the bound must be computed again, because too many bodies gained points or because it is now below

@@ -24,8 +24,8 @@ struct SymmetricBlock {
     }
 };
 
-/// Mean of a matrix's eigenvalues, its diagonal less this mean, and p: the root of a sixth of the sum of the squares of
-/// all entries after the mean is subtracted.
+/// Mean eigenvalue of a matrix, and its diagonal entries minus this mean. p² is a sixth of the sum of the squares of
+/// all entries after the mean has been subtracted from the diagonal.
 struct EigenvalueSpread {
     double mean, dx, dy, dr, p;
 };

@@ -10,7 +10,7 @@
 
 namespace crackle {
 
-/// A vibration mode without damping.
+/// An undamped vibration mode.
 struct VibrationMode {
     double frequency;               // rad/s
     std::vector<BodyMotion> shape;  ///< motion of each body, scaled so that the largest mass-scaled component is 1
