@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 enum class Version { one, two };
 
-/// Mount of the control groups (cgroups) that limit processor time, in one of their two versions.
+/// Mount of control groups (cgroups) that limit processor time. There are two versions of control groups.
 struct Mount {
     Version version = Version::one;
     std::string shown;  ///< control group that is visible at `place`, the mount point
@@ -101,8 +101,8 @@ std::optional<double> quota_of_group(const fs::path& folder, Version version) {
     return std::nullopt;
 }
 
-/// Path of a control group relative to the one visible at a mount; "" for the visible group itself. A container may see
-/// only its own group; a path from outside the container has no meaning there.
+/// Path of a control group relative to the group that is visible at a mount; "" for the visible group itself. A
+/// container may see only its own group; a path from outside the container has no meaning there.
 std::string below_shown(const std::string& group, const std::string& shown) {
     const std::string start = shown == "/" ? "" : shown;
     if (!group.starts_with(start) || group.find("/..") != std::string::npos) return "";
