@@ -17,7 +17,7 @@ struct PointLoad {
     Vec2 place;   // m, position midway between the two surfaces
     Vec2 normal;  // unit vector from i to j
 };
-/// Load of a contact point's springs in the last force pass; there must have been one.
+/// Load of the springs of a contact point in the last force pass. At least one force pass must have been made.
 PointLoad load_of_last_pass(const World& world, PointIndex point);
 /// Whether a contact point may have carried load in the last force pass.
 inline bool bore_in_last_pass(const World& world, PointIndex point) {

@@ -9,8 +9,8 @@
 
 namespace crackle {
 
-/// Whether a body's centroid is beyond a wall, in a direction in which the body is free to move. Held bodies may lie
-/// anywhere: examples are a container, and a platen parked behind the wall.
+/// Whether the centroid of a body lies beyond a wall, in a direction in which the body is free to move. Held bodies,
+/// such as a container or a platen behind the wall, may lie anywhere.
 inline bool outside_domain(const World& world, std::size_t b) {
     const Domain& d = world.settings.domain;
     const BodyState& body = world.bodies.state[b];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Queries of a world: all values of one contact point, forces on walls, positions of elements in input order.
+// Values read from a world: all values of one contact point, forces on walls, positions of elements in input order.
 
 #include <fmt/format.h>
 
