@@ -25,7 +25,7 @@ double visit_chain(const World& world, std::size_t begin, std::size_t end, bool 
     };
     const Vec2 first = at(begin), last = at(end - 1);
     double area = closed ? -0.5 * (last.x + first.x) * (first.y - last.y) : last.x * last.y - first.x * first.y;
-    Vec2 before{};  // half of the force on the piece of the chain that ends at the point
+    Vec2 before{};  // half of the force on the piece of the chain before the point
     if (closed) {
         before = half_force(last, first);
         look(last, first, begin);

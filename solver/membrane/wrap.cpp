@@ -63,14 +63,14 @@ std::vector<Lump> lumps_of(const World& world, double probe, bool mirrored) {
 }
 
 /// Path of the disc around the lumps. While the disc rolls around a lump, its centre moves clockwise along a circle
-/// around that lump, with the sum of the two radii. At the first other circle of this kind that the centre meets, it
-/// changes to that circle.
+/// around the lump, whose radius is the sum of the two radii. Where this circle first meets that of another lump, the
+/// centre continues along the other circle.
 class Walk {
   public:
     Walk(const std::vector<Lump>& lumps, double probe) : lumps_(lumps), probe_(probe), grid_(make_grid()) {}
 
     /// Path of a disc from floor to ceiling. It starts at the first lump that the disc meets when it moves along the
-    /// floor from the left. Heaps from which the disc returns to the floor are not part of the specimen. @return empty
+    /// floor from the left. Lumps from which the disc returns to the floor are not part of the specimen. @return empty
     /// if the disc can pass through
     std::vector<std::size_t> from_floor(double floor, double ceiling) const {
         const double level = floor + probe_;
@@ -95,7 +95,7 @@ class Walk {
         }
     }
 
-    /// Path once around the largest group of lumps between which the disc cannot pass.
+    /// Path once around the largest group of lumps. The disc cannot pass between lumps of one group.
     std::vector<std::size_t> around() const {
         const std::vector<std::size_t> group = largest_group();
         const std::size_t start =
@@ -200,7 +200,7 @@ class Walk {
                 Meeting one;
                 one.centre = {about.x + side, y};
                 (is_ceiling ? one.ceiling : one.floor) = true;
-                consider(one, !is_ceiling);  // the disc may be at the floor now, where its path started
+                consider(one, !is_ceiling);  // the disc may still be at the floor, where its path starts
             }
         };
         level(ceiling - probe_, true);
