@@ -22,8 +22,8 @@ namespace {
 
 constexpr PointIndex no_point = std::numeric_limits<PointIndex>::max();
 
-/// Iterates over the old points of one kind, sorted by key. Points of the kind element_outline are stored in two sorted
-/// ranges.
+/// Iterates over the points of one kind in the old list, sorted by key. Points of the kind element_outline are stored
+/// in two sorted ranges.
 class OldPoints {
   public:
     OldPoints(const World& world, PointKind kind) : world_(world), kind_(kind) {
@@ -65,19 +65,19 @@ class OldPoints {
     PointKey key_{};  // key of the current point
 };
 
-/// Points of a new list, with the indices of the same points in the old list.
+/// Points of the new list, with the index of each point in the old list.
 struct MergedList {
     Array<ContactPoint> points;
     std::vector<PointIndex> old;  // for each point, its index in the old list; no_point if it was not listed
 };
 
-/// An old point that is kept although it is not listed again.
+/// A point of the old list that is kept although the new list does not contain it.
 struct KeptPoint {
     std::size_t place;  // index of the new point before which the kept point is inserted
     PointIndex old;
 };
 
-/// Inserts kept points into the list; they must be in ascending order.
+/// Inserts the kept points into the new list; they must be in ascending order.
 void insert_kept(const World& world, const std::vector<KeptPoint>& kept, MergedList& next) {
     std::size_t from = next.points.size(), to = from + kept.size();
     next.points.resize(to);
@@ -94,9 +94,9 @@ void insert_kept(const World& world, const std::vector<KeptPoint>& kept, MergedL
     }
 }
 
-/// Merges the new list of a kind with the old one. A bonded point is carried over even if it is not in the new list,
+/// Merges the new list of a kind with the old list. A bonded point is carried over even if it is not in the new list,
 /// since its bond lasts until the force pass finds it broken. Unbreakable bonds hold at any opening. A point that keeps
-/// properties from an earlier bond is also carried over, since these properties must not depend on when the list was
+/// properties of an earlier bond is also carried over, since these properties must not depend on when the list was
 /// built.
 MergedList merge_lists(World& world, PointKind kind, Array<ContactPoint> found) {
     MergedList next{std::move(found), {}};
@@ -112,8 +112,8 @@ MergedList merge_lists(World& world, PointKind kind, Array<ContactPoint> found) 
     std::vector<KeptPoint> kept;
     OldPoints old(world, kind);
     const auto pass_unlisted = [&] {
-        // A point that touched one step ago is kept, however far it has opened, because its energy account is not yet
-        // complete. Flat faces of circles that have rotated can touch across a gap.
+        // A point that touched one step ago is kept at any opening, because its energy account is not yet complete.
+        // Flat faces of circles that have rotated can touch across a gap.
         const bool settles = (consistent ? !by_guide(kind) : kind == PointKind::face_face) &&
                              flagged(old.at(), point_touching) && !closed;
         if (flagged(old.at(), point_bonded) || (flagged(old.at(), point_had_bond) && !closed) || settles) {
@@ -165,7 +165,7 @@ PointIndex put_fours_first(MergedList& next) {
     return static_cast<PointIndex>(fours);
 }
 
-/// Appends the values of one kind of point to those of earlier kinds, reusing the memory of the larger array.
+/// Appends the values of the points of one kind to those of earlier kinds, reusing the memory of the larger array.
 template <class Numbers>
 void append(Numbers& all, Numbers more) {
     if (all.size() < more.size()) {
@@ -200,7 +200,7 @@ void carry_over(Array<T>& values, const std::vector<PointIndex>& old, bool kept 
     values = std::move(now);
 }
 
-/// Lets new contacts across an open joint with an aperture start without force.
+/// For new contacts across an open joint with an aperture, sets the overlap at which their force is zero.
 void open_new_contacts(World& world, const std::vector<PointIndex>& old) {
     if (std::ranges::none_of(world.settings.joints, [](const Joint& joint) { return joint.aperture > 0.0; })) return;
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];

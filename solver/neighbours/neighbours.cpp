@@ -16,8 +16,8 @@
 namespace crackle {
 namespace {
 
-/// Number of steps for which a neighbour list should last in a bonded world. Building a list and computing the bound on
-/// the time step cost as much as 45 steps (rebuild_steps). When lists lasted for 200 steps, this took 8 % of the time
+/// Number of steps for which a neighbour list should last in a bonded world. Building a list and bounding the time step
+/// together take as long as 45 steps (rebuild_steps). With lists that lasted for 200 steps, this took 8 % of the time
 /// of a test with 300 discs. Lists that last much longer need a wider skin, and would include corners of polygons that
 /// never touch.
 constexpr double list_lasts = 1000.0;
@@ -30,7 +30,7 @@ constexpr double narrowest_share = 0.01;  // narrowest skin as a fraction of the
 constexpr double rebuild_steps = 45.0;
 constexpr double widest_own = 0.5;  // largest half skin of a fast body, relative to the median bounding radius
 
-/// Distances that surface points may have moved since the list was built.
+/// Distances by which surface points may have moved since the list was built.
 struct Ways {
     double longest = 0.0;  // m, largest distance
     double left = 0.0;     // m, smallest remaining part of a body's half skin

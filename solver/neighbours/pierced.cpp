@@ -31,7 +31,7 @@ Place place_now(const World& world, BodyIndex b) {
     return {{body.x, body.y}, body.shape[0], body.shape[1]};
 }
 
-/// Position of a body when the list was built.
+/// Position of a body at the time when the neighbour list was built.
 Place place_then(const World& world, BodyIndex b) {
     const ListReference& then = world.list.reference[b];
     const std::uint32_t shape = world.bodies.names[b].shape;
@@ -72,7 +72,7 @@ std::uint32_t segment_between(const World& world, const BodyInfo& chain, Vec2 th
     return 0;
 }
 
-/// End of a message: possible reasons why a body passed through another. Which reason applies is not known here.
+/// End of an error message: possible reasons why a body passed through another. The actual reason is not known here.
 std::string likely_cause(const World& world) {
     return fmt::format(
         "; the impact is too fast, the load is too high for the stiffness and thickness of the bodies, or the time "

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Detects bodies that have been pressed through each other. The distance from an open segment is unsigned, so a circle
-// or corner that has passed the segment's centre line is pushed out on the far side. A corner deep inside an outline is
-// pushed out at the nearest edge, wherever it entered. Energy is conserved in both cases, so no other check would
-// notice. Tested by tests/solver/neighbours/neighbours_test.cpp.
+// or corner that has crossed the segment's centre line is pushed out on the far side. A corner deep inside an outline
+// is pushed out at the nearest edge, wherever it entered. Energy is conserved in both cases, so no other check detects
+// them. Tested by tests/solver/neighbours/neighbours_test.cpp.
 #pragma once
 
 #include "solver/world/world.hpp"

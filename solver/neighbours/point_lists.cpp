@@ -152,7 +152,7 @@ void add_wall_points(const World& world, BodyIndex i, PointLists& lists) {
     }
 }
 
-/// Whether contacts between two bodies are not computed because both are driven (DrivenContacts).
+/// Whether the contacts between two bodies are omitted because both bodies are driven (DrivenContacts).
 bool left_out(const World& world, BodyIndex i, BodyIndex j) {
     const DrivenContacts wanted = world.settings.driven_contacts;
     if (wanted == DrivenContacts::all) return false;
@@ -215,7 +215,7 @@ PointLists list_points(const World& world, const std::vector<std::uint64_t>& pai
     PointLists lists;
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         const PointIndex listed = world.points.kind_begin[kind + 1] - world.points.kind_begin[kind];
-        lists[kind].reserve(listed + listed / 64);  // room for slightly more points than in the current list
+        lists[kind].reserve(listed + listed / 64);  // memory for slightly more points than the current list has
     }
     for (const std::uint64_t pair : pairs) {
         const auto i = static_cast<BodyIndex>(pair >> 32), j = static_cast<BodyIndex>(pair & 0xffffffffu);
