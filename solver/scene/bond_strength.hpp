@@ -32,7 +32,7 @@ class StrengthFactors {
     /// out of range
     StrengthFactors(StrengthDistribution distribution, double cv, std::int64_t seed);
 
-    /// Factor for the bonds between two bodies, whose ids may be given in either order.
+    /// Factor for the bonds between two bodies. The order of the two ids does not matter.
     double between(int id_a, int id_b) const;
 
     /// Value x of the distribution with P(X <= x) = probability, for 0 < probability < 1.

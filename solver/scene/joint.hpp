@@ -53,7 +53,7 @@ struct Joint {
                    softening_slip);
 };
 
-/// One side of a trace, as a number: twice the index of the trace, plus one for the right side (looking along its
+/// One side of a trace, encoded as twice the index of the trace, plus one for the right side (as seen along its
 /// points). Two sides belong to the same trace if their numbers differ only in the last bit.
 using TraceSide = std::int32_t;
 inline constexpr TraceSide no_side = -1;

@@ -100,8 +100,8 @@ MassProperties clump_properties(std::span<const CircleElement> circles, double d
     return result;
 }
 
-/// @param whose owner of the friction angle, for the message @param friction_angle largest residual friction angle,
-/// degrees
+/// Checks constants of bonds. @param whose owner of the friction angle, for the message @param friction_angle largest
+/// residual friction angle, degrees
 void validate_bond_constants(const std::string& name, const BondConstants& constants, const char* whose,
                              double friction_angle) {
     for (const BondConstant& constant : all_bond_constants()) {
@@ -185,7 +185,7 @@ void validate_pairs(const Scene& scene) {
     }
 }
 
-/// Smallest friction angles of the materials that have faces on traces, degrees.
+/// Smallest friction angles among the materials that have faces on traces, degrees.
 struct SmallestAngles {
     double bonded = 90.0, residual = 90.0;
 };
@@ -327,8 +327,8 @@ void validate_chain(Scene& scene, const Body& body) {
     }
 }
 
-/// Refuses bodies so far from the origin that floating-point numbers are too widely spaced there: they would move in
-/// jerks, or not at all.
+/// Refuses bodies that are too far from the origin. Floating-point numbers are too widely spaced there, so that such
+/// bodies would move in jerks or not at all.
 void require_room_to_move(const Scene& scene, const Body& body) {
     constexpr double largest_share =
         1e-9;  // largest number spacing relative to the body's size; contact overlaps are at least 1e-6 of that size

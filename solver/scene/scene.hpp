@@ -71,7 +71,7 @@ struct MaterialPair {
 struct CircleElement {
     Vec2 centre;            ///< m
     double radius = unset;  ///< m, > 0
-    double angle = 0.0;     ///< rad; only tracked for output, without effect on the motion
+    double angle = 0.0;     ///< rad; stored only for output, without effect on the motion
 };
 
 /// A rigid body, which consists either of circles (one, or several as a clump) or of a chain of segments (open, or
@@ -141,10 +141,10 @@ enum class SegmentLaw : std::uint8_t {
 
 constexpr auto list_names(SegmentLaw) { return in_order("rounded", "demseg", "demseg_mean"); }
 
-/// What the stiffnesses and strengths of a material refer to.
+/// The quantities to which the stiffnesses and strengths of a material refer.
 enum class StiffnessUnits : std::uint8_t {
     point,  ///< a contact point: N/m and N
-    area    ///< a unit of face: contact modulus and stresses, Pa; each point has its own factors
+    area    ///< a unit area of a face: contact modulus and stresses, Pa; each point has its own factors
             ///< (geometry/contact_share.hpp)
 };
 
@@ -159,7 +159,7 @@ enum class Integrator : std::uint8_t {
 
 constexpr auto list_names(Integrator) { return in_order("leapfrog", "consistent"); }
 
-/// Which contacts are computed between two bodies that are both driven.
+/// Which contacts are computed between two driven bodies.
 enum class DrivenContacts : std::uint8_t {
     none,         ///< no contacts; driven bodies pass through each other
     unless_held,  ///< all contacts except those between two bodies that are held in all degrees of freedom, where
