@@ -83,7 +83,7 @@ void widen_skin(World& world, const Bonding& bonding) {
     world.list.valid = false;
 }
 
-/// Whether bonding sets the values of an array, which must therefore not be cleared afterwards.
+/// Whether bonding itself sets the values of an array, so that they must not be cleared afterwards.
 bool of_shares(Remembered remembered) {
     return remembered == Remembered::own_shares || remembered == Remembered::own_shear ||
            remembered == Remembered::between_faces;
@@ -95,8 +95,8 @@ bool of_face(const World& world, PointIndex k) {
     return (world.points.state[k].flags & (point_bonded | point_had_bond)) != 0;
 }
 
-/// Aperture of an unbonded point across a joint, m: the overlap at which its force is zero, minus its current overlap.
-/// It is 0 for all other points.
+/// Aperture of an unbonded point across a joint, m: the overlap at which its force is zero, minus its overlap at
+/// bonding. It is 0 for all other points.
 double aperture_of(const World& world, PointIndex k) {
     const std::size_t law = world.points.state[k].law;
     return bonded(world, k) || law < world.settings.first_joint_law() ? 0.0 : world.settings.joint_of_law(law).aperture;
@@ -235,8 +235,8 @@ std::vector<std::int32_t> joints_of_points(const World& world, const Bonding& bo
 /// edge have a larger gap and would push at an angle.
 constexpr double facing_share = 1e-6;
 
-/// Leaves a point of an open joint unbonded and stores the overlap at which the joint's faces touch. A corner beyond
-/// the end of the facing edge is treated like a contact that forms later.
+/// Leaves a point of an open joint unbonded, and stores the overlap at which the faces of the joint touch. A corner
+/// beyond the end of the facing edge is left as it is, like a contact that forms later.
 void open_point(World& world, PointIndex k, const Joint& joint, const PointView& view, bool pressed) {
     const double overlap = view.overlap;
     if (view.kind != PointKind::face_face && overlap < -facing_share * world.settings.thick) return;
@@ -254,11 +254,11 @@ BodyIndices ordered(const BodyPair& pair) {
 /// A point to be bonded.
 struct FreshBond {
     PointIndex point, begin, end;  // the point, and the range of points between its two bodies
-    bool alone;                    // whether no point of the pair is bonded yet
+    bool alone;                    // whether no point between the two bodies is bonded yet
     double overlap;
 };
 
-/// Unbonded points between bodies that `asked`, a sorted list, contains, if their gap is less than `gap`, m.
+/// Unbonded points with gaps of less than `gap`, m, between the pairs of bodies in `asked`, a sorted list.
 std::vector<FreshBond> fresh_bonds(const World& world, const std::vector<BodyIndices>& asked, double gap) {
     std::vector<FreshBond> fresh;
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
@@ -331,8 +331,8 @@ std::int64_t bond_all(World& world, const Bonding& bonding) {
             }
         }
         if (bonding.leaves && bonding.leaves(view.body_i, view.body_j)) {
-            // The point is left as if its bond had broken: it has no force at its current position, and can push and
-            // rub.
+            // The point is left in the state of a point whose bond has broken: it has no force at its current position,
+            // and can push and rub.
             world.points.bond_overlap[k] = std::max(view.overlap, 0.0);
             world.points.state[k].flags = point_had_bond;
             continue;
@@ -396,7 +396,7 @@ std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double ga
     }
     const FreshBond* last = nullptr;
     for (const FreshBond& one : fresh) {
-        if (last != nullptr && last->begin == one.begin) continue;  // the pair is counted
+        if (last != nullptr && last->begin == one.begin) continue;  // the pair has already been counted
         last = &one;
         interfaces += one.alone ? 1 : 0;
         if (world.settings.own_shares()) share_pair(world, {}, one.begin, one.end);

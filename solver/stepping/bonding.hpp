@@ -24,7 +24,7 @@ struct Bonding {
     /// Strengths of a law with BondLawFacts::strengths_are_given, as factors on the mean of k_n δ0 over all bonds; they
     /// replace the materials' strengths.
     std::optional<double> tensile_factor, cohesion_factor;
-    /// Whether a bond at a position between two bodies is unbreakable. If not set, all bonds can break.
+    /// Whether the bond at a given position between two bodies is unbreakable. If not set, all bonds can break.
     std::function<bool(Vec2 position, BodyIndex i, BodyIndex j)> holds;
     /// Whether two bodies are left unbonded, as if their bonds had already broken; only with
     /// BondLawFacts::from_rest_overlap. If not set, all are bonded.

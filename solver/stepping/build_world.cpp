@@ -257,7 +257,7 @@ void build_laws(World& world, const Scene& scene) {
     for (std::size_t pair = 0; pair < settings.pair_count(); ++pair) {
         ContactLaw law = settings.laws[pair];
         hold(law);
-        law.friction = infinite;  // with sliding switched off, contacts always stick
+        law.friction = infinite;  // a point with an unbreakable bond never slides
         settings.laws.push_back(law);
     }
     // A domain wall has the stiffness, damping and friction of the body that touches it.

@@ -23,7 +23,7 @@ bool driven_at_velocity(const World& world, BodyIndex body, int dof);
 /// energy counts as displacement work. @param dof the degree of freedom (0 x, 1 y, 2 rotation), which must have
 /// Drive::velocity
 void change_velocity(World& world, BodyIndex body, int dof, double velocity);
-/// Makes the current position of each body the zero position of its Drive::force springs.
+/// Sets the zero position of each Drive::force spring to the current position of its body.
 void relax_drives(World& world);
 /// Adds the work done by the drives during the last drift, by the trapezoidal rule.
 void account_controls(World& world);

@@ -16,11 +16,11 @@ using MoveRange = Speeds (*)(World& world, double kick, std::int64_t begin, std:
 /// Moves the listed bodies and, if compiled to do so, clears their forces. @param kick the length of the kick, s
 using MoveListed = Speeds (*)(World& world, double kick, const BodyIndex* bodies, std::int64_t count);
 
-/// @param turning whether some bodies have a frame that rotates with them
+/// Returns the function for moving bodies. @param turning whether some bodies have a frame that rotates with them
 template <InstructionSet>
 MoveRange move_range_of(bool gravity, bool turning);
-/// @param clear whether to set Bodies::force of these bodies to 0; must be false for the consistent integrator, which
-/// reads the forces again
+/// Returns the function for moving listed bodies. @param clear whether to set their Bodies::force to 0; must be false
+/// for the consistent integrator, which reads the forces again
 template <InstructionSet>
 MoveListed move_listed_of(bool gravity, bool turning, bool clear);
 

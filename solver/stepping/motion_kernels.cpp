@@ -30,8 +30,8 @@ inline void turn_frame(BodyState& body, double turn) {
     body.shape[1] = scale * s;
 }
 
-/// Prefetches the body 32 positions later, since bodies are moved nearly in index order. Prefetching past the last body
-/// is harmless. In scenes larger than the caches this saves a tenth of the time for moving bodies.
+/// Prefetches the inertia of the body 32 positions later, since bodies are moved nearly in index order. Prefetching
+/// past the last body is harmless. In scenes larger than the caches this saves a tenth of the time for moving bodies.
 CRACKLE_INLINE void prefetch_behind(const BodyInertia& inertia) {
     constexpr std::uintptr_t ahead = 32 * sizeof(BodyInertia);
     const std::uintptr_t there = reinterpret_cast<std::uintptr_t>(&inertia) + ahead;

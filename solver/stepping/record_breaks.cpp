@@ -30,7 +30,7 @@ bool interface_holds(const World& world, PointIndex k) {
     return false;
 }
 
-/// Fills in the event of a bond except its time and position, and sets the point's state after the break.
+/// Fills in the event of a broken bond except its time and position, and sets the state of the point after the break.
 template <PointKind K>
 void part(World& world, const PassView& pass, PointIndex k, BreakEvent& event) {
     Points& points = world.points;

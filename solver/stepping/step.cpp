@@ -108,7 +108,7 @@ void account_forces(World& world) {
     account_controls(world);
 }
 
-/// How a sweep moves the bodies whose force is complete.
+/// How a sweep moves the bodies whose total force is known.
 struct SweepMotion {
     bool clears_forces;
     MoveListed move;
@@ -121,8 +121,8 @@ SweepMotion motion_of_sweep(const World& world) {
     return {clears, move_listed_for(world, world.workers.plan.free_ones_turn, clears), kick_now(world)};
 }
 
-/// Moves the bodies that the sweep has left in place: driven bodies, and others after a break. @return the speeds of
-/// all bodies
+/// Moves the bodies that the sweep has left in place: driven bodies and, if a bond has broken, others as well. @return
+/// the speeds of all bodies
 Speeds move_remaining(World& world, const SweepMotion& motion) {
     Speeds speeds = move_the_rest(world, motion.move, motion.kick);
     kick_controls(world, motion.kick);

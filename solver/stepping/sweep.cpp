@@ -99,7 +99,7 @@ void plan_sweep(World& world) {
     plan.largest_kind = 0;
     for (std::size_t kind = 1; kind < point_kinds; ++kind)
         if (points_of(kind) > points_of(plan.largest_kind)) plan.largest_kind = kind;
-    // Without points there is one empty block.
+    // If there are no points, there is one empty block.
     const PointIndex blocks = std::max(PointIndex{1}, blocks_of_kind(world, plan.largest_kind));
     const std::vector<BlockSpan> spans = block_spans(world, blocks);
 

@@ -117,7 +117,7 @@ class Sweeper {
         std::uint32_t body = share_.moved_end;
         for (std::uint32_t c = plan_.thread_chunks[thread_]; c < plan_.thread_chunks[thread_ + 1]; ++c) {
             const SweepPlan::Chunk& chunk = plan_.chunks[c];
-            // The range of blocks is empty if the kind has no points.
+            // The range of blocks is empty if there are no points of this kind.
             const PointIndex first = b, end = std::min(chunk.end_block, blocks);
             for (; b < end; ++b) {
                 const PointBlock block = block_to_fill(kind, b, at_hand);
@@ -184,8 +184,8 @@ class Sweeper {
                   world_.points.force.begin() + world_.points.kind_begin[plan_.largest_kind + 1]);
     }
 
-    /// The block to compute. Its forces are stored in a shared array if other threads need them, otherwise in
-    /// `at_hand`.
+    /// The block whose forces are to be computed. Its forces are stored in a shared array if other threads need them,
+    /// otherwise in `at_hand`.
     PointBlock block_to_fill(std::size_t kind, PointIndex b, PointForce* at_hand) {
         PointBlock block = block_of(world_, kind, b, at_hand);
         if (!world_.points.force.empty()) block.forces = world_.points.force.data() + block.begin;

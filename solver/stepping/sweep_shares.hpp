@@ -34,7 +34,7 @@ inline std::uint32_t end_of_chunks(const SweepPlan& plan, std::size_t thread) {
     return chunks == 0 ? 0 : plan.chunks[chunks - 1].end_body;
 }
 
-/// Whether no thread has found a broken bond.
+/// Whether all bodies may move, because no thread waits for bond events to be recorded.
 inline bool none_held(const SweepPlan& plan) {
     return std::ranges::none_of(plan.shares, [](const SweepPlan::Share& share) { return share.held; });
 }

@@ -50,8 +50,8 @@ void keep_step_below_bound(World& world) {
     }
     if (world.stepping.allow_unstable || world.stepping.time_step <= world.stepping.step_bound) return;
     // In a bonded world, a given step may lie between the guaranteed bound and the exact limit. If the limit for all
-    // listed points allows it, no check is needed until the list is rebuilt. Otherwise the limit for the touching
-    // points applies. Collisions of loose bodies would not tolerate such a step.
+    // listed points allows the step, no check is needed until the list is rebuilt. Otherwise the limit for the touching
+    // points applies. In a world without bonds, collisions do not tolerate a step above the bound.
     for (const ClosedPoints which : {ClosedPoints::listed, ClosedPoints::touching}) {
         if (!world.bonds.made) break;
         if (!stable_at(world, which, world.stepping.time_step)) continue;

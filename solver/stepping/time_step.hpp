@@ -11,8 +11,8 @@ namespace crackle {
 /// Rebuilds the neighbour list if bodies have used up its skin, and then computes the stable bound again.
 /// @throws UnstableRun if a given time step is above the stable bound (not with allow_unstable)
 void refresh_neighbours(World& world);
-/// Computes StepControl::step_bound for the points that carry load (without bonds: for all listed points) and keeps the
-/// step below it. @throws UnstableRun under the same conditions as refresh_neighbours()
+/// Computes StepControl::step_bound (see find_step_bound() for the points that count) and keeps the step below it.
+/// @throws UnstableRun under the same conditions as refresh_neighbours()
 void evaluate_step_bound(World& world);
 /// Computes the exact stable step for the points in contact. In a bonded world, also sets the target of automatic step
 /// control (StepControl::step_goal).
