@@ -36,7 +36,7 @@ struct alignas(64) BodyState {
 };
 static_assert(sizeof(BodyState) == 64);
 
-/// Inverse inertia per degree of freedom; 0 if the degree of freedom is driven, so that the kernels need no branch.
+/// Inverse mass or moment per degree of freedom; 0 if the degree of freedom is driven, so that kernels need no branch.
 struct BodyInertia {
     double inverse_mass_x, inverse_mass_y, inverse_moment;
     double mass;
@@ -51,7 +51,7 @@ static_assert(sizeof(BodyInertia) == 32);
 /// Sum of a body's contact forces (without gravity and applied loads), N and N m about its centroid.
 struct alignas(32) BodyForce {
     double fx, fy, torque;
-    double unused = 0.0;  // padding, so that kernels can add the four numbers of a PointForce at once
+    double unused = 0.0;  // padding, so that a kernel can add all four numbers of a PointForce at once
 
     CRACKLE_FIELDS(fx, fy, torque, unused);
 };
@@ -74,7 +74,7 @@ inline constexpr std::uint32_t no_shape = 0xffffffff;
 /// first_element + element_count does not overflow.
 inline constexpr std::uint32_t own_circle = 0xfffffffe;
 
-/// The part of BodyInfo that is stored for every body.
+/// The values of BodyInfo that are stored for every body.
 struct BodyName {
     int id;
     std::uint16_t material;
@@ -85,7 +85,7 @@ struct BodyName {
 };
 static_assert(sizeof(BodyName) == 12);
 
-/// The part of BodyInfo that is stored for clumps and chains only.
+/// The values of BodyInfo that are stored only for clumps and chains.
 struct BodyShape {
     double moment, reach;
     std::uint32_t first_element, element_count;  // range in Bodies::elements
@@ -179,7 +179,7 @@ struct Bodies {
     Array<BodyInertia> inertia;
     /// Forces from the last force pass: for all bodies after compute_forces(), only for driven bodies after step().
     Array<BodyForce> force;
-    bool forces_clear = false;    // whether the forces of all bodies except driven ones are 0
+    bool forces_clear = false;    // whether the forces of all bodies, except driven bodies, are 0
     Array<BodyForce> last_force;  // forces from the previous pass; consistent integrator only
     Array<PushBound> push_bound;  // consistent integrator only
     Array<BodyName> names;
@@ -208,7 +208,7 @@ struct Bodies {
         return std::span(flat_faces).subspan(first_flat_face[b], first_flat_face[b + 1] - first_flat_face[b]);
     }
 
-    /// Kind, elements and shape of a body.
+    /// Kind, elements and shape of a body, assembled from the arrays.
     BodyInfo info(std::size_t b) const {
         const BodyName& name = names[b];
         if (name.shape == no_shape) {
@@ -234,7 +234,7 @@ struct Bodies {
         const std::uint32_t shape = names[b].shape;
         return shape == no_shape ? 0.0 : shapes[shape].reach;
     }
-    /// Whether any body has a shape that rotates with the body.
+    /// Whether any body has a shape that rotates with it.
     bool some_turn() const { return !shapes.empty(); }
 
     CRACKLE_FIELDS(state, inertia, force, forces_clear, last_force, push_bound, names, shapes, elements, element_sides,

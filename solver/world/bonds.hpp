@@ -35,7 +35,7 @@ struct BreakEvent {
                    shear_mode, last_of_interface, kind, point);
 };
 
-/// First time that a back-tension bond reaches its Coulomb limit.
+/// The first time that a back-tension bond reaches its Coulomb limit.
 struct SlipEvent {
     std::int64_t step;
     double time;                       // s

@@ -28,7 +28,7 @@
 
 namespace crackle {
 
-// Increment this when a field of a group is added, removed or moved.
+// Increment this number when a field is added to a group, removed or moved.
 constexpr std::uint32_t checkpoint_version = 24;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
@@ -112,7 +112,7 @@ bool flat_faces_are_whole(const World& world) {
            });
 }
 
-/// Whether all enumerations in a world have valid values.
+/// Whether all enumerations in a world have values that this program knows.
 bool words_are_known(const World& world) {
     const Settings& s = world.settings;
     return s.driven_contacts <= DrivenContacts::all && s.segment_law <= SegmentLaw::demseg_mean &&

@@ -60,7 +60,7 @@ struct FaceColumns {
     Array<double> numbers;  // one column after the other
     std::size_t count = 0;  // number of records
 
-    /// Number of records.
+    /// Number of records, which is the length of each column.
     std::size_t size() const { return count; }
     /// Values of one member in all records. @param c index of the member within a record
     const double* column(std::size_t c) const { return numbers.data() + c * count; }
@@ -92,7 +92,7 @@ struct FacePlace {
     double rest_turn;         // rad, difference of the bodies' angles at bonding
 };
 
-/// Springs of a face, and the weights of its motion in the dilations of its two cells.
+/// Springs of a face, and the weights with which its motion enters the dilations of its two cells.
 struct FaceSprings {
     double normal, shear;     // k_n, k_t, N/m
     double length;            // L, m
@@ -120,19 +120,19 @@ struct CellPressure {
     CRACKLE_FIELDS(per_area, pressure, rise);
 };
 
-/// Coefficients or forces of the dashpots of a face, which resist normal, shear and rotational motion.
+/// Coefficients of the dashpots of a face, or their forces. They resist normal, shear and rotational motion.
 struct FaceDashpots {
     double normal = 0.0, shear = 0.0, moment = 0.0;  // N s/m and N m s, or N and N m
 };
 
-/// Fractions by which the late pressure of a broken face approaches p̄, and its slip the limit, in one step.
+/// Fractions by which, in one step, a broken face's late pressure approaches p̄ and its slip approaches the limit.
 struct FaceLag {
     double pressure = 1.0, slip = 1.0;
 
     CRACKLE_FIELDS(pressure, slip);
 };
 
-/// Motion and forces of a broken face in one step, stored for the energy losses of the next step.
+/// Motion and forces of a broken face in one step, from which the energy losses of the next step are computed.
 struct BrokenState {
     double opening = 0.0, sliding = 0.0, turn = 0.0;  // δ_n, δ_t, m; δ_φ, rad
     double half_lap = 0.0;                            // a, m
@@ -153,11 +153,11 @@ struct BrokenState {
                    late_moment, end_closure, held, pull, taken, whole);
 };
 
-/// State of a broken face that is kept from step to step.
+/// State of a broken face that persists from step to step.
 struct BrokenFace {
     FaceIndex face = no_face;
     bool in_shear = false;  // how it failed
-    bool alone = true;      // whether the neighbour list leaves out the points between its bodies (faces/hand_over.hpp)
+    bool alone = true;      // whether the neighbour list omits the points between its bodies (faces/hand_over.hpp)
     double slip = 0.0;      // u_p, m
     double slipped = 0.0;   // Σ|Δu_p|, m
     double glued = 0.0;     // b_c, m: smallest closed length since failure in shear; 0 after failure in tension
@@ -169,8 +169,8 @@ struct BrokenFace {
     CRACKLE_FIELDS(face, in_shear, alone, slip, slipped, glued, held, energy, taken, last);
 };
 
-/// Pressure, energies and opening where the two edges of a broken face touch, for a given pressure p̄ of its cells. q is
-/// the share of the face in the contact of its bodies; contact points have the rest (faces/hand_over.hpp).
+/// Pressure, energies and opening where the two edges of a broken face touch, for a given pressure p̄ of its cells.
+/// q is the weight of the face, and 1 - q the weight of the contact points that replace it (faces/hand_over.hpp).
 struct BrokenContact {
     LapPressure lap;
     double stretch;  // q_n, m
@@ -220,15 +220,15 @@ struct Faces {
     bool has_pressure = false;  // whether any cell has a pressure
     std::vector<BrokenFace> broken;
     std::vector<HandOver> hand_over;
-    // For each point: its stiffness_share if points have replaced the face entirely (q = 0, with q the share of the
-    // face as in faces/hand_over.hpp). Empty if no points replace faces.
+    // For each point: the stiffness_share that it has once points have replaced the face entirely (q = 0, with q the
+    // weight of the face as in faces/hand_over.hpp). Empty if no points replace faces.
     Array<float> whole_share;
 
     // 1/s² and 1/s: upper bounds on the eigenvalues of M^-½KM^-½ and M^-½CM^-½, computed as if all faces were intact.
     double stiffness_bound = 0.0, damping_bound = 0.0;
     FaceColumns<FaceDashpots> dashpots,
         dashpot_force;  // coefficients, and forces in the last force pass; both empty without damping
-    // J, energy lost because q_n uses late pressures, and because breaks are detected only at the end of a step.
+    // J, energy lost because late pressures determine q_n, and because breaks are detected at the end of a step.
     double lag_loss = 0.0;
 
     // The following members are results of the last force pass.

@@ -22,7 +22,7 @@ struct MembranePoint {
     CRACKLE_FIELDS(body, x, y, longest);
 };
 
-/// A membrane under pressure, and the points on bodies through which it passes.
+/// A membrane under pressure, which passes through points on bodies.
 struct Membrane {
     double pressure = 0.0;  // N/m (force per length in the plane)
     double probe = 0.0;     // m, radius of the probe disc that is rolled around the bodies to find the points
@@ -39,9 +39,9 @@ struct Membrane {
     std::int64_t list_builds = 0;  // value of NeighbourList::builds at the last wrapping
     double area = 0.0;             // m², enclosed area in the last force pass, without the area swept by the platens
     double work = 0.0;             // J, work done by the membrane on the bodies
-    double jumped = 0.0;           // m², sum of area changes caused by wrapping, which do no work
+    double jumped = 0.0;           // m², sum of the changes of area due to wrapping, which do no work
     std::int64_t wrapped = 0;      // number of times the membrane was wrapped
-    // Number of times wrapping failed because the bodies no longer formed a path from platen to platen.
+    // Number of times that wrapping failed because the bodies no longer formed a path from platen to platen.
     std::int64_t open = 0;
 
     /// Whether the world has a membrane.

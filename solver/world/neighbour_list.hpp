@@ -13,7 +13,7 @@
 namespace crackle {
 
 /// Widest skin used for all bodies, as a fraction of the median bounding radius. An intact specimen is strained less
-/// than this, and with a skin of this width the list holds few points that never touch.
+/// than this fraction. With a skin of this width, the list holds few points that never touch.
 inline constexpr double skin_share = 0.1;
 
 /// Position of a body's centroid when the neighbour list was built, m.
@@ -23,7 +23,7 @@ struct ListReference {
     CRACKLE_FIELDS(x, y);
 };
 
-/// Values that determine when the list of contact points must be rebuilt.
+/// Values that determine when the neighbour list must be rebuilt.
 struct NeighbourList {
     double skin = 0.0;  // m
     // m, upper limit of the skin in a bonded world, where the skin adapts to the motion; 0 if the skin is fixed.
@@ -38,7 +38,7 @@ struct NeighbourList {
     std::vector<std::uint32_t> size_rank;
     // Upper bound on the distance that any surface point has moved since displacements were last checked, m.
     double travelled = 0.0;
-    // Distance by which every surface point could still move at the last check without leaving its half skin, m.
+    // Distance by which every surface point could still move, at the last check, without leaving its half skin, m.
     double free_way = 0.0;
     double fastest = 0.0;  // m/s, largest surface speed in the last step
     // m per step: half the bounding radius of the smallest body. A faster body could pass through others without

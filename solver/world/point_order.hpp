@@ -11,8 +11,8 @@
 
 namespace crackle {
 
-/// Whether feature_j is part of a point's identity. For outlines, feature_j is only the edge that the point faced last,
-/// a starting guess for the search.
+/// Whether feature_j belongs to the identity of a point. For outlines it does not, since feature_j is only the edge
+/// that the point faced last.
 constexpr bool names_feature(PointKind kind) {
     return kind == PointKind::element_element || kind == PointKind::face_face || by_guide(kind);
 }

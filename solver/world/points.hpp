@@ -16,8 +16,8 @@ namespace crackle {
 
 using PointIndex = std::uint32_t;  // index into the arrays of Points
 
-/// The two shapes that meet at a contact point. Points of one kind are stored together and have their own
-/// kernel. circle_circle stays first and element_wall last, since other code relies on it.
+/// The two shapes that meet at a contact point. Points of one kind are stored together and have their own kernel. Of
+/// the kinds that a world stores, circle_circle must stay first and element_wall last, since other code relies on it.
 enum class PointKind : std::uint8_t {
     circle_circle = 0,    // two single circles
     element_element = 1,  // circles, at least one of which belongs to a clump
@@ -34,35 +34,35 @@ enum class PointKind : std::uint8_t {
     bonded_face = 7,
 };
 inline constexpr int point_kinds = 7;
-/// Number of kinds of bonds in the records of a test: the kinds of points, and PointKind::bonded_face.
+/// Number of kinds of bonds in the records of a test: all kinds of points, and PointKind::bonded_face.
 inline constexpr int bond_kinds = 8;
 
-/// Whether points of this kind follow the DEMseg guide's segment law, whose force has no potential that depends on the
-/// overlap.
+/// Whether points of this kind follow the DEMseg guide's segment law. The force of this law has no potential that
+/// depends on the overlap.
 constexpr bool by_guide(PointKind kind) {
     return kind == PointKind::disc_segment || kind == PointKind::segment_segment;
 }
 
-/// Whether the consistent integrator applies contact/opening.hpp to points of this kind. This requires a force with a
-/// potential that depends on the overlap alone.
+/// Whether the consistent integrator applies to points of this kind (contact/opening.hpp). This requires a force with a
+/// potential that depends only on the overlap.
 constexpr bool has_opening(PointKind kind) {
     return !by_guide(kind) && kind != PointKind::face_face && kind != PointKind::bonded_face;
 }
 
 /// State of a contact point, as bits.
 enum PointFlag : std::uint16_t {
-    point_touching = 1,  // overlap > 0 or bonded in the last force pass
+    point_touching = 1,  // the point had an overlap > 0 or was bonded in the last force pass
     point_bonded = 2,
-    point_sliding = 4,       // at the Coulomb limit in the last force pass
-    point_slid = 8,          // has reached the Coulomb limit since bonding (or since contact began)
-    point_just_broken = 16,  // lost its bond in the last force pass; cleared when the event is recorded
-    point_counted = 32,      // counted in StepControl::step_bound
-    point_held = 64,         // its bond cannot break
-    point_had_bond = 128,    // was bonded and still has properties from that time: a rest overlap and stiffness factors
-    point_slip_noted = 256,  // its first slip is listed in Bonds::slips
-    point_unsettled = 512,   // its OpeningMemory::extra_force is not 0
+    point_sliding = 4,       // the point was at the Coulomb limit in the last force pass
+    point_slid = 8,          // the point has reached the Coulomb limit since bonding, or since contact began
+    point_just_broken = 16,  // the bond broke in the last force pass; cleared when the event is recorded
+    point_counted = 32,      // the point is counted in StepControl::step_bound
+    point_held = 64,         // the bond of the point cannot break
+    point_had_bond = 128,    // rest overlap and stiffness factors are kept, for example from an earlier bond
+    point_slip_noted = 256,  // the first slip of the point is listed in Bonds::slips
+    point_unsettled = 512,   // OpeningMemory::extra_force of the point is not 0
     point_closed =
-        1024  // joint faces that touch from the start in an open joint; linear solutions treat the point as bonded
+        1024  // the joint faces touch from the start in an open joint; linear solutions treat the point as bonded
 };
 
 /// The two bodies and elements that meet at one contact point.
@@ -136,7 +136,7 @@ inline bool same_pair(const ContactPoint& p, const ContactPoint& q) {
     return (p.body_i == q.body_i && p.body_j == q.body_j) || (p.body_i == q.body_j && p.body_j == q.body_i);
 }
 
-/// Law and flags of a point.
+/// Contact law and flags of a contact point.
 struct PointState {
     std::uint16_t law;    // index into Settings::laws
     std::uint16_t flags;  // combination of PointFlag values
@@ -164,7 +164,7 @@ struct SpringWork {
     CRACKLE_FIELDS(last, stored);
 };
 
-/// State that an unbonded point keeps between steps under the consistent integrator (contact/opening.hpp).
+/// State of an unbonded contact point between steps, under the consistent integrator (contact/opening.hpp).
 struct OpeningMemory {
     double defect = 0.0;       // J, stored energy in excess of ½kδ(n)δ(n+1)
     double extra_force = 0.0;  // N, force in excess of kδ in the last force pass
@@ -180,8 +180,8 @@ struct LastOverlap {
 };
 static_assert(sizeof(LastOverlap) == sizeof(double));  // kernels load several values at once
 
-/// Condition under which an array of Points exists and is carried over from one neighbour list to the next. If a world
-/// does not meet the condition, the array is empty.
+/// Condition under which an array of Points exists and is carried over from one neighbour list to the next. The array
+/// is empty in a world that does not meet its condition.
 enum class Remembered : std::uint8_t {
     always,
     since_bonding,     // in all worlds; bonding resets the values to 0

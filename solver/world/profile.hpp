@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Time spent in each phase of a step. Without a profile, timing costs one pointer test per phase.
+// Time spent in each phase of a step. Without a profile, the timing code only tests one pointer per phase.
 // Tested by tests/tools/commands/test_test.cpp.
 #pragma once
 
@@ -29,7 +29,7 @@ inline constexpr std::size_t phase_count = 11;
 /// Time spent in each phase, and number of calls.
 struct Profile {
     using Clock = std::chrono::steady_clock;
-    /// Time and number of calls of one phase.
+    /// Time and number of calls of a phase.
     struct Spent {
         double seconds = 0.0;  // wall-clock time, excluding nested phases
         std::int64_t calls = 0;
@@ -41,9 +41,9 @@ struct Profile {
     std::int64_t force_passes = 0;
     std::int64_t point_steps = 0;  // number of points processed, summed over all steps
 
-    /// Record of a phase, to which time can be added.
+    /// Time and calls of a phase, to which more can be added.
     Spent& of(Phase phase) { return phases[static_cast<std::size_t>(phase)]; }
-    /// Record of a phase.
+    /// Time and calls of a phase.
     const Spent& of(Phase phase) const { return phases[static_cast<std::size_t>(phase)]; }
 
     Spent* running = nullptr;  // innermost phase currently being timed

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Settings of a whole world, taken from the scene: domain, contact laws and options.
+// Settings that apply to a whole world, taken from the scene: domain, contact laws and options.
 // Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
@@ -14,12 +14,12 @@
 
 namespace crackle {
 
-/// Index of a pair of materials; independent of their order.
+/// Index of a pair of materials, which does not depend on their order.
 constexpr std::size_t pair_number(std::size_t a, std::size_t b) {
     return a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b;
 }
 
-/// Settings that a step does not change: domain, materials, laws.
+/// Settings that stay constant during a step: domain, materials, laws.
 struct Settings {
     Domain domain;
     Vec2 gravity;
@@ -43,7 +43,7 @@ struct Settings {
     std::size_t pair_count() const { return materials.size() * (materials.size() + 1) / 2; }
     /// Index in `laws` of the first law across a joint.
     std::size_t first_joint_law() const { return 2 * pair_count() + materials.size(); }
-    /// Index in `laws` of the law for a material pair across a joint.
+    /// Index in `laws` of the law for a pair of materials across a joint.
     std::size_t joint_law(std::size_t pair, std::int32_t joint) const {
         return first_joint_law() + static_cast<std::size_t>(joint) * pair_count() + pair;
     }

@@ -12,7 +12,7 @@
 
 namespace crackle {
 
-/// Hash of one array of a world.
+/// Hash of one field of a world.
 struct FieldHash {
     std::string name;  ///< "bodies.state", "points.shear_force", ...
     std::uint64_t hash;
@@ -23,7 +23,7 @@ struct FieldHash {
 /// XXH3 hash of every field that a checkpoint saves, in the order in which they are saved; padding is excluded.
 std::vector<FieldHash> hash_fields(const World& world);
 
-/// A single hash of the whole state.
+/// A single hash of the complete state.
 std::uint64_t hash_state(const World& world);
 
 }  // namespace crackle

@@ -19,7 +19,7 @@ namespace crackle {
 /// and 0.45 % at 0.05. At 0.8 the circle flies off.
 inline constexpr double loose_step_share = 0.1;
 
-/// Clock of a run, and the values that determine its time step.
+/// Clock of a run, and values that determine the time step.
 struct StepControl {
     std::int64_t steps = 0;       // number of steps completed
     double time = 0.0;            // s
@@ -27,7 +27,7 @@ struct StepControl {
     double drift = 0.0;           // s, length of the drift that led to the current positions (0 before the first)
     double kick_share = 0.5;      // fraction of a full kick in the next step; 0.5 for the first kick of leapfrog
     bool forces_current = false;  // whether forces have been computed for the current positions
-    bool points_gained = false;   // whether points not yet counted in step_bound have begun to carry load
+    bool points_gained = false;   // whether points that are not yet counted in step_bound have begun to carry load
 
     bool automatic_step =
         false;                // whether the step is computed by the program and may be lowered when the list is rebuilt

@@ -18,7 +18,7 @@ namespace crackle {
 /// on the number of threads.
 inline constexpr PointIndex block_points = 256;
 
-/// Largest squared surface speed of a group of bodies, m2/s2.
+/// Largest squared surface speed among a group of bodies, m2/s2.
 struct Speeds {
     double fastest = 0.0;
     double sum_of_excess = 0.0;  // sum of 0·speed: 0, or NaN if any speed is infinite or NaN
@@ -42,8 +42,8 @@ struct SweepPlan {
     bool valid = false;
     std::size_t largest_kind = 0;  // kind of contact point that has the most points
 
-    /// A range of blocks of the largest kind of point, together with the bodies whose last such points lie in these
-    /// blocks.
+    /// A range of blocks of points of the largest kind, with the bodies that have their last point of this kind in
+    /// these blocks.
     struct Chunk {
         PointIndex end_block;    // end of the range of blocks
         std::uint32_t end_body;  // end of the chunk's bodies in `order`
@@ -72,12 +72,12 @@ struct SweepPlan {
     struct alignas(64) Share {
         Speeds speeds;
         std::uint32_t moved_end = 0;  // index into `order`: end of the thread's bodies that have already moved
-        bool held = false;            // whether the thread's bodies must not move until bond events are recorded
+        bool held = false;            // whether the bodies of this thread must not move until bond events are recorded
     };
     std::vector<Share> shares;
 };
 
-/// Threads, and the data that they keep between steps; not part of the state.
+/// Threads, and data that they keep from step to step; not part of the saved state.
 struct Workers {
     int threads = 1;
     SweepPlan plan;

@@ -107,7 +107,7 @@ inline ContactLaw law_of(const World& world, PointIndex k) {
     return law_with(world, k, share_of_stiffness(world, k));
 }
 
-/// Whether a world keeps the arrays of Points that are marked with `remembered`.
+/// Whether a world stores the arrays of Points that have the condition `remembered`.
 bool keeps(const World& world, Remembered remembered);
 
 /// Call this after changing velocities outside a step; the forces are then computed again.
@@ -119,7 +119,7 @@ inline void bodies_moved(World& world) {
     velocities_changed(world);
 }
 
-/// Restarts the energy account at the next force pass; previous losses and work are discarded.
+/// Restarts the energy account at the next force pass, and discards previous losses and work.
 void restart_account(World& world);
 
 /// Sets the number of threads for the following steps; results do not depend on it. @throws InputError if the number is
