@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Checks of make_mesh()'s input.
+// Checks the input of make_mesh().
 // Tested by tests/mesher/voronoi_test.cpp.
 #pragma once
 

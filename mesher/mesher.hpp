@@ -92,7 +92,7 @@ enum SideBit : std::uint8_t { side_left = 1, side_right = 2, side_bottom = 4, si
 
 /// A cell of the mesh: a convex polygon whose corners after the inset are stored counter-clockwise.
 struct Cell {
-    std::uint32_t first_corner = 0;  ///< first index into Mesh::corners
+    std::uint32_t first_corner = 0;  ///< index of the cell's first corner in Mesh::corners
     std::uint32_t corner_count = 0;
     /// For Voronoi cells, the index of the cell's centre, or of the nearest centre if the cell was added along a trace.
     /// For triangles, -1.

@@ -29,12 +29,12 @@ struct SeedSet {
 
 /// Places the seeds. @param spacing mean spacing of the centres, m. It is the width of the rows of pairs, which is
 /// reduced where traces are close together
-/// @param shrink for each edge of the graph, factor on the width along that edge
+/// @param shrink for each edge of the graph, factor on the width of the rows along that edge
 SeedSet mirrored_seeds(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
                        double spacing, std::span<const double> shrink);
 
 // Angles are computed only from sums, products and square roots, which all processors round identically. The sine of a
-// mathematical library may differ in the last digit between machines, and then so would the seeds.
+// mathematical library may differ in the last digit between machines, so that the seeds would also differ.
 
 /// Angle of a direction, rad, from -π to π, with an error of about 1e-15. The angle is reduced to half a quadrant. Then
 /// the tangent of an eighth of the angle is computed and inserted into the arctangent series.

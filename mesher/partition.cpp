@@ -91,9 +91,9 @@ unsigned Partition::walls_beyond(Point p) const {
            side_if(p.y < domain_.y1, side_bottom) | side_if(p.y > domain_.y2, side_top);
 }
 
-// Point where the bisector of the face's corners meets the wall: (p - wall)² + (y - s)² is equal for any two corners,
-// with an image replaced by its centre. The pair farthest apart along the wall is used, which avoids differences of
-// nearly equal squares.
+// Point where the bisector of the face's corners meets the wall. It has the same distance from all of the face's
+// centres, where an image is replaced by its centre. The pair of corners farthest apart along the wall is used, which
+// avoids differences of nearly equal squares.
 Point Partition::on_wall(FaceHandle face, std::uint8_t wall) const {
     const bool upright = wall == side_left || wall == side_right;
     const double level = wall == side_left     ? domain_.x1

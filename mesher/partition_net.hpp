@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The triangulation behind a partition, by CGAL; partition.cpp describes it. Internal to partition.cpp.
+// CGAL triangulation from which partition.cpp computes partitions; described in partition.cpp and used only there.
 // Tested by tests/mesher/voronoi_test.cpp.
 #pragma once
 

@@ -38,8 +38,8 @@ inline double squared_distance_to(const Segment& s, Point p) {
 /// Distance of a point from a segment, m.
 inline double distance_to(const Segment& s, Point p) { return std::sqrt(squared_distance_to(s, p)); }
 
-/// A square of a grid. Indices are taken modulo 2^32; this is harmless, since the distances of candidates are checked
-/// anyway.
+/// A square of a grid. Indices are taken modulo 2^32; this is harmless, since the distances of candidates are always
+/// checked.
 struct Square {
     /// The square in this column and row of a grid.
     Square(std::int64_t column, std::int64_t row)
