@@ -18,9 +18,9 @@ namespace crackle {
 
 /// How to compute the points of a batch.
 enum class BatchCase : std::uint8_t {
-    all_hold,    // every point was in contact without sliding, and still holds (with bonds: all points are bonded)
-    some_hold,   // some points hold; the others were not in contact before
-    none_holds,  // no point holds, and none was in contact before
+    all_hold,    // every point was in contact without sliding and still carries load (with bonds: is bonded)
+    some_hold,   // some points carry load; the others were not in contact before
+    none_holds,  // no point carries load, and none was in contact before
     one_by_one   // a contact opens or a bond breaks: the points are computed one by one
 };
 

@@ -22,8 +22,8 @@ std::size_t block_count(const World& world);
 PointBlock block_of(const World& world, std::size_t kind, PointIndex block, PointForce* forces);
 
 /// Computes only the geometry of all points at the current positions, as the force kernels do, to measure the cost of
-/// the narrow phase. It changes only the edges faced last. Call it from all threads of a parallel region or from a
-/// single thread; there is no barrier at its end.
+/// the narrow phase. It changes only the stored edges that points faced last. Call it from all threads of a parallel
+/// region or from a single thread; there is no barrier at its end.
 void geometry_pass(World& world);
 
 }  // namespace crackle

@@ -42,9 +42,9 @@ class DeckReader {
 
     /// Next value, which must be finite. @param key name of the value in the deck, for messages @throws InputError
     double number(std::string_view key);
-    /// Next value, > 0. @throws InputError
+    /// Next value, which must be > 0. @throws InputError
     double positive_number(std::string_view key);
-    /// Next value, >= 0. @throws InputError
+    /// Next value, which must be >= 0. @throws InputError
     double number_not_negative(std::string_view key);
     /// Next value, which must be a whole number in [lowest, highest]. @throws InputError
     std::int64_t integer(std::string_view key, std::int64_t lowest, std::int64_t highest);

@@ -21,13 +21,13 @@ class DeckReader;
 /// in the DEMseg guide.
 inline constexpr double deck_bare_segment_width = 0.1;
 
-/// Mode 1: all bodies are given.
+/// Contents of a mode-1 file, which lists all bodies.
 struct DeckGeometry {
     Scene scene;                     ///< validated, with counter-clockwise polygons
     std::size_t large_segments = 0;  ///< nseg2: number of large segment bodies, the last chain bodies of the scene
 };
 
-/// Mode 0: circles are generated at random.
+/// Contents of a mode-0 file, for which circles are generated at random.
 struct RandomGeometry {
     double time_step = unset;  ///< 0: derived from the stable bound (an extension of DEMseg's format)
     Vec2 gravity;

@@ -71,7 +71,7 @@ struct FaceBonding {
 /// Measures of how well the reference points suit the faces.
 struct FaceQuality {
     double largest_offset = 0.0;   ///< largest |(x_j - x_i)·t|/h; 0 if x_j - x_i is parallel to n on every face
-    std::int64_t raised = 0;       ///< number of faces whose h was less than the least distance
+    std::int64_t raised = 0;       ///< number of faces whose distance h was raised to the least distance
     std::int64_t by_centroid = 0;  ///< number of free sides and faces on rigid bodies that use the centroid
     double slowest_lag = 1.0;      ///< smallest value in any FaceLag
 };

@@ -159,7 +159,7 @@ inline BrokenStep step_broken(BrokenFace& face, const FaceSprings& s, const Face
 /// State of a face after its break, and the pressures of its two cells after the break.
 struct BreakResult {
     BrokenFace face;
-    FaceForces forces;              // remaining after the break
+    FaceForces forces;              // forces that remain after the break
     double pressure_i, pressure_j;  // Pa
     double energy;                  // J, released; never negative
 };

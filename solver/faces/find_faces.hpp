@@ -21,7 +21,7 @@ struct SharedFace {
     double length;        // m
 };
 
-/// Part of a body's outline that no other body adjoins.
+/// Part of a body's outline that it does not share with another body.
 struct FreeSide {
     BodyIndex body;
     Vec2 middle, normal;  // midpoint, m; outward unit vector

@@ -32,7 +32,7 @@ inline constexpr const char* staged_suffix = ".new";
 /// @throws OutputError if a file cannot be written
 void write_journal(const std::filesystem::path& journal, const FileSet& files, const Renames& renames = {});
 
-/// Whether a journal exists that lists one of these names as a final name. @throws InputError if the journal is damaged
+/// Whether a journal exists that lists one of the given names as a final name. @throws InputError if it is damaged
 bool gives_name(const std::filesystem::path& journal, std::span<const char* const> names);
 
 /// Second half of a replacement: renames the files that still have temporary names, and removes the journal. @return

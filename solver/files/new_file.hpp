@@ -16,7 +16,7 @@ namespace crackle {
 /// Suffix of a file that is being written, after a random name of 16 hexadecimal digits.
 inline constexpr std::string_view temporary_suffix = ".crackle_tmp";
 
-/// Whether a name is that of a file that is still being written.
+/// Whether a name belongs to a file that is still being written.
 bool is_temporary_name(const std::string& name);
 
 /// An empty file created by this process, locked while it is open.

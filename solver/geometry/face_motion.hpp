@@ -100,7 +100,7 @@ inline Vec2 turned_by(const BodyState& body, Vec2 v) {
 }
 
 /// Largest relative rotation for which the normal bisects the two turned normals, rad. For larger rotations, only the
-/// scalar motion_of() is right.
+/// scalar motion_of() is correct.
 inline constexpr double last_bisected_turn = 2.0;
 
 /// Unit normal of a face, turned by the mean of both rotations. It is continuous for any relative rotation, while the

@@ -3,7 +3,7 @@
 //
 // Relative to an edge, `across` is the distance in front of the edge's line, and `over` the distance beyond one of its
 // ends (negative at the start, 0 between the ends). Between the ends, the distance is `across` and its gradient is the
-// edge's normal. Beyond an end, the distance is that from the corner. The code handles one point, or several in lanes.
+// edge's normal. Beyond an end, it is the distance from the corner. The code handles one point, or several in lanes.
 // Tested by tests/solver/geometry/geometry_test.cpp.
 #pragma once
 

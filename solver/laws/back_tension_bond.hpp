@@ -82,7 +82,7 @@ struct BackTensionBond {
         return broken;
     }
 
-    /// Limits under proportional loading. @param law the point's law @param held whether the bond is unbreakable
+    /// Strains at a bond's limits under proportional loading. @param law its law @param held whether it is unbreakable
     static ElasticLimits elastic_limits(const ContactLaw& law, double bond_overlap, bool held,
                                         const BondGrowth& growth) {
         constexpr double infinite = std::numeric_limits<double>::infinity();

@@ -56,7 +56,7 @@ struct BondLawFacts {
 const BondLawFacts& facts_of(BondLaw law);
 
 /// The law that kernels apply to contact points in a world with the given law. In a world with bonded faces this is
-/// `coulomb`, for points without bonds: points that replace a face start without force, at a rest overlap.
+/// `coulomb`: contact points that replace a face are unbonded and start without force, at a rest overlap.
 constexpr BondLaw law_of_points(BondLaw law) { return law == BondLaw::face ? BondLaw::coulomb : law; }
 
 /// Constants of all laws, each key once.

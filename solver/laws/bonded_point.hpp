@@ -15,7 +15,7 @@ struct BondedPoint {
     Number overlap;            // m; measured from the rest overlap if the law has from_rest_overlap
     Number bond_overlap;       // m, δ0
     Number closing, slipping;  // m/s, relative velocities along the normal and tangent
-    Number shear_force;        // N, elastic, before the last drift
+    Number shear_force;        // N, elastic shear force before the last drift
     Number strength_share;     // Points::strength_share, if strengths_are_given
     double drift;              // s, length of the last drift
 };

@@ -16,7 +16,7 @@ class MassScaled;
 
 /// A stable time step, s; infinite without stiffness. @param rounds number of products with |A|
 double absolute_step_bound(const MassScaled& pencil, int rounds = 10);
-/// As above, for a world whose springs are its faces and the contact points given by `which`.
+/// A stable time step, s, for a world whose springs are its faces and the contact points given by `which`.
 double absolute_step_bound(const World& world, ClosedPoints which, int rounds = 10);
 
 /// Sets Faces::stiffness_bound and damping_bound of a world whose neighbour list has no points yet.

@@ -86,7 +86,7 @@ double step_of(const MassScaled::Quotient& q) {
 CriticalStep critical_step(const World& world, ClosedPoints which) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     const MassScaled pencil(world, which);
-    // A bound for all listed points, so never above the exact limit.
+    // This bound holds for all listed points, so it is never above the exact limit.
     const double guaranteed = world.faces.size() == 0 ? stable_step_bound(world) : absolute_step_bound(pencil);
     CriticalStep result{guaranteed, infinite, false, std::vector<BodyMotion>(world.bodies.size())};
     if (pencil.size() == 0 || !std::isfinite(guaranteed)) return {infinite, infinite, true, result.mode};

@@ -142,7 +142,7 @@ struct Refined {
     double error_energy = 0.0;
 };
 
-/// Solves by the factorisation and refines iteratively. @param full matrix K, including its upper triangle
+/// Solves by the given factorisation and then refines the solution. @param full matrix K, including its upper triangle
 template <class Solver, class Full>
 Refined refine(const Workers& workers, const Solver& factor, const Full& full, const Vector& load) {
     require_factor(factor);

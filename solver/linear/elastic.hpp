@@ -56,7 +56,7 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
 /// apply.
 struct FreeMotions {
     std::int64_t count = 0;         ///< dimension of the null space, by Sylvester's law of inertia
-    std::vector<BodyIndex> bodies;  ///< bodies that move in at least one such motion
+    std::vector<BodyIndex> bodies;  ///< bodies that move in at least one free motion
 };
 /// Finds the free motions of a world. @param held bodies that stay in place @param closed points that count as springs
 FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& held,

@@ -25,13 +25,13 @@ inline constexpr double lanczos_failure = 1e-9;
 /// nonzero stiffness
 /// @param guess any stable time step, s
 double lanczos_step(const MassScaled& pencil, double guess);
-/// As above, for a world whose springs are the contact points given by `which`.
+/// A stable time step, s, for a world whose springs are the contact points given by `which`.
 double lanczos_step(const World& world, ClosedPoints which, double guess);
 
 /// Whether lanczos_step() would accept the time step `dt` (s) as stable. It rejects any dt above the limit, and accepts
 /// any dt below 0.982 times the limit.
 bool lanczos_finds_stable(const MassScaled& pencil, double dt);
-/// As above, for a world whose springs are the contact points given by `which`.
+/// Whether lanczos_step() would accept `dt` (s) for a world whose springs are the contact points given by `which`.
 bool lanczos_finds_stable(const World& world, ClosedPoints which, double dt);
 
 }  // namespace crackle

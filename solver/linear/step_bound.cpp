@@ -189,8 +189,8 @@ void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>
              share_of(weights[b], partner), !has_rows(world, k));
 }
 
-/// Lowers the bound so that a body without points is stable in its first contact. For a circle the contact is central;
-/// for other bodies it may also be at the longest lever arm.
+/// Lowers the bound so that a body without contact points is stable in its first contact. For a circle the contact is
+/// central; for other bodies it may also be at the longest lever arm.
 void lower_to_first_meeting(Least& least, const World& world, BodyIndex b) {
     const BodyInfo info = world.bodies.info(b);
     const Roots roots = roots_of(world.bodies.inertia[b]);
@@ -291,7 +291,7 @@ Least least_of(const World& world, const std::vector<BodyBlocks>& blocks, const 
 constexpr int weight_rounds = 12;
 // Rounds continue as long as the last three together raised the bound by at least this fraction.
 constexpr double worth_three_rounds = 5e-4;
-// A bound counts as unchanged if it differs from that of the last search by less than this fraction.
+// A bound counts as unchanged if it differs from the bound of the last search by less than this fraction.
 constexpr double unchanged = 2e-3;
 // Lower limit of a weight, relative to its initial value. A point may later begin to carry load between a body with a
 // low weight and one of normal weight. A very low weight would then reduce the bound for the second body too much.

@@ -63,8 +63,8 @@ std::vector<Lump> lumps_of(const World& world, double probe, bool mirrored) {
 }
 
 /// Path of the disc around the lumps. While the disc rolls around a lump, its centre moves clockwise along a circle
-/// around the lump, whose radius is the sum of the two radii. Where this circle first meets that of another lump, the
-/// centre continues along the other circle.
+/// around the lump, whose radius is the sum of the two radii. Where this circle first meets the circle of another lump,
+/// the centre continues along the other circle.
 class Walk {
   public:
     Walk(const std::vector<Lump>& lumps, double probe) : lumps_(lumps), probe_(probe), grid_(make_grid()) {}
@@ -113,7 +113,7 @@ class Walk {
         Vec2 centre{};  // m, centre of the disc at the end of the path
     };
 
-    /// Calls visit(k) for the lumps whose enlarged circles may intersect that of a given lump.
+    /// Calls visit(k) for the lumps whose enlarged circles may intersect the enlarged circle of a given lump.
     template <class Visit>
     void visit_near(std::size_t on, Visit&& visit) const {
         const Vec2 about = lumps_[on].at;
@@ -174,7 +174,7 @@ class Walk {
 
     struct Meeting {
         std::size_t lump = 0;
-        Vec2 centre;  // m, centre of the disc at the meeting
+        Vec2 centre;  // m, centre of the disc where it meets the lump
         double turn = std::numeric_limits<double>::infinity();
         bool ceiling = false, floor = false;
     };

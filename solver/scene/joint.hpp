@@ -22,7 +22,7 @@ namespace crackle {
 
 /// Mechanical properties of a joint.
 struct Joint {
-    bool bonded = true;  ///< whether the joint's faces are bonded; if not, they push, rub and slide from the start
+    bool bonded = true;  ///< whether the joint's faces are bonded; if not, they only push and slide with friction
     /// Factor >= 0 on the rock's tensile strength or cohesion, used if the joint's own value is not given.
     double strength_factor = 1.0;
     std::optional<double> tensile_strength;  ///< Pa, >= 0; with 0, a bond breaks under the slightest tension

@@ -332,7 +332,7 @@ std::int64_t bond_all(World& world, const Bonding& bonding) {
         }
         if (bonding.leaves && bonding.leaves(view.body_i, view.body_j)) {
             // The point is left in the state of a point whose bond has broken: it has no force at its current position,
-            // and can push and rub.
+            // and can transmit pressure and friction.
             world.points.bond_overlap[k] = std::max(view.overlap, 0.0);
             world.points.state[k].flags = point_had_bond;
             continue;

@@ -35,8 +35,8 @@ struct Bonding {
 
 /// Bonds points between bodies, after setting the segment thickness. For back-tension bonds the overlap δ must be > 0.
 /// Each bonded point gets δ0 = δ, and its shear force is set to 0. Contacts with walls are not bonded, nor are the
-/// faces of open joints. Such faces can push and rub from their current positions, after the joint's aperture has
-/// closed. @return the number of bonded points
+/// faces of open joints. Such faces transmit pressure and friction from their current positions on, after the joint's
+/// aperture has closed. @return the number of bonded points
 /// @throws InputError if the resulting strengths have μT > C, or if strength factors are given but the mean
 /// back-tension is not positive
 std::int64_t bond_all(World& world, const Bonding& bonding);

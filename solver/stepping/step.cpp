@@ -177,7 +177,7 @@ void step(World& world) {
         return advance(world);
     }
     update_neighbours(world);  // updates the list of contact points and the stable bound
-    prepare_forces(world);     // clears forces, then adds those of bonded faces and of the membrane
+    prepare_forces(world);     // clears forces, then adds the forces of bonded faces and of the membrane
     const SweepMotion motion = motion_of_sweep(world);
     // Computes and sums forces, and moves free bodies.
     chosen_sweep()(world, {world, features_of(world)}, motion.move, motion.kick);

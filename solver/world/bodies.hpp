@@ -66,7 +66,7 @@ struct BodyInfo {
     double moment;  // kg m2
     double reach;   // m, bounding radius of the elements about the centroid (including circle radii, excluding `thick`)
     std::uint32_t first_element, element_count;  // range of vertices or circles, for element_of() (world.hpp)
-    std::uint32_t first_piece, piece_count;      // range in Bodies::pieces; a count of 0 means circles
+    std::uint32_t first_piece, piece_count;      // range in Bodies::pieces; the count is 0 for a body made of circles
 };
 
 inline constexpr std::uint32_t no_shape = 0xffffffff;

@@ -25,7 +25,7 @@ std::string save_world(const World& world);
 /// @param remedy the advice in the message if another version wrote the checkpoint
 World load_world(std::istream& in, std::streamoff end, const std::string& name,
                  const char* remedy = "run the test again with this version of crackle");
-/// Reads a world from a string that holds nothing else.
+/// Reads a world from a string that contains nothing else.
 World load_world(std::string bytes, const std::string& name,
                  const char* remedy = "run the test again with this version of crackle");
 

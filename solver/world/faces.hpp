@@ -142,12 +142,12 @@ struct BrokenState {
     double shear = 0.0;                               // F_t, N
     double slip = 0.0;                                // increase of u_p in this step, m
     double late_pressure = 0.0;                       // p̄ minus the late pressure, Pa
-    double late_force = 0.0, late_moment = 0.0;       // F_n and M minus their values at the late pressure
+    double late_force = 0.0, late_moment = 0.0;       // N, N m: F_n and M minus their values at the late pressure
     double end_closure = 0.0;  // N, mean of ½ k w² at the ends of the lap, where w is the overlap
     double held = 0.0;         // 1 - D
-    double pull = 0.0;         // J, energy of the tension without damage
+    double pull = 0.0;         // J, energy that the tension would have without damage
     double taken = 0.0;        // 1 - q, the share that contact points have taken over
-    double whole = 0.0;        // J, Ψ at the late pressure, without the factor q
+    double whole = 0.0;        // J, Ψ at the late pressure, not multiplied by q
 
     CRACKLE_FIELDS(opening, sliding, turn, half_lap, pressure, skewing, stretch, shear, slip, late_pressure, late_force,
                    late_moment, end_closure, held, pull, taken, whole);
@@ -174,9 +174,9 @@ struct BrokenFace {
 struct BrokenContact {
     LapPressure lap;
     double stretch;  // q_n, m
-    double energy;   // J, stored energy, excluding that of the shear spring
-    double pull;     // J, energy of the tension without damage
-    double whole;    // J, Ψ without the factor q
+    double energy;   // J, stored energy, without the energy of the shear spring
+    double pull;     // J, energy that the tension would have without damage
+    double whole;    // J, Ψ not multiplied by q
 
     CRACKLE_FIELDS(lap, stretch, energy, pull, whole);
 };
@@ -233,7 +233,7 @@ struct Faces {
 
     // The following members are results of the last force pass.
     FaceColumns<BondFaceMotion> motion;
-    // Contribution of each face to A e of its two cells, m²; empty if cells have no pressure.
+    // Contribution of each face to area times dilation, A e, of its two cells, m²; empty if cells have no pressure.
     Array<double> dilation_i, dilation_j;
     Array<PointForce> force;    // for each face: force on body i, and torques on both bodies
     Array<BrokenContact> late;  // for each broken face: contact at its late pressure

@@ -22,7 +22,7 @@ enum class PointKind : std::uint8_t {
     circle_circle = 0,    // two single circles
     element_element = 1,  // circles, at least one of which belongs to a clump
     element_outline = 2,  // circle or vertex of body_i against the outline of body_j
-    face_face = 3,        // flat faces element_i and feature_j of two single circles across a joint
+    face_face = 3,        // two single circles with flat faces element_i and feature_j across a joint
     // The next two occur only under the DEMseg guide's segment law (geometry/guide_segments.hpp). A segment has the
     // index of the element at which it begins.
     disc_segment = 4,     // circle of body_i against segment feature_j of body_j

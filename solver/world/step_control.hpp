@@ -31,7 +31,7 @@ struct StepControl {
 
     bool automatic_step =
         false;                // whether the step is computed by the program and may be lowered when the list is rebuilt
-    double step_scale = 1.0;  // factor on automatic steps
+    double step_scale = 1.0;  // factor on automatic time steps
     double safety_factor = 0.8;
     double step_bound = std::numeric_limits<double>::infinity();  // s, guaranteed stable step for the counted points
     BodyIndex limiting_body = 0;                                  // body that determines step_bound

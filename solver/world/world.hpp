@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The world: the flat arrays used by a step, in groups. Each group lists its fields in one place. A world is built from
-// a Scene (stepping/build_world.hpp); a step allocates nothing.
+// a Scene (stepping/build_world.hpp); most steps allocate no memory.
 //
 // The forces of a body's points are added in a fixed order, so that results are identical for any number of threads.
 #pragma once
