@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A destroyed triangle is usually a sliver whose longest edge is nearly as long as the other two together. With the
-// triangle across that edge it usually forms a convex quadrilateral.
+// A destroyed triangle is usually a sliver whose longest edge is nearly as long as the other two together. Combined
+// with the triangle across that edge, it usually forms a convex quadrilateral.
 
 #include "mesher/merge.hpp"
 

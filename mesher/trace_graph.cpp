@@ -240,7 +240,7 @@ class GraphMaker {
     double reach_, same_place_;
     std::vector<Piece> pieces_;
     std::vector<std::vector<std::pair<double, Point>>>
-        cuts_;  // for each piece, position along it (see share_at()), and coordinates
+        cuts_;  // cuts of each piece: position along it (see share_at()), and coordinates
     std::unordered_multimap<std::uint64_t, int> buckets_;  // nodes by position
     TraceGraph graph_;
 };

@@ -106,8 +106,8 @@ CRACKLE_INLINE void follow_batch(const Features& has, const PassView& view, Poin
         for (int l = 0; l < lane_count; ++l) loss.law -= gained[l];
 }
 
-/// Updates the overlap at which separated, unbonded faces will touch again, m. Rotation may have raised this value
-/// above the joint's aperture. As the faces open, the value decreases with the overlap, but not below the aperture.
+/// Updates the overlap at which separated faces that were never bonded will touch again, m. Rotation may have raised it
+/// above the joint's aperture. As the faces open, it decreases with the overlap, but not below the aperture.
 inline void part_faces(const PassView& view, PointIndex k, double closed) {
     const PointState& state = view.state[k];
     if ((state.flags & point_had_bond) != 0 || state.law < view.first_joint_law) return;

@@ -37,9 +37,9 @@ struct DeckOptions {
     bool overwrite = false;  ///< whether existing outputs may be replaced
     std::optional<std::int64_t> steps;  ///< number of steps, overriding nstep; ramps still take nstep steps
     std::optional<std::uint64_t> seed;  ///< seed of the random circles of mode 0; 1 if not given
-    /// Law of segments. If not given, that of the previous run according to its state file, or else rounded.
+    /// Law of segments. If not given, the law of the previous run according to its state file, or else the rounded law.
     std::optional<SegmentLaw> law;
-    std::optional<Integrator> integrator;  ///< if not given, that of the previous run, or else leapfrog
+    std::optional<Integrator> integrator;  ///< if not given, the integrator of the previous run, or else leapfrog
     bool allow_unstable = false;
     int threads = 1;
     /// Wall-clock time between saves of the new_* files, from which an interrupted run can be continued, s.
@@ -78,8 +78,8 @@ class DeckRun {
     /// Contact law and integrator for a run that starts from text files. @param which index of the text file in which
     /// the identification of points depends on the contact law, if any
     DeckLaws laws_for(const Texts& texts, std::optional<std::size_t> which);
-    /// The requested value of an option or, if not given, that of the previous run. @param state file that contains the
-    /// previous value
+    /// The requested value of an option or, if not given, the value of the previous run. @param state file that
+    /// contains the previous value
     template <class Choice>
     Choice chosen(const char* option, std::optional<Choice> asked, std::optional<Choice> before,
                   const std::filesystem::path& state);

@@ -13,7 +13,7 @@ namespace crackle {
 /// Phases of a step that are timed.
 enum class Phase : std::uint8_t {
     broad_phase,   // finding pairs of bodies that are close to each other
-    listing,       // listing their contact points and carrying over values from the old list
+    listing,       // listing contact points and carrying over values from the old list
     step_bound,    // bounding the stable step, when the list is rebuilt or new points carry load
     force,         // geometry (narrow phase) and forces of contact points; one call per block of points
     gather,        // adding the forces of a block's points to the forces on bodies
