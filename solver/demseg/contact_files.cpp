@@ -57,7 +57,7 @@ bool is_wall(PointIndex k, const World& world) {
     return k >= world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
 }
 
-/// Indices of points by their standard identification.
+/// Index of each point, by its name.
 std::map<PointName, PointIndex> points_by_name(const World& world) {
     std::map<PointName, PointIndex> points;
     for (PointIndex k = 0; k < world.points.size(); ++k) points.emplace(name_of(world, k), k);

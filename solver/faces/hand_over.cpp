@@ -54,6 +54,11 @@ double change_share(World& world, const BodyView& bodies, PointIndex p, float sh
     return lost;
 }
 
+/// Whether the edges of a face lie opposite each other without touching, at a distance of more than `thick`, m.
+bool have_parted(const FaceSprings& s, const BondFaceMotion& m, double thick) {
+    return m.opening > thick + half_lap_of(s, m) * std::abs(m.turn);
+}
+
 }  // namespace
 
 double share_of_points(const FaceSprings& s, const BondFaceMotion& m, double thick) {
@@ -77,7 +82,9 @@ bool face_replaces_points(const World& world, BodyIndex i, BodyIndex j) {
     const FaceIndex k = face_between(world, i, j);
     if (k == no_face) return false;
     const Faces& faces = world.faces;
-    if (faces.broken_at[k] == no_face) return true;
+    const FaceIndex broken = faces.broken_at[k];
+    if (broken == no_face) return true;
+    if (faces.broken[broken].retired) return false;
     const FaceSprings s = faces.springs[k];
     const BondFaceMotion m = motion_of(faces.place[k], world.bodies.state[faces.bodies[k].body_i],
                                        world.bodies.state[faces.bodies[k].body_j]);
@@ -117,7 +124,12 @@ void list_hand_over(World& world) {
 void hand_over(World& world) {
     Faces& faces = world.faces;
     for (BrokenFace& face : faces.broken) {
-        face.taken = share_of_points(faces.springs[face.face], faces.motion[face.face], world.settings.thick);
+        const FaceSprings springs = faces.springs[face.face];
+        const BondFaceMotion motion = faces.motion[face.face];
+        face.taken = share_of_points(springs, motion, world.settings.thick);
+        if (face.taken == 1.0) face.retired = true;
+        else if (face.retired && have_parted(springs, motion, world.settings.thick)) face.retired = false;
+        if (face.retired) face.taken = 1.0;
         if (face.alone && face.taken > 0.0) world.list.valid = false;  // this pair's contact points are not listed
     }
     if (faces.hand_over.empty()) return;

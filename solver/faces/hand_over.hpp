@@ -5,11 +5,15 @@
 // meet other edges, and edges that have rotated too far, are treated by contact points instead. With q the share of the
 // face, the energy of a pair of bodies is
 //     U = q U_face + (1 - q) U_points     q = min(1, lap/(2t)) · clamp((φ₁ - |δ_φ|)/(φ₁ - φ₀), 0, 1)
-// δ_φ is the relative rotation. t is the thickness of segments, or half the face's length if that is less. The forces
-// of the face and of the points then change continuously. The shear force of a contact point changes in proportion to
-// its stiffness. A change of U that is due to q alone counts as friction loss. The factor q applies only to the
-// pressure between the face's edges, so that cells with a pressure have a stored energy for every q. The shear force of
-// the face remains within its limit.
+// δ_φ is the relative rotation. t is the thickness of segments, or half the face's length if that is less. As q is
+// continuous, so are the forces of the face and of the points. The shear force of a contact point is scaled with its
+// stiffness. A change of U that is due to q alone counts as friction loss. Of the face's forces, q multiplies only
+// those with which its two edges press on each other, so that the pressures of the cells still derive from an energy.
+// The shear force of the face remains within its Coulomb limit.
+//
+// Once q is 0, the face is retired, and the points keep all the force. It returns only when its two edges lie opposite
+// each other at a distance of more than t. The edges of bodies that have moved past each other would otherwise seem to
+// overlap by as much as a body's size as soon as their lap grows again.
 //
 // Contact points start without force: their rest overlap is the overlap at that time, because the rock that the face
 // compressed is unloaded when the face is removed.

@@ -21,8 +21,8 @@ namespace crackle {
 
 /// The largest stable time step of a world.
 struct CriticalStep {
-    double step;  ///< s; steps up to this value are stable. It is root·(1 - critical_step_margin) or, if not proved,
-                  ///< within 2 % of the limit (lanczos_bound.hpp)
+    double step;  ///< s; steps up to this value are stable. If proved, it is root·(1 - critical_step_margin); otherwise
+                  ///< a lower bound, at most 2 % below the limit (lanczos_bound.hpp)
     double root;  ///< s, step at which the matrix becomes singular; infinite if no spring has stiffness
     bool proved;  ///< whether Cholesky has shown that 4M - 2Δt·C - Δt²·K is positive definite at `step`
     std::vector<BodyMotion> mode;  ///< for each body, the mode that becomes unstable first, scaled so that the largest

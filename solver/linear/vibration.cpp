@@ -55,8 +55,8 @@ std::vector<VibrationMode> lowest_modes(const World& world, std::int64_t count, 
     const std::int64_t all = count + free_motions;
     if (all > most_modes || all >= system.size()) {
         throw InputError(
-            fmt::format("vibration modes: found a request for {} modes in addition to {} zero-energy motions, expected "
-                        "at most {} in total and fewer than the {} degrees of freedom; request fewer modes",
+            fmt::format("vibration modes: found {} modes requested, and {} zero-energy motions, expected at most {} "
+                        "in total and fewer than the {} degrees of freedom; request fewer modes",
                         count, free_motions, most_modes, system.size()));
     }
     const Matrix stiffness = system.matrix(0.0, 1.0);

@@ -36,7 +36,7 @@ namespace crackle {
 struct CalibrationOptions {
     std::filesystem::path folder;
     int workers = 1;
-    bool retry = false;    ///< repeat tests that ended without a result because of their case
+    bool retry = false;    ///< repeat tests that were refused, unstable or too slow
     bool endless = false;  ///< see TestOptions::endless
 };
 

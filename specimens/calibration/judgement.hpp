@@ -31,7 +31,7 @@ constexpr auto list_names(TargetVerdict) {
 struct ReachedTarget {
     /// Mean over the fresh packings that have results for all targets; none of them was used for fitting.
     MeanFigure fresh;
-    MeanFigure polish;  ///< mean over the packings of the last correction, measured before that correction
+    MeanFigure polish;  ///< mean of the figure over the packings used for the last correction, before that correction
     double off = 0.0;   ///< mean over fresh packings divided by the target value, minus 1
     /// Tolerance, or half the width of the 95 % confidence interval of the difference between the two means if that is
     /// larger.

@@ -14,7 +14,7 @@ namespace crackle {
 /// file is missing or not valid TOML
 toml::table parse_toml(const std::filesystem::path& path, const std::string& expected);
 
-/// Parses a text. @param name  the name of the text in error messages
+/// Parses TOML. @param name  name of the file or text, for error messages
 toml::table parse_toml_text(const std::filesystem::path& name, const std::string& text);
 /// Converts a JSON object to a TOML table; its nodes have no line numbers. @throws InputError if the text is not a JSON
 /// object

@@ -35,7 +35,7 @@ TraceSide side_of(const JointTrace& trace, std::int32_t number, Vec2 from, Vec2 
 /// Whether a point is on a wall. Traces that a wall cuts end exactly on the wall.
 bool on_rim(const Domain& box, Vec2 p) { return p.x == box.x1 || p.x == box.x2 || p.y == box.y1 || p.y == box.y2; }
 
-/// Assigns the mechanics of each trace to its faces.
+/// Assigns the mechanical properties of each trace to its faces.
 void set_mechanics(Scene& scene, const JointNetwork& network) {
     std::vector<std::int32_t> of_source;
     for (const JointSource& source : network.sources) {

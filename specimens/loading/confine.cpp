@@ -233,7 +233,7 @@ class Confinement {
             if (part.wall) loads[part.body].x = left_on(part.body);
         const ElasticSolution solved =
             solve_elastic(bonded_, prescribed_parts(own_.apparatus, 0.0), loads, closed_points(own_.apparatus));
-        // A change of the external force is balanced by an equal change of the stress in the specimen.
+        // The stress in the specimen changes by as much as the external stress.
         const double gained = -nominal_stress(own_.apparatus, solved.reaction);
         const ElasticSolution with_walls = own_.apparatus.has_walls() ? stretched() : ElasticSolution{};
         const ElasticSolution& stretch = own_.apparatus.has_walls() ? with_walls : test_.small_strain->moduli.solution;

@@ -75,7 +75,7 @@ std::function<bool(Vec2, BodyIndex, BodyIndex)> grips_of(const World& world, con
     };
 }
 
-/// Checks that bond.thick is large enough for the gap that a particle file of polygons states.
+/// Checks that bond.thick is large enough for the gap stated in a particle file with polygons.
 void check_thick(const Specimen& specimen, const parts::Bonds& bonds, const Places& places) {
     if (!specimen.polygons || specimen.centres > 0) return;
     const bool across_gaps = bonds.facts().bonds_across_gaps;

@@ -8,8 +8,8 @@
 namespace crackle {
 namespace {
 
-// Controller for ln(rate), scaled by sqrt(tolerance): gain is the change per wave transit and unit of
-// ln(tolerance/error); fastest_rise and fastest_fall limit the change.
+// Controller for ln(rate). gain: change per wave transit, per unit of ln(tolerance/error). fastest_rise and
+// fastest_fall: largest changes per wave transit. All three are multiplied by sqrt(tolerance).
 constexpr double gain = 1.0, fastest_rise = 1.0, fastest_fall = 4.0;
 // Lower limit of the rate, as a fraction of its upper limit, because after a breakage a specimen vibrates for a while
 // at any rate.

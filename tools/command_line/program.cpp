@@ -173,8 +173,8 @@ SelectedCommand::SelectedCommand(SelectedCommand&&) noexcept = default;
 SelectedCommand::~SelectedCommand() = default;
 
 SelectedCommand select_command(const Program& program, int argc, char** argv) {
-    // Makes glibc return freed arrays of large specimens to the operating system. By default it soon keeps them
-    // permanently, and rebuilding a neighbour list would then need as much memory as the whole specimen.
+    // Makes glibc return freed arrays of large specimens to the operating system. By default it keeps arrays after the
+    // first ones were freed, and rebuilding a neighbour list would then need as much memory as the whole specimen.
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
     mallopt(M_TRIM_THRESHOLD, 1 << 22);
     const auto all = std::span(argv, static_cast<std::size_t>(argc));

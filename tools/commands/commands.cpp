@@ -9,7 +9,7 @@ const std::vector<Command>& commands() {
     static const std::vector<Command> all{
         {"pack", "packs random circles in a box to equilibrium and writes in_gm.dat", describe_pack, pack},
         {"mesh", "makes polygon particles from a packing or a list of centres", describe_mesh, mesh},
-        {"joints", "generates or reads traces of joints, and prints their amounts, directions and blocks",
+        {"joints", "generates or reads joint traces, and prints their intensities, directions and blocks",
          describe_joints, joints},
         {"run", "runs a DEMseg deck (in_gm.dat, in_bc.dat) and writes DEMseg's output files", describe_run, run_deck},
         {"test", "makes and loads one bonded specimen, and writes curve, events, summary and frames", describe_test,

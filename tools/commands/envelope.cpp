@@ -165,7 +165,7 @@ Json as_json(const EnvelopeFigure& e, const std::vector<std::string>& notices) {
          "95 % intervals of the fitted parameters, by resampling the packings, or by Student's t if there are fewer "
          "than 8 packings"},
         {"misfit", "-, root mean square of the law's deviations from the means, relative to the means"},
-        {"strength_ratio", "-, ratio of Hoek-Brown's unconfined strength to the mean tensile strength"},
+        {"strength_ratio", "-, ratio of the Hoek-Brown unconfined strength to the mean tensile strength"},
         {"strength_ratio_by_m", "-, 8.62 + 0.7 m, Hoek & Martin 2014"}};
     return json;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -137,6 +138,47 @@ TEST(HandOver, HasNoJumpOfForceOverATurnOf90Degrees) {
     // Where the cell lies flat, a turn of one increment opens a length of φ/depth of it.
     const double opening = 0.5 * std::numbers::pi / turns / depth;
     EXPECT_TRUE(within("largest change of force or moment, of the force", jump / largest, 0.0, opening));
+}
+
+/// Moves a body to a point in steps of at most 0.01 m. @return largest force on it on the way, N
+double carry_to(World& world, BodyIndex body, double x, double y) {
+    double largest = 0.0;
+    const double from_x = world.bodies.state[body].x, from_y = world.bodies.state[body].y;
+    const int steps = static_cast<int>(std::ceil(std::hypot(x - from_x, y - from_y) / 0.01));
+    for (int n = 1; n <= steps; ++n) {
+        world.bodies.state[body].x = from_x + (x - from_x) * n / steps;
+        world.bodies.state[body].y = from_y + (y - from_y) * n / steps;
+        bodies_moved(world);
+        compute_forces(world);
+        const BodyForce& force = world.bodies.force[body];
+        largest = std::max({largest, std::abs(force.fx), std::abs(force.fy + pressing)});
+    }
+    return largest;
+}
+
+TEST(HandOver, LeavesBodiesThatHaveMovedPastEachOtherAlone) {
+    World world = sliding_cell();
+    const BodyIndex top = top_of(world);
+    const BodyState start = world.bodies.state[top];
+    compute_forces(world);
+    // Up, to the right beyond the row of cells, down, and back below it: there, the laps of all faces are as at the
+    // start.
+    double largest = 0.0;
+    for (const auto& [x, y] : {Vec2{start.x, 4.0}, Vec2{8.0, 4.0}, Vec2{8.0, -4.0}, Vec2{start.x, -4.0}})
+        largest = std::max(largest, carry_to(world, top, x, y));
+    EXPECT_TRUE(within("largest force on the way, of what pressed the cell on, 1", largest / pressing, 0.0, 1e-12));
+    // On the way back, the edges meet again at a distance, and the face bears the load as at the start.
+    const double depth = 1e-4;
+    for (const auto& [x, y] : {Vec2{8.0, -4.0}, Vec2{8.0, 4.0}, Vec2{start.x, 4.0}, Vec2{start.x, start.y}})
+        carry_to(world, top, x, y);
+    EXPECT_TRUE(std::ranges::none_of(world.faces.broken, [](const BrokenFace& face) { return face.taken > 0.5; }));
+    carry_to(world, top, start.x, start.y - depth);
+    const double force = world.bodies.force[top].fy + pressing;
+    World fresh = sliding_cell();
+    compute_forces(fresh);
+    carry_to(fresh, top_of(fresh), start.x, start.y - depth);
+    EXPECT_TRUE(within("force at the same overlap, of a cell that has never left",
+                       force / (fresh.bodies.force[top_of(fresh)].fy + pressing), 1.0, 1e-9));
 }
 
 TEST(HandOver, SharesAFaceByItsLapAndItsTurn) {
