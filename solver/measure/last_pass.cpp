@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "solver/base/correctly_rounded.hpp"
+#include "solver/faces/face_pass.hpp"
+#include "solver/geometry/face_motion.hpp"
 #include "solver/geometry/geometry.hpp"
 #include "solver/world/world.hpp"
 
@@ -55,6 +57,21 @@ PointLoad load_of_last_pass(const World& world, PointIndex k) {
         if (k >= begin && k < end) load = load_of_kind<K>(world, k);
     });
     return load;
+}
+
+PointLoad end_load_of_last_pass(const World& world, FaceIndex face, bool at_start) {
+    const Faces& faces = world.faces;
+    const BondFaceMotion m = faces.motion[face];
+    const FacePlace place = faces.place[face];
+    const BodyState body = body_at_last_pass(world, faces.bodies[face].body_i);
+    const Vec2 along = perpendicular(m.normal), arm = turned_by(body, place.arm_i);
+    const double length = faces.springs[face].length, side = at_start ? -0.5 : 0.5;
+    const FaceForces force = forces_of_face(faces, face);
+    // The moment turns body i from the normal's direction at the start towards that at the end of the face.
+    const double normal = 0.5 * force.normal - 2.0 * side * force.moment / length;
+    return {normal * m.normal + 0.5 * force.shear * along,
+            Vec2{body.x, body.y} + arm + 0.5 * m.opening * m.normal + (0.5 * m.sliding + side * length) * along,
+            m.normal};
 }
 
 double time_of_last_pass(const World& world) {

@@ -24,6 +24,15 @@ inline bool bore_in_last_pass(const World& world, PointIndex point) {
     return (world.points.state[point].flags & (point_touching | point_bonded)) != 0;
 }
 
+/// Load of one end of a face in the last force pass. Each end has half the face's force; the moment is a pair of forces
+/// along the normal at the ends. @param at_start whether it is the end in the direction of -t
+PointLoad end_load_of_last_pass(const World& world, FaceIndex face, bool at_start);
+/// Whether a face carried load in the last force pass.
+inline bool face_bore_in_last_pass(const World& world, FaceIndex face) {
+    const PointForce& force = world.faces.force[face];
+    return world.faces.broken_at[face] == no_face || force.fx != 0.0 || force.fy != 0.0;
+}
+
 /// Time of the last force pass, s.
 double time_of_last_pass(const World& world);
 

@@ -19,7 +19,38 @@ namespace {
 
 constexpr std::size_t bore_nothing = static_cast<std::size_t>(-1);
 
-PointKind kind_of_point(const World& world, PointIndex k) {
+// The places where bodies bear load have indices: first all contact points, then two for the two ends of each face.
+
+PointIndex count_places(const World& world) {
+    return static_cast<PointIndex>(world.points.size() + 2 * world.faces.size());
+}
+
+bool is_face(const World& world, PointIndex k) { return k >= world.points.size(); }
+
+/// Number of an end among those of all faces: twice the face, plus 1 for the end in the direction of t.
+PointIndex end_of(const World& world, PointIndex k) { return k - static_cast<PointIndex>(world.points.size()); }
+
+bool is_wall(const World& world, PointIndex k) {
+    return !is_face(world, k) && k >= world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+}
+
+ContactPoint contact_of_place(const World& world, PointIndex k) {
+    if (!is_face(world, k)) return world.points.contact[k];
+    const BodyPair pair = world.faces.bodies[end_of(world, k) / 2];
+    return {pair.body_i, pair.body_j, end_of(world, k), end_of(world, k)};
+}
+
+bool bore(const World& world, PointIndex k) {
+    return is_face(world, k) ? face_bore_in_last_pass(world, end_of(world, k) / 2) : bore_in_last_pass(world, k);
+}
+
+PointLoad load_of_place(const World& world, PointIndex k) {
+    if (!is_face(world, k)) return load_of_last_pass(world, k);
+    return end_load_of_last_pass(world, end_of(world, k) / 2, end_of(world, k) % 2 == 0);
+}
+
+PointKind kind_of_place(const World& world, PointIndex k) {
+    if (is_face(world, k)) return PointKind::bonded_face;
     int kind = 0;
     while (k >= world.points.kind_begin[static_cast<std::size_t>(kind) + 1]) ++kind;
     return static_cast<PointKind>(kind);
@@ -40,9 +71,17 @@ std::vector<EarlierForce>::const_iterator find_earlier(const std::vector<Earlier
 
 bool is_source(const OpenEvent& open, BodyIndex body) { return std::ranges::binary_search(open.bodies, body); }
 
-/// Force on body_i just before its bond broke, N, as stored with the break.
+/// Whether a break is that of the bond at a place.
+bool broke_at(const BreakEvent& one, PointKind kind, const ContactPoint& place) {
+    if (one.kind != kind) return false;
+    return kind == PointKind::bonded_face ? one.point.element_i == place.element_i / 2
+                                          : same_point(kind, one.point, place);
+}
+
+/// Force on body_i just before its bond broke, N, as stored with the break; half of it at either end of a face.
 Vec2 force_of_break(const BreakEvent& one, Vec2 normal) {
-    return one.shear_force * perpendicular(normal) - one.normal_force * normal;
+    const double share = one.kind == PointKind::bonded_face ? 0.5 : 1.0;
+    return share * (one.shear_force * perpendicular(normal) - one.normal_force * normal);
 }
 
 double mean_damping_ratio(const World& world, const PlacedApparatus& apparatus) {
@@ -61,6 +100,12 @@ double mean_damping_ratio(const World& world, const PlacedApparatus& apparatus) 
                (2.0 * std::sqrt(law.normal_stiffness) * mass);
         ++count;
     }
+    for (FaceIndex k = 0; k < world.faces.size(); ++k) {
+        const BodyPair pair = world.faces.bodies[k];
+        if (apparatus.is_platen(pair.body_i) || apparatus.is_platen(pair.body_j)) continue;
+        sum += world.faces.law_of(k).damping_ratio;
+        ++count;
+    }
     return sum / static_cast<double>(count);
 }
 
@@ -75,15 +120,19 @@ double mean_field_shear_modulus(const World& world, const TestSetup& setup) {
         if (setup.apparatus.is_platen(spring.i) || setup.apparatus.is_platen(spring.j)) continue;
         twice_energy += spring.stiffness * times(spring, spring.push, shear) * times(spring, spring.gradient, shear);
     }
+    for (FaceIndex k = 0; k < world.faces.size(); ++k) {
+        const auto [i, j] = world.faces.bodies[k];
+        if (setup.apparatus.is_platen(i) || setup.apparatus.is_platen(j)) continue;
+        const FaceSprings springs = world.faces.springs[k];
+        const Vec2 normal = world.faces.motion[k].normal, apart{shear[j].x - shear[i].x, shear[j].y - shear[i].y};
+        const double opening = dot(apart, normal), sliding = dot(apart, perpendicular(normal));
+        twice_energy += springs.normal * opening * opening + springs.shear * sliding * sliding;
+    }
     return twice_energy / setup.specimen.area;
 }
 
 EmissionRule emission_rule(const World& world, const TestSetup& setup, double youngs_modulus, double poissons_ratio,
                            double thickness) {
-    if (world.faces.size() > 0)
-        throw InputError(
-            "found bonds of whole faces (bond.law = \"face\"), expected bonds of contact points; acoustic events are "
-            "groups of breaks of contact points");
     EmissionRule rule;
     rule.mean_field = !setup.apparatus.uniaxial || std::isnan(youngs_modulus) || std::isnan(poissons_ratio);
     const double shear_modulus =
@@ -187,16 +236,15 @@ void EmissionListener::add_break(std::size_t number, const BreakEvent& one, std:
 }
 
 void EmissionListener::add_body(OpenEvent& open, BodyIndex body, std::span<const BreakEvent> breaks) {
-    const PointIndex walls = world_.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     for (const PointIndex k : points_of(body)) {
-        const ContactPoint point = world_.points.contact[k];
+        const ContactPoint point = contact_of_place(world_, k);
         // Points between two source bodies are permanently excluded.
-        if (k < walls && is_source(open, point.body_i == body ? point.body_j : point.body_i)) continue;
-        const PointKind kind = kind_of_point(world_, k);
-        const auto broke = std::ranges::find_if(
-            breaks, [&](const BreakEvent& one) { return one.kind == kind && same_point(kind, one.point, point); });
-        if (broke == breaks.end() && !bore_in_last_pass(world_, k)) continue;
-        const PointLoad load = load_of_last_pass(world_, k);
+        if (!is_wall(world_, k) && is_source(open, point.body_i == body ? point.body_j : point.body_i)) continue;
+        const PointKind kind = kind_of_place(world_, k);
+        const auto broke =
+            std::ranges::find_if(breaks, [&](const BreakEvent& one) { return broke_at(one, kind, point); });
+        if (broke == breaks.end() && !bore(world_, k)) continue;
+        const PointLoad load = load_of_place(world_, k);
         const Vec2 force = broke == breaks.end() ? load.force : force_of_break(*broke, load.normal);
         if (force != Vec2{}) open.before.push_back({kind, point, force, load.place});
     }
@@ -213,13 +261,12 @@ void EmissionListener::add_body(OpenEvent& open, BodyIndex body, std::span<const
 void EmissionListener::list_points() {
     list_builds_ = world_.list.builds;
     for (Surface& surface : surfaces_) surface.found = false;
-    const auto& pairs = world_.points.contact.pairs;
-    const PointIndex walls = world_.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     points_begin_.assign(world_.bodies.size() + 1, 0);
     const auto visit = [&](auto&& with) {
-        for (PointIndex k = 0; k < pairs.size(); ++k) {
-            with(pairs[k].body_i, k);
-            if (k < walls) with(pairs[k].body_j, k);
+        for (PointIndex k = 0; k < count_places(world_); ++k) {
+            const ContactPoint point = contact_of_place(world_, k);
+            with(point.body_i, k);
+            if (!is_wall(world_, k)) with(point.body_j, k);
         }
     };
     visit([&](BodyIndex b, PointIndex /*k*/) { ++points_begin_[b + 1]; });
@@ -237,20 +284,19 @@ EmissionListener::PointRange EmissionListener::points_of(BodyIndex body) const {
 EmissionListener::Surface EmissionListener::surface_of(const OpenEvent& open) {
     Surface surface;
     surface.found = true;
-    const PointIndex walls = world_.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     std::vector<bool> listed(open.before.size(), false);
     for (const BodyIndex body : open.bodies) marks_[body] = 1;
     for (const BodyIndex body : open.bodies) {
         for (const PointIndex k : points_of(body)) {
-            const ContactPoint point = world_.points.contact[k];
+            const ContactPoint point = contact_of_place(world_, k);
             const bool of_i = point.body_i == body;
-            if (k < walls && marks_[of_i ? point.body_j : point.body_i] != 0) continue;
-            const PointKind kind = kind_of_point(world_, k);
+            if (!is_wall(world_, k) && marks_[of_i ? point.body_j : point.body_i] != 0) continue;
+            const PointKind kind = kind_of_place(world_, k);
             const auto found = find_earlier(open.before, kind, point);
             const auto at = static_cast<std::size_t>(found - open.before.cbegin());
-            const bool bore = found != open.before.cend();
-            if (bore) listed[at] = true;
-            surface.points.push_back({k, of_i, bore ? at : bore_nothing});
+            const bool loaded = found != open.before.cend();
+            if (loaded) listed[at] = true;
+            surface.points.push_back({k, of_i, loaded ? at : bore_nothing});
         }
     }
     for (const BodyIndex body : open.bodies) marks_[body] = 0;
@@ -262,12 +308,12 @@ EmissionListener::Surface EmissionListener::surface_of(const OpenEvent& open) {
 MomentTensor EmissionListener::moment_of(const OpenEvent& open, const Surface& surface) const {
     MomentTensor moment;
     for (const SurfacePoint& on : surface.points) {
-        const bool bore = on.before != bore_nothing, bears = bore_in_last_pass(world_, on.point);
-        if (!bore && !bears) continue;
-        const PointLoad load = bears ? load_of_last_pass(world_, on.point) : PointLoad{};
-        const EarlierForce* const earlier = bore ? &open.before[on.before] : nullptr;
-        const Vec2 change = bore ? load.force - earlier->force : load.force;
-        moment.add(on.of_i ? -change : change, (bore ? earlier->place : load.place) - open.event.centre);
+        const bool loaded = on.before != bore_nothing, bears = bore(world_, on.point);
+        if (!loaded && !bears) continue;
+        const PointLoad load = bears ? load_of_place(world_, on.point) : PointLoad{};
+        const EarlierForce* const earlier = loaded ? &open.before[on.before] : nullptr;
+        const Vec2 change = loaded ? load.force - earlier->force : load.force;
+        moment.add(on.of_i ? -change : change, (loaded ? earlier->place : load.place) - open.event.centre);
     }
     for (const std::size_t k : surface.gone) {
         const EarlierForce& earlier = open.before[k];

@@ -13,6 +13,10 @@
 // bodies cancel. The tensor with the largest scalar moment during the event is kept. The method follows Hazzard & Young
 // (Int. J. Rock Mech. Min. Sci. 37, 2000; 41, 2004).
 //
+// A face between two polygons (bond.law = "face") counts as two contact points at its ends. Each has half its force;
+// its moment is a pair of forces at both. A break changes the pressures of its two cells in the same pass. The forces
+// on their other faces «just before» the break already contain that change.
+//
 // Forces are recorded each time they have been computed, so no break is missed. When a break is detected, all other
 // forces are still those before the break. The force of the broken bond is taken from the record of the break. The
 // window is meaningful only if masses are physical and damping is light. Otherwise particles do not vibrate, and waves

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/faces/bond_faces.hpp"
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
@@ -110,6 +111,69 @@ TEST(EmissionOfAChain, SwingsToTwiceTheMomentWithoutDamping) {
     const AcousticEvent event = pulled_apart(0.7, 0.0);
     EXPECT_TRUE(agrees("moment along the chain, N m", principal_moments(event.moment).largest, 2.0 * moment, 5e-3));
     EXPECT_GT(event.rise_time, 0.0);
+}
+
+constexpr double side = 0.04, modulus = 1e9, strength = 1e3;  // m, Pa, Pa
+
+/// Four square cells in a row, bonded by faces; the last is pulled and the first held, and the middle face has half the
+/// strength. Their stiffness is that of cells without a pressure, with Poisson's ratio 0.
+World row_of_cells(double damping_ratio) {
+    Scene scene;
+    Material rock = undamped_rock(stiffness, 27.0);
+    rock.density = 2500.0;
+    scene.materials = {rock};
+    scene.units = StiffnessUnits::area;
+    scene.bond_law = BondLaw::face;
+    scene.domain = {-1.0, 1.0, -1.0, 1.0, {true, true, true, true}};
+    scene.thick = 0.02 * side;
+    scene.time_step = 2e-7;
+    const double half = 0.5 * scene.thick;
+    for (int k = 0; k < 4; ++k) {
+        const double x = (k - 2) * side;
+        scene.add_chain_body(
+            k + 1, 0,
+            {{x + half, half}, {x + side - half, half}, {x + side - half, side - half}, {x + half, side - half}}, true);
+    }
+    const DofControl still{Drive::velocity, 0.0};
+    scene.controls = {{0, still, still, still, 0}, {3, {Drive::velocity, 1e-6}, still, still, 0}};
+    World world = build_world(scene);
+    FaceBonding bonding;
+    bonding.materials.push_back({face_moduli_without_pressure(modulus, 0.0, 0.0), {}});
+    bonding.materials[0].law.tensile_strength = strength;
+    bonding.materials[0].law.cohesion = 10.0 * strength;
+    bonding.materials[0].law.damping_ratio = damping_ratio;
+    bonding.gap = scene.thick;
+    bonding.platens = PlatenFaces::bonded;
+    bond_by_faces(world, bonding);
+    for (FaceIndex k = 0; k < world.faces.size(); ++k)
+        if (world.faces.bodies[k].body_i == 1 && world.faces.bodies[k].body_j == 2) world.faces.strength_share[k] = 0.5;
+    return world;
+}
+
+TEST(EmissionOfFaces, HasTheMomentOfWhatTheTwoCellsBore) {
+    // The two cells pulled their neighbours, a side away on either side, with F = T L/2 each, and release them.
+    const double moment = 2.0 * (0.5 * strength * side) * side;
+    for (const double damping_ratio : {2.0, 0.0}) {
+        World world = row_of_cells(damping_ratio);
+        const TestSetup setup = ends_of(world);
+        Emission emission;
+        emission.rule = {.diameter = side, .shear_wave_speed = 1.0, .density = 1.0};
+        EmissionListener listener(world, setup, emission);
+        std::size_t heard = 0;
+        for (int n = 0; n < 2'000'000 && emission.events.empty(); ++n) {
+            step(world);
+            if (!listener.hears(world.bonds.events.size() > heard)) continue;
+            listener.listen(std::span(world.bonds.events).subspan(heard), 0.25);
+            heard = world.bonds.events.size();
+        }
+        ASSERT_EQ(emission.events.size(), 1U);
+        const AcousticEvent& event = emission.events.front();
+        const PrincipalMoments m = principal_moments(event.moment);
+        // Without damping, the cells swing to the other side of their rest, as two equal oscillators.
+        EXPECT_TRUE(agrees("moment along the row, N m", m.largest, damping_ratio > 0.0 ? moment : 2.0 * moment, 5e-3));
+        EXPECT_TRUE(within("across", m.smallest / moment, 0.0, 1e-6));
+        EXPECT_EQ(event.breaks, 1);
+    }
 }
 
 /// Passes breaks to the listener as if they had been found in a world at rest.
