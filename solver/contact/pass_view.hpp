@@ -19,7 +19,9 @@ namespace crackle {
 /// Inputs and outputs of a force pass. Valid until the neighbour list is rebuilt.
 struct PassView {
     PassView() = default;
+    /// With no features.
     explicit PassView(World& world);
+    /// @param used features that the kernels must support
     PassView(World& world, const ContactFeatures& used) : PassView(world) { features = used; }
 
     ContactFeatures features;

@@ -29,14 +29,17 @@ template <class Number>
 CRACKLE_INLINE VecOf<Number> operator*(const Number& s, const VecOf<Number>& a) {
     return {s * a.x, s * a.y};
 }
+/// Scalar product.
 template <class Number>
 CRACKLE_INLINE Number dot(const VecOf<Number>& a, const VecOf<Number>& b) {
     return a.x * b.x + a.y * b.y;
 }
+/// Component of the vector product normal to the plane.
 template <class Number>
 CRACKLE_INLINE Number cross(const VecOf<Number>& a, const VecOf<Number>& b) {
     return a.x * b.y - a.y * b.x;
 }
+/// The vector, turned by +90°.
 template <class Number>
 CRACKLE_INLINE VecOf<Number> perpendicular(const VecOf<Number>& a) {
     return {-a.y, a.x};
@@ -60,9 +63,11 @@ struct FaceBodyRates {
     VecOf<Number> velocity;  // m/s
     Number spin;             // rad/s
 };
+/// Position and rotation of one body.
 inline FaceBody<double> face_body(const BodyState& body) {
     return {{body.x, body.y}, body.shape[0], body.shape[1], body.angle};
 }
+/// Velocities of one body.
 inline FaceBodyRates<double> face_body_rates(const BodyState& body) { return {{body.vx, body.vy}, body.omega}; }
 
 /// The values of one FacePlace, or those of several faces in lanes.
@@ -71,6 +76,7 @@ struct PlaceOf {
     VecOf<Number> normal_i, normal_j, arm_i, arm_j;
     Number rest_turn;
 };
+/// The values of one face.
 inline PlaceOf<double> place_of(const FacePlace& place) {
     const auto of = [](Vec2 v) { return VecOf<double>{v.x, v.y}; };
     return {of(place.normal_i), of(place.normal_j), of(place.arm_i), of(place.arm_j), place.rest_turn};
@@ -114,6 +120,7 @@ inline VecOf<double> mean_normal(const VecOf<double>& a, const VecOf<double>& b,
     return (sign / std::sqrt(dot(across, across))) * across;
 }
 
+/// Motion of one face, for any relative rotation.
 inline BondFaceMotion motion_of(const FacePlace& place, const BodyState& i, const BodyState& j) {
     const PlaceOf<double> p = place_of(place);
     const FaceBody<double> body_i = face_body(i), body_j = face_body(j);
@@ -143,6 +150,7 @@ CRACKLE_INLINE FaceRates<Number> rates_of(const PlaceOf<Number>& place, const Mo
     return {dot(apart, motion.normal) + spin * motion.sliding,
             dot(apart, perpendicular(motion.normal)) - spin * motion.opening, of_j.spin - of_i.spin};
 }
+/// Rates of one face.
 inline FaceRates<double> rates_of(const FacePlace& place, const BondFaceMotion& m, const BodyState& i,
                                   const BodyState& j) {
     return rates_of<double>(place_of(place), {{m.normal.x, m.normal.y}, m.opening, m.sliding, m.turn}, face_body(i),
@@ -174,6 +182,7 @@ CRACKLE_INLINE FaceOnBodies<Number> forces_on_bodies(const PlaceOf<Number>& plac
     return {force, cross(i.turned(place.arm_i) + half, force) + f.moment,
             -cross(j.turned(place.arm_j) - half, force) - f.moment};
 }
+/// Forces of one face on its two bodies.
 inline PointForce forces_on_bodies(const FacePlace& place, const BondFaceMotion& m, const BodyState& i,
                                    const BodyState& j, const FaceForces& f) {
     const FaceOnBodies<double> on =
@@ -190,6 +199,7 @@ CRACKLE_INLINE ForcesOf<Number> intact_forces(const Number& normal_stiffness, co
     return {normal_stiffness * m.opening + length * pressure, shear_stiffness * m.sliding + length * skewing,
             normal_stiffness * length * length / 12.0 * m.turn};
 }
+/// Elastic forces of one intact face. @param pressure p̄, Pa @param skewing τ, Pa
 inline FaceForces intact_forces(const FaceSprings& s, const BondFaceMotion& m, double pressure, double skewing) {
     const ForcesOf<double> f = intact_forces<double>(
         s.normal, s.shear, s.length, {{m.normal.x, m.normal.y}, m.opening, m.sliding, m.turn}, pressure, skewing);

@@ -34,6 +34,7 @@ struct OutsetEdge {
     Vec2 outwards() const { return {along.y, -along.x}; }
 };
 
+/// The vector divided by its length, which must not be 0.
 inline Vec2 unit(Vec2 v) { return (1.0 / norm(v)) * v; }
 
 /// Tangent of half the angle from direction a to direction b.

@@ -23,6 +23,8 @@
 
 namespace crackle {
 
+/// The guide's law: a bond is as strong as the back-tension with which it was made (the file's comment has the
+/// formulas).
 struct BackTensionBond {
     static constexpr BondLaw law = BondLaw::back_tension;
     static constexpr BondLawFacts facts{

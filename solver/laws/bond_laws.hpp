@@ -34,6 +34,7 @@ using BondLaws = std::tuple<BackTensionBond, CoulombBond>;
 inline constexpr std::size_t bond_laws = std::tuple_size_v<BondLaws>;
 static_assert(bond_laws == static_cast<std::size_t>(BondLaw::face));
 
+/// Whether every law whose facts refer to values of a point keeps such values.
 template <class... Bonds>
 constexpr bool points_have_what_facts_need(const std::tuple<Bonds...>&) {
     return ((Bonds::facts.own_shares || !(Bonds::facts.strengths_are_given || Bonds::facts.from_rest_overlap)) && ...);
@@ -45,7 +46,8 @@ static_assert(points_have_what_facts_need(BondLaws{}),
 template <BondLaw law>
 using BondLawType = std::tuple_element_t<static_cast<std::size_t>(law), BondLaws>;
 
-/// Returns visit.operator()<Type>() for the type of law_of_points(). @tparam N index of the first law to try
+/// Calls visit's template operator() with the type of law_of_points(), and returns its result. @tparam N index of the
+/// first law to try
 template <std::size_t N = 0, class Visit>
 constexpr decltype(auto) with_law(BondLaw law, const Visit& visit) {
     using Bond = std::tuple_element_t<N, BondLaws>;

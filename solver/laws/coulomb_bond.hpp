@@ -25,6 +25,7 @@
 
 namespace crackle {
 
+/// A bond with a tensile strength, a cohesion and a friction angle (the file's comment has the formulas).
 struct CoulombBond {
     static constexpr BondLaw law = BondLaw::coulomb;
     static constexpr BondConstant constants[]{
@@ -133,6 +134,7 @@ struct CoulombBond {
         broken.reported = now;
         return broken;
     }
+    /// The bond's state after its break, and the energy that the break releases. @param p the point before it
     static BrokenBond break_bond(const Law<double>& law, const BondedPoint<double>& p,
                                  const BondMemory& /*memory*/ = {}) {
         const BondForces<double> before{spring_force(law, p.overlap - p.closing * p.drift), p.shear_force};

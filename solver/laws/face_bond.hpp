@@ -126,6 +126,7 @@ struct FaceStrength {
 /// Tensile and shear stress of an intact face, and its shear strength at the present compression, Pa.
 template <class Number>
 struct FaceStress {
+    /// @param normal, tangential, moment F_n (N), F_t (N) and M (N m) of the face
     CRACKLE_INLINE FaceStress(const FaceStrength<Number>& strength, const Number& length, const Number& normal,
                               const Number& tangential, const Number& moment)
         : tension(normal / length + 6.0 * strength.moment_share * magnitude(moment) / (length * length)),

@@ -83,6 +83,7 @@ struct ContactSpring {
     Number force;        // N
     Number compression;  // m, determines the Coulomb limit
 };
+/// @param overlap of the two surfaces, m
 template <class Number>
 CRACKLE_INLINE ContactSpring<Number> contact_spring(const Law<Number>& law, const Number& overlap) {
     return {spring_force(law, overlap), overlap};

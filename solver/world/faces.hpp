@@ -64,6 +64,7 @@ struct FaceColumns {
     std::size_t size() const { return count; }
     /// Values of one member in all records. @param c index of the member within a record
     const double* column(std::size_t c) const { return numbers.data() + c * count; }
+    /// Values of one member in all records, for changes.
     double* column(std::size_t c) { return numbers.data() + c * count; }
     /// A record.
     Record operator[](std::size_t k) const {
@@ -186,6 +187,7 @@ struct BrokenContact {
 struct FaceLosses {
     double friction = 0.0, fracture = 0.0, lag = 0.0, dashpot = 0.0;
 
+    /// Adds losses of other faces.
     void add(const FaceLosses& other) {
         friction += other.friction;
         fracture += other.fracture;

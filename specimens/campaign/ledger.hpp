@@ -73,6 +73,7 @@ class CampaignLedger {
     static CampaignLedger open(const std::filesystem::path& file, Journal journal = Journal::beside);
     /// Opens a ledger for reading. @throws InputError if there is no ledger
     static CampaignLedger read(const std::filesystem::path& file);
+    /// The other ledger must not be used any more.
     CampaignLedger(CampaignLedger&& other) noexcept;
     CampaignLedger& operator=(CampaignLedger&&) = delete;
     ~CampaignLedger();

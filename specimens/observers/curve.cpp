@@ -145,7 +145,9 @@ const std::vector<CurveColumn>& curve_columns() {
           "imbalance of the energy account: kinetic and strain energy minus their values when loading began, plus "
           "losses, minus work",
           "with the DEMseg guide's contact law, the energy that the law itself loses or creates "
-          "(energy_lost_to_contact_law in summary.json) is included in the losses"},
+          "(energy_lost_to_contact_law in summary.json) is included in the losses. For bonds that are faces, the "
+          "losses "
+          "include what broken faces lose because they react to their cells' pressures one step late"},
          [](Row r) { return r.energy_error; },
          false},
         {{"gauge_strain", "-", "axial strain of the gauge length, positive in the direction of loading",

@@ -73,6 +73,7 @@ enum class PackingInput : std::uint8_t {
 /// A request for a packing that cannot be met. Its message consists of `name` and `text`.
 class PackingError : public InputError {
   public:
+    /// @param name of the key, with which the message begins
     PackingError(PackingInput wrong, const std::string& name, std::string found_and_expected)
         : InputError(name + found_and_expected), input(wrong), text(std::move(found_and_expected)) {}
 

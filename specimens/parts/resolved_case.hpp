@@ -67,6 +67,7 @@ struct Particles {
 
     /// The requested packing; null if the particles are read from a file.
     const Packing* packing() const { return std::get_if<Packing>(&source); }
+    /// The requested packing, for changes.
     Packing* packing() { return std::get_if<Packing>(&source); }
     /// Whether stiffness and strengths are given per area, in Pa.
     bool area_units() const { return material.units == StiffnessUnits::area; }

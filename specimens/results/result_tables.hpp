@@ -43,6 +43,7 @@ struct ResultTableFacts {
     std::string (*header)(const FileOptions&);  ///< first line, including the line end
     std::vector<Quantity> (*columns)();
 };
+/// Properties of one table.
 const ResultTableFacts& facts_of(ResultTable table);
 
 /// The tables that a test writes.

@@ -11,7 +11,7 @@ import numpy as np
 
 from bonds import Bonds, factors
 from model import dot, turned
-from outlines import outset, polygon_moments
+from outlines import cross, outset, polygon_moments
 
 least_distance = 0.2  # least h as a fraction of its mean; a reference point nearer to a free side or platen gives way to the centroid
 free, lower, upper = -1, -2, -3  # in place of a neighbour: nothing, the lower and the upper end of the box
@@ -156,23 +156,23 @@ def from_outlines(model):
     moved outwards by half the gap; faces are where their edges lie on each other."""
     deck, by = model.deck, model.mesh_gap / 2
     outlines = [outset(b.corners, by) for b in deck.bodies]
-    edges = [[(a, b) for a, b in zip(o, np.roll(o, -1, axis=0))] for o in outlines]
+    begins, ends = np.concatenate(outlines), np.concatenate([np.roll(o, -1, axis=0) for o in outlines])
+    owner = np.repeat(np.arange(len(outlines)), [len(o) for o in outlines])
     low, high = (np.array([f(o, axis=0) for o in outlines]) for f in (np.min, np.max))
     cells, tolerance = [], along_one_line * math.sqrt(model.area[: model.count].mean())
-    for k, own in enumerate(edges):
+    for k in range(len(outlines)):
         rows = []
-        near = np.flatnonzero(((low <= high[k] + tolerance) & (high >= low[k] - tolerance)).all(axis=1))
-        for a, b in own:
+        near = ((low <= high[k] + tolerance) & (high >= low[k] - tolerance)).all(axis=1)
+        near[k] = False
+        others = np.flatnonzero(near[owner])
+        for a, b in zip(begins[owner == k], ends[owner == k]):
             long = math.dist(a, b)
             to = (b - a) / long
-            covered = []
-            for m in near[near != k]:
-                for c, d in edges[m]:
-                    if max(abs(np.cross(to, c - a)), abs(np.cross(to, d - a))) > tolerance:
-                        continue
-                    start, stop = max(0.0, to @ (d - a)), min(long, to @ (c - a))
-                    if stop - start > tolerance:
-                        covered.append((start, stop, int(m)))
+            c, d = begins[others] - a, ends[others] - a
+            beside = np.maximum(np.abs(to[0] * c[:, 1] - to[1] * c[:, 0]), np.abs(to[0] * d[:, 1] - to[1] * d[:, 0])) <= tolerance
+            start, stop = np.maximum(0.0, d @ to), np.minimum(long, c @ to)
+            beside &= stop - start > tolerance
+            covered = list(zip(start[beside].tolist(), stop[beside].tolist(), owner[others[beside]].tolist()))
             wall = next((n for n, y in ((lower, deck.y1), (upper, deck.y2)) if max(abs(a[1] - y), abs(b[1] - y)) <= tolerance), free)
             at = 0.0
             for start, stop, m in sorted(covered) + [(long, long, None)]:
@@ -189,7 +189,7 @@ def from_outlines(model):
 def circumcentre(triangle):
     a = triangle[0]
     b, c = triangle[1] - a, triangle[2] - a
-    return a + np.array([c[1] * (b @ b) - b[1] * (c @ c), b[0] * (c @ c) - c[0] * (b @ b)]) / (2 * np.cross(b, c))
+    return a + np.array([c[1] * (b @ b) - b[1] * (c @ c), b[0] * (c @ c) - c[0] * (b @ b)]) / (2 * cross(b, c))
 
 
 @dataclass

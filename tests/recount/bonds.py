@@ -8,7 +8,7 @@ from statistics import NormalDist
 import numpy as np
 
 from model import Points, single
-from outlines import outset
+from outlines import cross, outset
 
 least_facing = 0.9  # minus the cosine between edges that face each other, which are parallel in a mesh
 least_lap, flush = 0.01, 1e-9  # fractions of the mean radius; flush: rounding of flat faces that touch without overlap
@@ -103,7 +103,7 @@ def face(model, i, j, gap):
         to = to / long
         for m, b in enumerate(outlines[1]):
             other = outlines[1][(m + 1) % len(outlines[1])] - b
-            if to @ other > -least_facing * math.hypot(*other) or abs(np.cross(to, b + other / 2 - a)) > gap:
+            if to @ other > -least_facing * math.hypot(*other) or abs(cross(to, b + other / 2 - a)) > gap:
                 continue
             start, stop = max(0.0, to @ (b + other - a)), min(long, to @ (b - a))
             if stop > start and (best is None or stop - start > best[0]):
@@ -112,8 +112,8 @@ def face(model, i, j, gap):
         return None
     length, at, along, begin, end, to = best  # a platen is always the second body
     held = j >= model.count
-    distance = abs(np.cross(along, model.centre[i] - at)) if held else math.dist(model.centre[i], model.centre[j])
-    return Face(length, distance, begin, end, abs(np.cross(to, along)) < parallel_within)
+    distance = abs(cross(along, model.centre[i] - at)) if held else math.dist(model.centre[i], model.centre[j])
+    return Face(length, distance, begin, end, abs(cross(to, along)) < parallel_within)
 
 
 def faces_of(model, p):

@@ -13,6 +13,7 @@
 #include "tests/support/killed_workers.hpp"
 #include "tests/support/program_call.hpp"
 #include "tests/support/small_circles_rock.hpp"
+#include "tools/plot/axes.hpp"
 
 namespace crackle {
 namespace {
@@ -46,10 +47,13 @@ TEST_F(CalibrateCommand, EndsWithCasesATableAndItsKeys) {
     const auto json = nlohmann::json::parse(before);
     for (const auto& target : json["targets"]) {
         const auto number = [&](const char* key) { return target[key].get<double>(); };
-        const std::string row = fmt::format(
-            "<td>{:.4g}</td><td>{:.4g} ± {:.2g}</td><td>{:.2g}</td><td>{:+.1f}</td><td>{:.1f}</td>", number("value"),
-            target["fresh"]["mean"].get<double>(), target["fresh"]["standard_error"].get<double>(),
-            target["fresh"]["deviation"].get<double>(), 100.0 * number("off"), 100.0 * number("limit"));
+        // The page shows moduli and strengths with SI prefixes.
+        const double unit = plot::unit_for(number("value"), "N/m").factor;
+        const auto fresh = [&](const char* key) { return target["fresh"][key].get<double>() / unit; };
+        const std::string row =
+            fmt::format("<td>{:.4g}</td><td>{:.4g} ± {:.2g}</td><td>{:.2g}</td><td>{:+.1f}</td><td>{:.1f}</td>",
+                        number("value") / unit, fresh("mean"), fresh("standard_error"), fresh("deviation"),
+                        100.0 * number("off"), 100.0 * number("limit"));
         EXPECT_NE(page.find(row), std::string::npos) << row;
     }
     for (const auto& key : json["keys"]) {
