@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <cmath>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -13,7 +15,6 @@
 #include "tests/support/killed_workers.hpp"
 #include "tests/support/program_call.hpp"
 #include "tests/support/small_circles_rock.hpp"
-#include "tools/plot/axes.hpp"
 
 namespace crackle {
 namespace {
@@ -48,7 +49,7 @@ TEST_F(CalibrateCommand, EndsWithCasesATableAndItsKeys) {
     for (const auto& target : json["targets"]) {
         const auto number = [&](const char* key) { return target[key].get<double>(); };
         // The page shows moduli and strengths with SI prefixes.
-        const double unit = plot::unit_for(number("value"), "N/m").factor;
+        const double unit = number("value") < 1.0 ? 1.0 : std::pow(1e3, std::floor(std::log10(number("value")) / 3.0));
         const auto fresh = [&](const char* key) { return target["fresh"][key].get<double>() / unit; };
         const std::string row =
             fmt::format("<td>{:.4g}</td><td>{:.4g} ± {:.2g}</td><td>{:.2g}</td><td>{:+.1f}</td><td>{:.1f}</td>",
