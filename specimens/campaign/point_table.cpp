@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -165,8 +166,10 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
     std::vector<std::size_t> places;
     for (const std::string& figure : figures) {
         if (std::find(known.begin(), known.end(), figure) == known.end()) {
-            throw InputError(
-                fmt::format("found no figure '{:.60}', expected one of {}", figure, fmt::join(known, ", ")));
+            throw InputError(fmt::format(
+                "found no figure '{:.60}', expected a numeric key of summary.json, such as {}; `crackle campaign show "
+                "DIR --all` prints all {}",
+                figure, fmt::join(std::span(known).first(std::min<std::size_t>(known.size(), 4)), ", "), known.size()));
         }
         places.push_back(place_in(results, figure));
     }
@@ -233,6 +236,9 @@ std::string verdict_on(const MeanFigure& mean, const MeanBias& bias) {
     const std::string parts = fmt::format("bias {} (due to the time step {}, due to the rate {}; {} packings)",
                                           percent(bias.value, bias.standard_error), percent(bias.step, bias.step_error),
                                           percent(bias.rate, bias.rate_error), bias.packings);
+    constexpr std::size_t fewest = 4;  // packings; with fewer, the errors of a bias are too uncertain for advice
+    if (bias.packings < fewest)
+        return fmt::format("{}: too few for a judgement, which needs at least {} packings", parts, fewest);
     if (!bias.known()) {
         constexpr double goal = 0.01;
         const double deviation = bias.standard_error * std::sqrt(static_cast<double>(bias.packings));

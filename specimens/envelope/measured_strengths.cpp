@@ -111,6 +111,7 @@ class Collection {
             all_.tensions.push_back(strength);
         else
             all_.compressions.push_back({test.packing, confinement, strength});
+        if (!pulled && is_bound(test)) ++all_.bounds;
     }
     void leave_out(const std::string& where, const std::string& why) { ++left_out_[{where, why}]; }
     void count_failure() { ++all_.failures; }
@@ -124,6 +125,13 @@ class Collection {
     }
 
   private:
+    /// Whether the stress taken as the strength is that of the end of loading, up to a fiftieth of the strain.
+    bool is_bound(const StrengthTest& test) const {
+        constexpr double near_end = 0.98;
+        return !all_.measure.strain && all_.measure.figure == "largest_stress" &&
+               test.figures.strength.strain_at_largest_stress.or_nan() >=
+                   near_end * test.figures.numerics.axial_strain_end.or_nan();
+    }
     double strength_of(const StrengthTest& test, bool pulled) const {
         if (pulled) return test.figures.strength.peak_stress.or_nan();
         if (!all_.measure.strain) return number_of(json_of(test.figures), all_.measure.figure.c_str());

@@ -29,15 +29,17 @@ void print_point(const PointSummary& point, const std::vector<std::string>& figu
         print_out(
             "  notice: {} did not fail before loading.max_axial_strain, so they are excluded from the mean strength\n",
             point.unfailed);
-    print_out("  {:<26}{:>4}{:>12}{:>12}{:>8}{:>26}\n", "figure", "n", "mean", "deviation", "cv %", "95 % interval");
+    print_out("  {:<26}{:>4}{:>12}{:>12}{:>26}{:>12}{:>8}\n", "figure", "n", "mean", "error", "95 % interval",
+              "deviation", "cv %");
     for (const std::string& figure : figures) {
         const MeanFigure& mean = point.figures.at(figure);
         const std::string unit = unit_of_figure(figure, point.area_units);
-        print_out("  {:<26}{:>4}{:>12}{:>12}{:>8}{:>26}\n",
+        print_out("  {:<26}{:>4}{:>12}{:>12}{:>26}{:>12}{:>8}\n",
                   fmt::format("{}{}{}", figure, unit.empty() ? "" : " ", unit), mean.count, printed(mean.mean),
+                  printed(mean.standard_error),
+                  std::isfinite(mean.low) ? fmt::format("{:.4g} to {:.4g}", mean.low, mean.high) : "-",
                   printed(mean.deviation),
-                  std::isfinite(mean.variation()) ? fmt::format("{:.1f}", 100.0 * std::abs(mean.variation())) : "-",
-                  std::isfinite(mean.low) ? fmt::format("{:.4g} to {:.4g}", mean.low, mean.high) : "-");
+                  std::isfinite(mean.variation()) ? fmt::format("{:.1f}", 100.0 * std::abs(mean.variation())) : "-");
         const auto bias = point.biases.find(figure);
         if (bias != point.biases.end()) print_out("  {:<26}{}\n", "", verdict_on(mean, bias->second));
     }
@@ -54,18 +56,19 @@ CommandLine describe_campaign_show() {
         ("csv", "print the statistics as CSV")                                                             //
         ("tests", "print CSV with one row per test: axes, seed, variant, state and all results")           //
         ("wrong", "print the tests that ended without a result, and the reason for each");
-    return {.synopses = {"crackle campaign show DIR [OPTIONS]"},
-            .description =
-                "Prints statistics over the packings of each point of a campaign's plan: mean, standard deviation, "
-                "coefficient of variation and the 95 % interval of the mean (bootstrap over packings). After `crackle "
-                "campaign --verify` it also prints how much the time step and the rate shift the mean. It can be "
-                "called while the campaign runs. Exit code 4: some tests ended with a system error and are excluded "
-                "from all means; `crackle campaign` repeats them.",
-            .options = {{"options", options}},
-            .operand = "DIR",
-            .examples = {{"crackle campaign show out/granite"},
-                         {"crackle campaign show out/granite --figure peak_stress failed_at"},
-                         {"crackle campaign show out/granite --tests > tests.csv"}}};
+    return {
+        .synopses = {"crackle campaign show DIR [OPTIONS]"},
+        .description =
+            "Prints statistics over the packings of each point of a campaign's plan: mean, its standard error and 95 % "
+            "interval (bootstrap over packings), and the standard deviation between packings. After `crackle "
+            "campaign --verify` it also prints how much the time step and the rate shift the mean. It can be "
+            "called while the campaign runs. Exit code 4: some tests ended with a system error and are excluded "
+            "from all means; `crackle campaign` repeats them.",
+        .options = {{"options", options}},
+        .operand = "DIR",
+        .examples = {{"crackle campaign show out/granite"},
+                     {"crackle campaign show out/granite --figure peak_stress bonds_broken"},
+                     {"crackle campaign show out/granite --tests > tests.csv"}}};
 }
 
 int campaign_show(const Invocation& given) {

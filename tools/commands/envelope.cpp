@@ -89,6 +89,11 @@ std::vector<std::string> notices_on(const EnvelopeFigure& e) {
                             factor));
         }
     }
+    if (e.tests.bounds > 0)
+        all.push_back(
+            fmt::format("{} of {} largest stresses are those at the end of loading, so they are lower bounds of "
+                        "strengths; raise loading.max_axial_strain",
+                        e.tests.bounds, e.tests.compressions.size()));
     for (const std::string& one : e.tests.left_out) all.push_back("left out: " + one);
     if (e.tests.failures > 0)
         all.push_back(fmt::format("{} ended with a system error; run `crackle campaign` again to repeat them",

@@ -152,9 +152,10 @@ TEST_F(CampaignCommand, IsDrawnAndReported) {
         return std::stod(cells[static_cast<std::size_t>(std::ranges::find(names, column) - names.begin())]);
     };
     const std::string row = fmt::format(
-        "peak stress, kN/m</td><td>{:.4g}</td><td>{:.4g} to {:.4g}</td><td>{:.4g}</td><td>{:.1f}</td><td>{}</td></tr>",
-        1e-3 * number("mean"), 1e-3 * number("low_95"), 1e-3 * number("high_95"), 1e-3 * number("standard_deviation"),
-        100.0 * number("standard_deviation") / number("mean"), number("packings"));
+        "peak stress, kN/m</td><td>{:.4g} ± {:.2g}</td><td>{:.4g} to "
+        "{:.4g}</td><td>{:.4g}</td><td>{:.1f}</td><td>{}</td></tr>",
+        1e-3 * number("mean"), 1e-3 * number("standard_error"), 1e-3 * number("low_95"), 1e-3 * number("high_95"),
+        1e-3 * number("standard_deviation"), 100.0 * number("standard_deviation") / number("mean"), number("packings"));
     EXPECT_NE(page.find(row), std::string::npos) << row;
     ASSERT_EQ(crackle("report out"), 0) << "a report replaces a report";
     EXPECT_EQ(read("out/report.html"), page);

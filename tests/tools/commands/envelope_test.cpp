@@ -169,7 +169,10 @@ TEST_F(EnvelopeCommand, TakesTestsThatHardenByAnotherStress) {
     for (const int seed : {1, 2, 3})
         for (const double pressure : pressures) {
             MadeUp test{seed, pressure, std::nullopt};
-            test.further = {{"largest_stress", on_line(pressure) * (1.0 + 0.05 * (seed - 2))}};
+            // Under the highest pressure, the stress still grows at the end.
+            test.further = {{"largest_stress", on_line(pressure) * (1.0 + 0.05 * (seed - 2))},
+                            {"strain_at_largest_stress", pressure == pressures.back() ? 0.0199 : 0.01},
+                            {"axial_strain_end", 0.02}};
             folders += sample(test) + " ";
         }
     expect_refused(folders,
@@ -177,6 +180,8 @@ TEST_F(EnvelopeCommand, TakesTestsThatHardenByAnotherStress) {
                    "largest_stress or --strain");
     const Json largest = fitted(folders + "--figure largest_stress");
     EXPECT_EQ(largest["measure"]["figure"], "largest_stress");
+    EXPECT_TRUE(mentions(largest["notices"], "3 of 18 largest stresses are those at the end of loading"))
+        << largest["notices"];
     EXPECT_TRUE(agrees("N", largest["mohr_coulomb"]["slope"]["value"], 4.0, 1e-9));
     EXPECT_NE(call(folders + "--figure largest_stress").out.find("largest stresses of 3 packings in kN/m"),
               std::string::npos);

@@ -21,7 +21,7 @@ constexpr std::size_t most_rows = 2000;  // largest number of rows in the table 
 std::string points_table(const CampaignRecord& record) {
     std::string text =
         "<div class=\"wide\"><table><thead><tr><th>test</th><th "
-        "class=\"word\">figure</th><th>mean</th><th>95 % interval of the mean</th>"
+        "class=\"word\">figure</th><th>mean ± error</th><th>95 % interval of the mean</th>"
         "<th>deviation</th><th>deviation, %</th><th>packings</th></tr></thead><tbody>\n";
     for (const PointSummary& point : record.points) {
         bool first = true;
@@ -33,7 +33,10 @@ std::string points_table(const CampaignRecord& record) {
                 "<tr><td>{}</td><td "
                 "class=\"word\">{}{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                 first ? html(point.axes.empty() ? point.test : fmt::format("{}, {}", point.test, point.at())) : "",
-                html(spoken_figure(figure)), unit.name.empty() ? "" : ", " + unit.name, number(mean.mean),
+                html(spoken_figure(figure)), unit.name.empty() ? "" : ", " + unit.name,
+                std::isfinite(mean.standard_error)
+                    ? fmt::format("{} ± {:.2g}", number(mean.mean), mean.standard_error / unit.factor)
+                    : number(mean.mean),
                 std::isfinite(mean.low) ? fmt::format("{} to {}", number(mean.low), number(mean.high)) : "–",
                 number(mean.deviation),
                 std::isfinite(mean.variation()) ? fmt::format("{:.1f}", 100.0 * std::abs(mean.variation())) : "–",
