@@ -173,7 +173,8 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
         }
         places.push_back(place_in(results, figure));
     }
-    const std::size_t units = place_in(results, "material_units"), failed = place_in(results, "failed");
+    const std::size_t units = place_in(results, "material_units"), failed = place_in(results, "failed"),
+                      valid = place_in(results, "valid");
 
     std::vector<PointSummary> points;
     std::vector<Values> values;
@@ -202,6 +203,7 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
             own.area_units =
                 own.area_units || (units < row.size() && text_of(row[units]) == name_of(StiffnessUnits::area));
             own.unfailed += held ? 1 : 0;
+            own.invalid += done && valid < row.size() && number_at(row, valid) == 0.0 ? 1 : 0;
         }
         const auto* seed = std::get_if<double>(&row[columns.seed]);
         for (std::size_t f = 0; f < places.size(); ++f) {

@@ -24,6 +24,7 @@ struct PointSummary {
     std::int64_t failures = 0;  ///< number of tests in gone_wrong with a system failure (RowKind::failure)
     /// Number of finished tests whose specimen did not fail before max_axial_strain and therefore has no strength.
     std::int64_t unfailed = 0;
+    std::int64_t invalid = 0;       ///< number of finished tests that are not valid for their kind
     std::vector<std::size_t> rows;  ///< indices into the rows of LedgerTable, in the order of the plan
     bool area_units = false;
     std::map<std::string, MeanFigure> figures;

@@ -29,11 +29,14 @@ void print_point(const PointSummary& point, const std::vector<std::string>& figu
         print_out(
             "  notice: {} did not fail before loading.max_axial_strain, so they are excluded from the mean strength\n",
             point.unfailed);
+    if (point.invalid > 0)
+        print_out("  notice: {} of {} {} not valid for {} kind; summary.json states why\n", point.invalid, point.done,
+                  point.invalid == 1 ? "is" : "are", point.done == 1 ? "its" : "their");
     print_out("  {:<26}{:>4}{:>12}{:>12}{:>26}{:>12}{:>8}\n", "figure", "n", "mean", "error", "95 % interval",
               "deviation", "cv %");
     for (const std::string& figure : figures) {
         const MeanFigure& mean = point.figures.at(figure);
-        const std::string unit = unit_of_figure(figure, point.area_units);
+        const std::string unit = mean.count > 0 ? unit_of_figure(figure, point.area_units) : "";
         print_out("  {:<26}{:>4}{:>12}{:>12}{:>26}{:>12}{:>8}\n",
                   fmt::format("{}{}{}", figure, unit.empty() ? "" : " ", unit), mean.count, printed(mean.mean),
                   printed(mean.standard_error),
@@ -60,7 +63,8 @@ CommandLine describe_campaign_show() {
         .synopses = {"crackle campaign show DIR [OPTIONS]"},
         .description =
             "Prints statistics over the packings of each point of a campaign's plan: mean, its standard error and 95 % "
-            "interval (bootstrap over packings), and the standard deviation between packings. After `crackle "
+            "interval (bootstrap over packings; Student's t for fewer than 8), and the standard deviation between "
+            "packings. After `crackle "
             "campaign --verify` it also prints how much the time step and the rate shift the mean. It can be "
             "called while the campaign runs. Exit code 4: some tests ended with a system error and are excluded "
             "from all means; `crackle campaign` repeats them.",

@@ -50,6 +50,10 @@ std::string points_table(const CampaignRecord& record) {
             text += fmt::format(
                 "<tr><td></td><td class=\"note wrong\" colspan=\"6\">{} of {} ended without a result</td></tr>\n",
                 point.gone_wrong, point.planned);
+        if (point.invalid > 0)
+            text += fmt::format(
+                "<tr><td></td><td class=\"note\" colspan=\"6\">{} of {} not valid for the kind of test</td></tr>\n",
+                point.invalid, point.done);
         if (point.unfailed > 0)
             text += fmt::format(
                 "<tr><td></td><td class=\"note\" colspan=\"6\">{} did not fail before loading.max_axial_strain, so "

@@ -16,11 +16,11 @@ constexpr double figure_width = 130.0;  // mm
 
 constexpr const char* page_style = R"(
 :root{color-scheme:light}
-body{font:15px/1.5 system-ui,"DejaVu Sans",sans-serif;color:#1d2125;background:#fff;max-width:1000px;margin:2rem auto;padding:0 1rem}
+body{font:15px/1.5 system-ui,"DejaVu Sans",sans-serif;color:#1d2125;background:#fff;max-width:1180px;margin:2rem auto;padding:0 1rem}
 h1{font-size:1.6rem;margin:0 0 .3rem}h2{font-size:1.15rem;margin:2.2rem 0 .6rem}
 p.sub{color:#5b636b;margin:.2rem 0 1rem}
 table{border-collapse:collapse;font-size:.9rem;width:100%}
-th,td{padding:.25rem .6rem;border-bottom:1px solid #e3e6e9;text-align:right;white-space:nowrap}
+th,td{padding:.25rem .5rem;border-bottom:1px solid #e3e6e9;text-align:right;white-space:nowrap}
 th{color:#5b636b;font-weight:600}th:first-child,td:first-child,td.word,th.word{text-align:left}
 td.note{color:#5b636b;font-size:.85rem;text-align:left;white-space:normal}
 figure{margin:1rem 0 2rem}figcaption{color:#5b636b;font-size:.9rem;margin-top:.3rem}
