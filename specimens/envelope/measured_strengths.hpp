@@ -35,12 +35,12 @@ struct MeasuredStrengths {
     std::vector<StrengthPoint> compressions;  ///< strengths of compression tests (confinement 0) and biaxial tests
     /// Tensile strengths, positive. Specimens that separated outside the gauge length are left out.
     std::vector<double> tensions;
-    /// Number of compressions whose largest stress is that of the end of loading: lower bounds of a strength.
-    std::int64_t bounds = 0;
     std::vector<std::string> left_out;  ///< one sentence for each test without a strength, giving the reason
     /// Number of tests in `left_out` that a campaign recorded as system failures (RowKind::failure).
     std::int64_t failures = 0;
     std::string unit;  ///< unit of the stresses, "Pa" or "N/m"
+    /// Number of compressions whose largest stress is that of the end of loading: lower bounds of a strength.
+    std::int64_t bounds = 0;
 };
 
 /// Reads the strengths of one rock. @param folders  results of `crackle test` and of `crackle campaign`, in any number
