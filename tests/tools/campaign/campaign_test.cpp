@@ -132,7 +132,7 @@ TEST_F(CampaignCommand, IsDrawnAndReported) {
     EXPECT_NE(crackle("plot out -o two.svg --test tense"), 0);
     EXPECT_NE(read("err.txt").find("found no test 'tense', expected one of compression, tension"), std::string::npos);
     EXPECT_NE(crackle("plot out -o two.svg --figure beauty"), 0);
-    EXPECT_NE(read("err.txt").find("found no figure 'beauty', expected one of"), std::string::npos);
+    EXPECT_NE(read("err.txt").find("found no figure 'beauty'"), std::string::npos);
     ASSERT_EQ(crackle("report out"), 0) << read("err.txt");
     const std::string page = read("out/report.html");
     for (const char* part :
