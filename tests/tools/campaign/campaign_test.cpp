@@ -99,12 +99,12 @@ TEST_F(CampaignCommand, RunsAndShowsMeansAndIntervals) {
         const std::size_t at = means.find(fmt::format("compression, material.friction_angle = {}: 2 of 2", angle));
         ASSERT_NE(at, std::string::npos) << means;
         std::istringstream row(means.substr(means.find("peak_stress", at)));
-        std::vector<std::string> words(9);
+        std::vector<std::string> words(10);
         for (std::string& word : words) row >> word;
         EXPECT_EQ(words, (std::vector<std::string>{
-                             "peak_stress", "N/m", "2", fmt::format("{:.4g}", mean), fmt::format("{:.4g}", deviation),
-                             fmt::format("{:.1f}", 100.0 * deviation / mean), fmt::format("{:.4g}", mean - reach), "to",
-                             fmt::format("{:.4g}", mean + reach)}));
+                             "peak_stress", "N/m", "2", fmt::format("{:.4g}", mean), fmt::format("{:.4g}", 0.5 * apart),
+                             fmt::format("{:.4g}", mean - reach), "to", fmt::format("{:.4g}", mean + reach),
+                             fmt::format("{:.4g}", deviation), fmt::format("{:.1f}", 100.0 * deviation / mean)}));
     }
 }
 
