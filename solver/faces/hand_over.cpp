@@ -127,8 +127,10 @@ void hand_over(World& world) {
         const FaceSprings springs = faces.springs[face.face];
         const BondFaceMotion motion = faces.motion[face.face];
         face.taken = share_of_points(springs, motion, world.settings.thick);
-        if (face.taken == 1.0) face.retired = true;
-        else if (face.retired && have_parted(springs, motion, world.settings.thick)) face.retired = false;
+        if (face.taken == 1.0)
+            face.retired = true;
+        else if (face.retired && have_parted(springs, motion, world.settings.thick))
+            face.retired = false;
         if (face.retired) face.taken = 1.0;
         if (face.alone && face.taken > 0.0) world.list.valid = false;  // this pair's contact points are not listed
     }
