@@ -136,7 +136,7 @@ Point Partition::dual(FaceHandle face, const WallsOfFace& walls) const {
             return {domain_.x1, domain_.y2};
         case side_right | side_top:
             return {domain_.x2, domain_.y2};
-        default:  // there is no wall, or two opposite walls while images are missing
+        default:  // no wall, or two opposite walls with some images still missing
             return circumcentre(face);
     }
 }

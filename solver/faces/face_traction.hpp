@@ -16,7 +16,7 @@ namespace crackle {
 /// Normal stress at the two ends of a face, and its moment. With t the face's normal turned by +90°, the ends are at
 /// -half_length t and half_length t from its midpoint.
 struct FaceTraction {
-    double half_length = 0.0;             // m, of the face, or of the lap if it is broken and carries a force
+    double half_length = 0.0;             // m, of the face, or of the lap if the face is broken and carries a force
     double moment = 0.0;                  // N m, as in FaceForces
     double at_begin = 0.0, at_end = 0.0;  // N/m, compression positive
 };

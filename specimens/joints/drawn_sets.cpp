@@ -54,7 +54,7 @@ class LengthStrata {
     double draws_of_a_midpoint() const { return sum_; }
 
   private:
-    static constexpr std::size_t count = 50;  // lengths beyond the last stratum have a fraction of 1e-15
+    static constexpr std::size_t count = 50;  // the probability of a length beyond the last stratum is 1e-15
     const LengthLaw& law_;
     std::array<double, count> longest_{}, weight_below_{};
     double sum_ = 0.0;

@@ -97,9 +97,9 @@ std::size_t named_coordinates(std::string_view text) {
     return z ? 3 : 2;
 }
 
-/// Whether a list without coordinate names has a height after each x and y. If such triples are read as pairs, the
-/// points jump between coordinates. The polyline of the pairs is then more than twice as long, or a third longer if all
-/// heights are equal. Surveys of pairs with this property are rarer than surveys with heights.
+/// Whether a list without coordinate names has a height after each x and y. If such triples are read as pairs, x, y
+/// and height get mixed up, and the polyline becomes more than twice as long (a third longer if all heights are
+/// equal). True pairs rarely look like this; surveys with heights are more common.
 bool looks_like_heights(const std::vector<ListedTrace>& traces) {
     constexpr double leaping = 0.5, leaping_at_one_height = 0.75;
     double by_twos = 0.0, by_threes = 0.0;

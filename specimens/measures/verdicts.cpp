@@ -25,7 +25,7 @@ constexpr double centre_share = 0.5, jaw_share = 0.8,
 constexpr double largest_slant = 20.0, split_share = 0.5;
 constexpr double midspan_share = 0.25;  // largest distance of a crack from midspan, relative to the height
 
-// Limits: a fraction of the height, and a fraction of the energy.
+// Limits of a claim on shear boxes: distance from the gap over the height, and share of the energy of breaks within it.
 constexpr double gap_share = 0.25, gap_energy = 2.0 / 3.0;
 
 /// A condition, and the sentence that reports its violation; {} stands for the value found.

@@ -45,7 +45,8 @@ void refuse_without_threads() {
         "fonts; end other programs of this user, or raise the user's limit (ulimit -u)");
 }
 
-/// Refuses to draw if memory is short, since GLib and fontconfig end the process by a signal if they run out of it.
+/// Refuses to draw if memory is short, since GLib and fontconfig kill the process with a signal if they run out of
+/// memory.
 /// @param sheet bytes of the image
 void refuse_without_memory(double sheet) {
     // Bytes for two threads that search for fonts, each with an arena of 64 MiB from glibc and a stack, and for the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Passes reports of the engine to a Python callable report(kind, text, share). `kind` is "stage", "detail", "work" or
+// Passes the engine's reports to a Python callable report(kind, text, share). `kind` is "stage", "detail", "work" or
 // "progress"; `share` is the completed fraction, 0 to 1, or NaN. If the callable is None, nothing is reported.
 // Tested by tests/tools/python/run_test.py.
 #pragma once
