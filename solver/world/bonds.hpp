@@ -15,12 +15,12 @@ namespace crackle {
 /// One broken bond.
 struct BreakEvent {
     std::int64_t step;
-    double time;         // s
-    int body_i, body_j;  // input ids
-    Vec2 position;       // m, position of the contact
-    double orientation;  // rad, direction of the contact normal, in (-π/2, π/2]
-    double energy;       // J, energy released by the break (stepping/record_breaks.cpp)
-    double strength;  // N: k_n δ0, or the limit that was reached, T or C + μ f_n (for a face, times its length)
+    double time;          // s
+    int body_i, body_j;   // input ids
+    Vec2 position;        // m, position of the contact
+    double orientation;   // rad, direction of the contact normal, in (-π/2, π/2]
+    double energy;        // J, energy released by the break (stepping/record_breaks.cpp)
+    double strength;      // N: k_n δ0, or the limit that was reached, T or C + μ f_n (for a face, times its length)
     double normal_force;  // N, from Points::strong_normal; coulomb bond or face: elastic force at failure
     double shear_force;   // N
     bool slid;            // whether the point slid before the bond broke; back-tension bonds only
