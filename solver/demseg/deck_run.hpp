@@ -106,7 +106,7 @@ class DeckRun {
     void step_to_end(DeckOutputs& outputs, const std::function<bool(const World&)>& go_on);
     bool first_part() const { return asked_.start != DeckStart::continued; }
     OutputMode mode() const;
-    /// Whether earlier outputs can no longer be kept. This is the case if there are none, or if a journal of their
+    /// Whether earlier outputs can no longer be kept. True if there are no earlier outputs, or a journal of their
     /// replacement exists, which the next run would complete.
     bool counts_as_done(const DeckOutputs& outputs) const;
     /// Removes the files that were to replace the earlier outputs. @return part of a message that says what happened to

@@ -78,7 +78,9 @@ bool broke_at(const BreakEvent& one, PointKind kind, const ContactPoint& place) 
                                           : same_point(kind, one.point, place);
 }
 
-/// Force on body_i just before its bond broke, N, as stored with the break; half of it at either end of a face.
+/// Force on body_i just before its bond broke, N, as stored with the break; half of it at either end of a face. The
+/// moment of a broken face is not stored; it counts only at platens, since both grains of another face belong to the
+/// source.
 Vec2 force_of_break(const BreakEvent& one, Vec2 normal) {
     const double share = one.kind == PointKind::bonded_face ? 0.5 : 1.0;
     return share * (one.shear_force * perpendicular(normal) - one.normal_force * normal);

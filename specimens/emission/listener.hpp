@@ -105,7 +105,7 @@ class EmissionListener {
         : world_(world), setup_(setup), emission_(emission), surfaces_(emission.open.size()) {}
 
     /// Whether listen() must be called after forces were computed. @param broke  whether a break was found
-    bool hears(bool broke) const { return emission_.rule.on() && (broke || !emission_.open.empty()); }
+    bool must_listen(bool broke) const { return emission_.rule.on() && (broke || !emission_.open.empty()); }
 
     /// Updates the events after forces were computed; bodies may have moved since. @param breaks  breaks found then
     /// @param axial_strain  axial strain at which forces were computed

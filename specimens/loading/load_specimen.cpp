@@ -172,7 +172,7 @@ class LoadingLoop {
 
     void record_breaks() {
         const bool broke = world_.bonds.events.size() != events_counted_;
-        if (listener_.hears(broke)) listen();
+        if (listener_.must_listen(broke)) listen();
         if (!broke) return;
         const PhaseTimer timer(world_.workers.profile, Phase::observe);
         for (std::size_t k = events_counted_; k < world_.bonds.events.size(); ++k) {

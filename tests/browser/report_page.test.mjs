@@ -29,6 +29,11 @@ before(async () => {
     copied('in-area', {material_units: 'area', bond_law: 'coulomb', mean_tensile_strength: 123, mean_cohesion: 456, out_of_plane_thickness: 1});
     report(['in-area'], 'area.html');
     report(['in-area', 'circles-compression'], 'both-units.html');
+    copied('judged', {
+        material_units: 'area', peak_stress: 60.1e6, peak_strain: 2.5e-3, valid: false, numerical_errors: {peak_stress: {stated: 0.034}},
+        validity: [{claim: 'the specimen is wide', holds: false}, {claim: 'gauge', holds: true}],
+    });
+    report(['judged'], 'judged.html');
     browser = await launch();
 });
 
@@ -59,6 +64,25 @@ test('opens without a console error, and nothing is asked of the network', async
     for (const factor of ['20', '1']) await page.click(`button[data-value="${factor}"]`);
     await page.click('button.theme');
     await close();
+});
+
+test('a report first states strength, its error and the verdict, with the broken specimen beside the curve', async () => {
+    const {page, close} = await open('judged.html');
+    const text = (await page.locator('#findings').textContent()).replaceAll('\u202f', ' ');
+    for (const part of ['Strength60.1 MPa', 'at a strain of 2.50 ‰, ± 3.4 %', 'Not a valid test: condition not met: the specimen is wide']) assert.ok(text.includes(part), `${part} in ${text}`);
+    const [curve, broken] = await Promise.all(['.curve', '.broken svg'].map((name) => page.locator(`#curves ${name}`).boundingBox()));
+    assert.ok(broken.x >= curve.x + curve.width && broken.y < curve.y + curve.height, 'side by side');
+    await close();
+    const six = await open('six.html');
+    const rows = six.page.locator('#findings tbody tr');
+    assert.equal(await rows.count(), 6);
+    for (const folder of sixFolders) {
+        const {peak_stress: peak} = JSON.parse(readFileSync(join(root, folder, 'summary.json'), 'utf8'));
+        const shown = (await six.page.locator(`#findings tr[data-test="${folder}"] td.value`).textContent()).replaceAll('\u202f', ' ').match(/^([\d.]+) (k?)N\/m$/);
+        assert.ok(Math.abs(Number(shown[1]) * (shown[2] ? 1e3 : 1) / peak - 1) < 5.1e-3, `${folder}: ${shown[0]}, ${peak}`);
+    }
+    assert.equal(await six.page.locator('#curves .broken svg').count(), 6);
+    await six.close();
 });
 
 test('two panels, tension and compression, each with three curves that rise to the peaks of the summaries', async () => {

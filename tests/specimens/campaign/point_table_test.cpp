@@ -122,6 +122,11 @@ TEST(Verdict, NamesWhatDominatesAndWhatWouldChangeIt) {
         verdict_on(mean, by_rate).find("(due to the time step +1 ± 0.1 %, due to the rate +5 ± 0.1 %; 4 packings)"),
         std::string::npos)
         << verdict_on(mean, by_rate);
+    // Three packings do not decide, however small their errors seem.
+    const MeanBias few{3, 5.0, 0.1, 1.0, 0.1, 6.0, 0.1};
+    EXPECT_NE(verdict_on(mean, few).find("too few for a judgement, which needs at least 4 packings"), std::string::npos)
+        << verdict_on(mean, few);
+    EXPECT_EQ(verdict_on(mean, few).find("reduces it"), std::string::npos);
     // Nine packings give an error of 2 %, so one gives 6 %, and 36 give 1 %.
     const MeanBias unseen{9, 0.1, 2.0, 0.1, 2.0, 0.2, 2.0};
     EXPECT_NE(verdict_on(mean, unseen).find("not significant; 36 packings would reveal a bias of 1 %"),

@@ -77,7 +77,7 @@ AcousticEvent pulled_apart(double angle, double damping_ratio) {
     for (int n = 0; n < 2'000'000 && emission.events.empty(); ++n) {
         step(world);
         const bool broke = world.bonds.events.size() > heard;
-        if (!listener.hears(broke)) continue;
+        if (!listener.must_listen(broke)) continue;
         listener.listen(std::span(world.bonds.events).subspan(heard), 0.25);
         heard = world.bonds.events.size();
     }
@@ -162,7 +162,7 @@ TEST(EmissionOfFaces, HasTheMomentOfWhatTheTwoCellsBore) {
         std::size_t heard = 0;
         for (int n = 0; n < 2'000'000 && emission.events.empty(); ++n) {
             step(world);
-            if (!listener.hears(world.bonds.events.size() > heard)) continue;
+            if (!listener.must_listen(world.bonds.events.size() > heard)) continue;
             listener.listen(std::span(world.bonds.events).subspan(heard), 0.25);
             heard = world.bonds.events.size();
         }
@@ -206,9 +206,9 @@ class Clustering : public ::testing::Test {
 };
 
 TEST_F(Clustering, JoinsWhatIsNearInPlaceAndTime) {
-    EXPECT_FALSE(listener_.hears(false));
+    EXPECT_FALSE(listener_.must_listen(false));
     hear(10.0, {{0.0, 0.0}});
-    EXPECT_TRUE(listener_.hears(false));
+    EXPECT_TRUE(listener_.must_listen(false));
     hear(10.4, {{0.8, 0.0}});  // within 1 m and 0.5 s of the first
     ASSERT_EQ(emission_.open.size(), 1U);
     const AcousticEvent& event = emission_.open[0].event;
