@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/faces/broken_face.hpp"
 #include "solver/geometry/across_joint.hpp"
 
 namespace crackle {
@@ -329,35 +330,15 @@ class Bonder {
         faces_.broken.push_back(face);
     }
 
-    /// Sets the fractions in Faces::lag. Let H = 1 + M be the matrix of second derivatives of the energy with respect
-    /// to all q_n and q_t, each scaled by √k. If each unknown moves by a fraction w of its change, the energy decreases
-    /// for 1/w >= (1 + Σ|M|)/2 in its row of M. The sum covers all faces of the two cells, as if all of them were open.
     void set_lags() {
-        constexpr double margin = 0.9;
-        std::vector<double> in_cell(world_.bodies.size(), 0.0);
-        struct Weights {
-            double normal_i, normal_j, shear_i, shear_j;
-        };
-        const auto weights_of = [&](FaceIndex k) {
-            const FaceSprings& s = faces_.springs[k];
-            const double normal = s.length / std::sqrt(s.normal);
-            const double shear = s.shear > 0.0 ? s.length / std::sqrt(s.shear) : 0.0;
-            return Weights{normal * std::abs(s.share_i), normal * std::abs(s.share_j), shear * std::abs(s.skew_i),
-                           shear * std::abs(s.skew_j)};
-        };
         for (FaceIndex k = 0; k < faces_.size(); ++k) {
-            const Weights w = weights_of(k);
-            in_cell[faces_.bodies[k].body_i] += w.normal_i + w.shear_i;
-            in_cell[faces_.bodies[k].body_j] += w.normal_j + w.shear_j;
+            const LagWeights w(faces_.springs[k]);
+            faces_.cells[faces_.bodies[k].body_i].lag_weight += w.normal_i + w.shear_i;
+            faces_.cells[faces_.bodies[k].body_j].lag_weight += w.normal_j + w.shear_j;
         }
         for (FaceIndex k = 0; k < faces_.size(); ++k) {
-            const BodyIndex i = faces_.bodies[k].body_i, j = faces_.bodies[k].body_j;
-            const Weights w = weights_of(k);
-            const double of_i = faces_.cells[i].per_area * in_cell[i], of_j = faces_.cells[j].per_area * in_cell[j];
-            const auto share = [&](double row) { return std::min(1.0, margin * 2.0 / (1.0 + row)); };
-            faces_.lag.push_back(
-                {share(w.normal_i * of_i + w.normal_j * of_j), share(w.shear_i * of_i + w.shear_j * of_j)});
-            quality_.slowest_lag = std::min({quality_.slowest_lag, faces_.lag[k].pressure, faces_.lag[k].slip});
+            const FaceLag lag = lag_of(faces_, k);
+            quality_.slowest_lag = std::min({quality_.slowest_lag, lag.pressure, lag.slip});
         }
     }
 

@@ -27,6 +27,31 @@
 
 namespace crackle {
 
+/// Weights of a face in the two rows of its unknowns q_n and q_t, for each of its cells, m/√(N/m).
+struct LagWeights {
+    double normal_i, normal_j, shear_i, shear_j;
+
+    explicit LagWeights(const FaceSprings& s) {
+        const double normal = s.length / std::sqrt(s.normal);
+        const double shear = s.shear > 0.0 ? s.length / std::sqrt(s.shear) : 0.0;
+        normal_i = normal * std::abs(s.share_i), normal_j = normal * std::abs(s.share_j);
+        shear_i = shear * std::abs(s.skew_i), shear_j = shear * std::abs(s.skew_j);
+    }
+};
+
+/// Fractions by which a broken face approaches its pressure and its slip in one step. Let H = 1 + M be the matrix of
+/// second derivatives of the energy with respect to all q_n and q_t, each scaled by √k. If each unknown moves by a
+/// fraction w of its change, the energy decreases for 1/w >= (1 + Σ|M|)/2 in its row of M. The sum covers all faces of
+/// the two cells, as if all of them were open.
+inline FaceLag lag_of(const Faces& faces, FaceIndex k) {
+    constexpr double margin = 0.9;
+    const CellPressure &i = faces.cells[faces.bodies[k].body_i], &j = faces.cells[faces.bodies[k].body_j];
+    const LagWeights w(faces.springs[k]);
+    const double of_i = i.per_area * i.lag_weight, of_j = j.per_area * j.lag_weight;
+    const auto share = [&](double row) { return std::min(1.0, margin * 2.0 / (1.0 + row)); };
+    return {share(w.normal_i * of_i + w.normal_j * of_j), share(w.shear_i * of_i + w.shear_j * of_j)};
+}
+
 /// Half the lap of a broken face, m; the lap is the length over which its two edges lie opposite each other. On a rigid
 /// body, which extends beyond its faces, the lap is always the whole face.
 inline double half_lap_of(const FaceSprings& s, const BondFaceMotion& m) {

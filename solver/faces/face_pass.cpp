@@ -261,7 +261,7 @@ class Pass {
         BrokenFace& face = faces_.broken[n];
         const FaceIndex k = face.face;
         BrokenStep step =
-            step_broken(face, faces_.springs[k], faces_.law_of(k), faces_.strength_share[k], faces_.lag[k],
+            step_broken(face, faces_.springs[k], faces_.law_of(k), faces_.strength_share[k], lag_of(faces_, k),
                         faces_.motion[k], faces_.late[n], faces_.pressure_at(k), faces_.skewing_at(k));
         if (faces_.damped())
             step.losses.add(damp(k, step.forces, step.closed / faces_.springs[k].length, face.last.slip != 0.0));

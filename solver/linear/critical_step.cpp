@@ -76,6 +76,10 @@ bool positive_definite(const MassScaled& pencil, double dt) {
     return factor.info() == Eigen::Success;
 }
 
+bool is_too_large(const World& world, const MassScaled& pencil) {
+    return pencil.size() > (world.faces.size() == 0 ? most_exact_unknowns : most_exact_unknowns_of_faces);
+}
+
 /// Positive root Δt of 4 - 2Δt c - Δt² k = 0, with c and k the quotients for damping and stiffness.
 double step_of(const MassScaled::Quotient& q) {
     return 4.0 / (std::sqrt(q.damping * q.damping + 4.0 * q.stiffness) + q.damping);
@@ -95,7 +99,7 @@ CriticalStep critical_step(const World& world, ClosedPoints which) {
         result.proved = std::isinf(result.step);  // the step is infinite only if no point is closed
         return result;
     };
-    if (pencil.size() > most_exact_unknowns) return unproved();
+    if (is_too_large(world, pencil)) return unproved();
     const bool damped = pencil.damped();
     double dt = guaranteed;
     for (int n = 0; n < newton_steps; ++n) {
@@ -118,7 +122,7 @@ CriticalStep critical_step(const World& world, ClosedPoints which) {
 
 bool stable_at(const World& world, ClosedPoints which, double dt) {
     const MassScaled pencil(world, which);
-    if (pencil.size() > most_exact_unknowns) return dt <= stable_step_bound(world) || lanczos_finds_stable(pencil, dt);
+    if (is_too_large(world, pencil)) return dt <= stable_step_bound(world) || lanczos_finds_stable(pencil, dt);
     return pencil.size() == 0 || positive_definite(pencil, dt / (1.0 - critical_step_margin));
 }
 

@@ -29,9 +29,10 @@ struct CriticalStep {
                                    ///< component of M^½ u is 1
 };
 
-/// With more degrees of freedom than this (100,000 free bodies), a step within 2 % of the limit is computed instead
-/// (lanczos_bound.hpp), since factorising millions of rows takes minutes and gigabytes.
-inline constexpr std::int64_t most_exact_unknowns = 300'000;
+/// With more degrees of freedom than this (100,000 free bodies, or 10,000 bonded by faces), a step within 2 % of the
+/// limit is computed instead (lanczos_bound.hpp). Factorising millions of rows takes minutes and gigabytes. The rows of
+/// faces are three times as long, and their largest eigenvalues lie close together.
+inline constexpr std::int64_t most_exact_unknowns = 300'000, most_exact_unknowns_of_faces = 30'000;
 
 /// Relative distance of the result below the root, far above the round-off of the factorisation.
 inline constexpr double critical_step_margin = 1e-6;

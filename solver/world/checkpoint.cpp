@@ -29,7 +29,7 @@
 namespace crackle {
 
 // Increment this number when a field is added to a group, removed or moved.
-constexpr std::uint32_t checkpoint_version = 25;
+constexpr std::uint32_t checkpoint_version = 26;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 template <class Archive>
@@ -194,10 +194,9 @@ bool faces_are_whole(const World& world) {
         !columns(f.dashpot_force))
         return false;
     const bool sizes = of_all(f.place) && of_all(f.springs) && of_all(f.law) && of_all(f.strength_share) &&
-                       of_all(f.lag) && of_all(f.broken_at) && of_all(f.motion) && of_all(f.force) &&
-                       may_be_absent(f.dashpots) && may_be_absent(f.dashpot_force) && may_be_absent(f.dilation_i) &&
-                       may_be_absent(f.dilation_j) && f.first_face.size() == n + 1 && f.cells.size() == n &&
-                       f.face_ends.size() == 2 * count &&
+                       of_all(f.broken_at) && of_all(f.motion) && of_all(f.force) && may_be_absent(f.dashpots) &&
+                       may_be_absent(f.dashpot_force) && may_be_absent(f.dilation_i) && may_be_absent(f.dilation_j) &&
+                       f.first_face.size() == n + 1 && f.cells.size() == n && f.face_ends.size() == 2 * count &&
                        (f.whole_share.empty() || f.whole_share.size() == world.points.size());
     return sizes && f.first_face.front() == 0 && f.first_face.back() == f.face_ends.size() &&
            std::ranges::is_sorted(f.first_face) &&

@@ -114,11 +114,12 @@ struct BondFaceMotion {
 
 /// Pressure of a cell, positive in tension.
 struct CellPressure {
-    double per_area = 0.0;  // λ/(A + λ Σ L h_b/E_c), Pa/m²
-    double pressure = 0.0;  // p, Pa
-    double rise = 0.0;      // Pa, change of p in this step, before faces broke
+    double per_area = 0.0;    // λ/(A + λ Σ L h_b/E_c), Pa/m²
+    double pressure = 0.0;    // p, Pa
+    double rise = 0.0;        // Pa, change of p in this step, before faces broke
+    double lag_weight = 0.0;  // m/√(N/m), sum of the LagWeights of its faces (faces/broken_face.hpp)
 
-    CRACKLE_FIELDS(per_area, pressure, rise);
+    CRACKLE_FIELDS(per_area, pressure, rise, lag_weight);
 };
 
 /// Coefficients of the dashpots of a face, or their forces. They resist normal, shear and rotational motion.
@@ -129,8 +130,6 @@ struct FaceDashpots {
 /// Fractions by which, in one step, a broken face's late pressure approaches p̄ and its slip approaches the limit.
 struct FaceLag {
     double pressure = 1.0, slip = 1.0;
-
-    CRACKLE_FIELDS(pressure, slip);
 };
 
 /// Motion and forces of a broken face in one step, from which the energy losses of the next step are computed.
@@ -213,8 +212,7 @@ struct Faces {
     FaceColumns<FaceSprings> springs;
     Array<std::uint16_t> law;      // index into `laws`
     Array<double> strength_share;  // random factor on T and C
-    Array<FaceLag> lag;
-    Array<FaceIndex> broken_at;  // index into `broken`; no_face while intact
+    Array<FaceIndex> broken_at;    // index into `broken`; no_face while intact
     std::vector<FaceLaw> laws;
     /// Faces of each body. Those of body b begin at index first_face[b] of face_ends, in ascending order. An entry is
     /// twice the index of the face, plus 1 if b is its body j.
@@ -259,7 +257,7 @@ struct Faces {
         return s.skew_i * cells[bodies[k].body_i].pressure - s.skew_j * cells[bodies[k].body_j].pressure;
     }
 
-    CRACKLE_FIELDS(bodies, place, springs, law, strength_share, lag, broken_at, laws, first_face, face_ends, cells,
+    CRACKLE_FIELDS(bodies, place, springs, law, strength_share, broken_at, laws, first_face, face_ends, cells,
                    has_pressure, broken, hand_over, whole_share, stiffness_bound, damping_bound, dashpots,
                    dashpot_force, lag_loss, motion, dilation_i, dilation_j, force, late, losses);
 };

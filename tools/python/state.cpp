@@ -10,6 +10,8 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/base/fields.hpp"
+#include "solver/faces/face_pass.hpp"
+#include "solver/geometry/face_motion.hpp"
 #include "solver/measure/health.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/step.hpp"
@@ -48,6 +50,39 @@ py::array contacts(State& state) {
                           wall ? -1 - static_cast<std::int32_t>(p.body_j) : world.bodies.names[p.body_j].id, p.body_i,
                           p.body_j, p.position, p.normal, p.overlap, p.normal_force, p.shear_force, p.bond_overlap,
                           p.bonded, p.touching, p.sliding, p.slid});
+    }
+    return view_of(*found, found);
+}
+
+/// A face with its motion and forces at the current positions.
+struct Face {
+    std::int32_t id_i, id_j;
+    BodyIndex body_i, body_j;
+    Vec2 position, normal;
+    double length, opening, sliding, turn;
+    double normal_force, shear_force, moment;
+    bool bonded, broken_in_shear;
+
+    CRACKLE_FIELDS(id_i, id_j, body_i, body_j, position, normal, length, opening, sliding, turn, normal_force,
+                   shear_force, moment, bonded, broken_in_shear);
+};
+
+py::array faces(State& state) {
+    const World& world = state.world_with_forces();
+    auto found = std::make_shared<std::vector<Face>>();
+    for (FaceIndex k = 0; k < world.faces.size(); ++k) {
+        const auto [i, j] = world.faces.bodies[k];
+        const BodyState& body = world.bodies.state[i];
+        const FaceForces forces = forces_of_face(world.faces, k);
+        const BondFaceMotion motion = world.faces.motion[k];
+        const FaceIndex broken = world.faces.broken_at[k];
+        const Vec2 position = Vec2{body.x, body.y} + turned_by(body, world.faces.place[k].arm_i) +
+                              (0.5 * motion.opening) * motion.normal +
+                              (0.5 * motion.sliding) * perpendicular(motion.normal);
+        found->push_back({world.bodies.names[i].id, world.bodies.names[j].id, i, j, position, motion.normal,
+                          world.faces.springs[k].length, motion.opening, motion.sliding, motion.turn, -forces.normal,
+                          forces.shear, forces.moment, broken == no_face,
+                          broken != no_face && world.faces.broken[broken].in_shear});
     }
     return view_of(*found, found);
 }
@@ -200,6 +235,12 @@ void bind_state(py::module_& module) {
             "body_j, "
             "position (m), normal (from i to j), overlap (m), normal_force (N, compression positive), shear_force (N), "
             "bond_overlap (m), bonded, touching, sliding, slid.")
+        .def("faces", &faces,
+             "A copy of the faces of a specimen bonded by faces; otherwise empty. Fields: id_i, id_j, body_i, body_j, "
+             "position (m, of the midpoint), normal (from i to j), length (m). Motion of j relative to i since "
+             "bonding: opening (m, along the normal), sliding (m, along the normal turned by +90 degrees), turn "
+             "(rad). Forces on i: normal_force (N, compression positive), shear_force (N), moment (N m). State: "
+             "bonded, broken_in_shear.")
         .def_property_readonly(
             "rows", [](State& s) { return s.lend(s.test().state.rows); },
             "Array view with one record per row: the curve so far, including all rows by which peak and failure are "

@@ -8,11 +8,14 @@
 #include <cmath>
 #include <fstream>
 #include <span>
+#include <vector>
 
 #include "solver/faces/face_pass.hpp"
 #include "solver/faces/face_traction.hpp"
+#include "solver/geometry/geometry.hpp"
 #include "solver/stepping/step.hpp"
 #include "specimens/case/case_file.hpp"
+#include "specimens/frames/frame_forces.hpp"
 #include "specimens/frames/frame_painter.hpp"
 #include "specimens/frames/read_frames.hpp"
 #include "specimens/loading/load_specimen.hpp"
@@ -141,6 +144,58 @@ TEST_F(FaceFrames, CracksHaveTheOpeningAndTheSlipOfTheFace) {
         EXPECT_NEAR(data.cell_data.at("slip")[k], motion.sliding, rounding);
         EXPECT_EQ(data.cell_data.at("mode")[k], test_.world.faces.broken[test_.world.faces.broken_at[face]].in_shear);
     }
+}
+
+// At rest no dashpot acts, so the forces in the frame are all that act on a grain. Points take over where broken faces
+// slide apart or turn; their stiffness is a share of the whole.
+TEST_F(FaceFrames, ForcesOfAFrameSumToTheForceOnEachBodyBesideBrokenFacesToo) {
+    World& world = test_.world;
+    for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;
+    world.stepping.forces_current = false;
+    compute_forces(world);
+    look_at_contacts(world, test_.state.history);
+    take_frame(world, test_.setup.bonds, test_.state.history, observe_row(world, test_.setup), 7, frame_);
+    const PlacedFrame placed(world, test_.setup, frame_);
+    const FrameForces forces = find_forces(placed);
+    std::vector<Vec2> sum(world.bodies.size());
+    std::vector<double> pressed(world.bodies.size(), 0.0);  // N, sum of the magnitudes
+    const auto add = [&](const ContactPoint& point, const ContactGeometry& g, double normal, double shear) {
+        const Vec2 on_i = shear * Vec2{-g.ny, g.nx} - normal * Vec2{g.nx, g.ny};
+        sum[point.body_i] = sum[point.body_i] + on_i;
+        sum[point.body_j] = sum[point.body_j] - on_i;
+        pressed[point.body_i] += norm(on_i);
+        pressed[point.body_j] += norm(on_i);
+    };
+    const auto geometry = [&]<PointKind K>(const ContactPoint& point) {
+        std::uint32_t feature = point.feature_j;
+        return contact_geometry<K>(BodyView(world), point, placed.body(point.body_i), placed.body(point.body_j),
+                                   feature);
+    };
+    visit_kinds(test_.setup.bonds.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            const ContactPoint point = test_.setup.bonds.points.at<K>(k);
+            add(point, geometry.template operator()<K>(point), forces.normal[k], frame_.shear_force[k]);
+        }
+    });
+    const std::size_t bonds = test_.setup.bonds.points.size();
+    int loose = 0, sharing = 0;
+    visit_kinds(frame_.loose.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            const LooseContact& contact = frame_.loose.contacts[k];
+            add(contact.point, geometry.template operator()<K>(contact.point), forces.normal[bonds + k],
+                contact.shear_force);
+            ++loose;
+        }
+    });
+    for (const BrokenFace& face : world.faces.broken) sharing += face.taken > 0.0 && face.taken < 1.0;
+    fmt::print("  {} points press, {} broken faces share with points\n", loose, sharing);
+    ASSERT_GT(loose, 10);
+    double off = 0.0;
+    for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
+        if (world.bodies.inertia[b].inverse_mass_y == 0.0 || pressed[b] == 0.0) continue;
+        off = std::max(off, norm(sum[b] - Vec2{world.bodies.force[b].fx, world.bodies.force[b].fy}) / pressed[b]);
+    }
+    EXPECT_TRUE(within("force on a grain, of the forces that press it", off, 0.0, 1e-9));
 }
 
 // Springs of 1 GPa/m and a face of 2 m: a turn of 1e-3 makes 1 MPa/m.

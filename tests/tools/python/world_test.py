@@ -218,6 +218,40 @@ print("looked")
         self.assertEqual((done.returncode, done.stdout), (0, "looked\n"), done.stderr)
 
 
+class Faces(InScratch):
+    def test_faces_add_up_to_the_force_on_each_grain(self):
+        world = crackle.World({
+            "packing": {"width": 0.02, "height": 0.03, "radius_min": 1e-3, "radius_max": 1.5e-3, "mean_overlap": 1e-6},
+            "mesh": {"kind": "voronoi"},
+            "material": {"density": 2600.0, "units": "area", "youngs_modulus": 70e9, "poissons_ratio": 0.25, "stiffness_ratio": 1.6,
+                         "friction_angle": 40.0, "tensile_strength": 10e6, "cohesion": 40e6, "damping_ratio": 0.0},
+            "bond": {"law": "face"},
+            "loading": {"kind": "tension", "axial_strain_rate": 1.0, "max_axial_strain": 0.01}})
+        self.assertEqual(len(world.contacts()), 0)
+        world.platen_speed = 20.0  # m/s, of which some faces break
+        while world.bonds_broken < 5:
+            world.step(100)
+        faces, bodies = world.faces(), world.bodies
+        self.assertEqual(len(faces), world.bonds_initial)
+        self.assertEqual((~faces["bonded"]).sum(), world.bonds_broken)
+        normal = numpy.stack([faces["normal"]["x"], faces["normal"]["y"]], axis=1)
+        force = faces["shear_force"][:, None] * normal[:, ::-1] * [-1, 1] - faces["normal_force"][:, None] * normal
+        arm = numpy.stack([faces["position"]["x"], faces["position"]["y"]], axis=1)
+        total, torque = numpy.zeros((len(bodies), 2)), numpy.zeros(len(bodies))
+        for body, sign in ((faces["body_i"], 1), (faces["body_j"], -1)):
+            numpy.add.at(total, body, sign * force)
+            away = arm - numpy.stack([bodies["x"][body], bodies["y"][body]], axis=1)
+            numpy.add.at(torque, body, sign * (away[:, 0] * force[:, 1] - away[:, 1] * force[:, 0] + faces["moment"]))
+        largest = numpy.abs(force).max()
+        self.assertGreater(largest, 1e3)
+        for got, expected, scale in ((total[:, 0], world.forces["fx"], 1.0), (total[:, 1], world.forces["fy"], 1.0),
+                                     (torque, world.forces["torque"], 0.02)):
+            self.assertLess(numpy.abs(got - expected).max() / scale / largest, 1e-9)
+
+    def test_a_world_of_discs_has_no_faces(self):
+        self.assertEqual(len(crackle.World(CASE).faces()), 0)
+
+
 class Changes(InScratch):
     def unbonded(self):
         """@return world of a packing, ids of the two discs with the largest overlap, their contact"""
