@@ -325,6 +325,7 @@ class Bonder {
     void leave_broken(FaceIndex k) {
         BrokenFace face;
         face.face = k;
+        face.closed_joint = bonding_.pressed && parted_[k];
         face.last.half_lap = 0.5 * faces_.springs[k].length;
         faces_.broken_at[k] = static_cast<FaceIndex>(faces_.broken.size());
         faces_.broken.push_back(face);

@@ -62,6 +62,8 @@ struct FaceBonding {
     double platen_friction = 0.0;  ///< tan φ of PlatenFaces::rubbing
     /// Returns whether the faces between two bodies start broken, without cohesion. If not set, all faces start intact.
     std::function<bool(BodyIndex i, BodyIndex j)> leaves;
+    /// Whether loading presses open joints together. The linear solution then counts their faces as intact.
+    bool pressed = false;
     /// Returns whether the face at a position between two bodies never breaks. If not set, all faces can break.
     std::function<bool(Vec2 position, BodyIndex i, BodyIndex j)> holds;
     double least_distance_share = 0.2;  ///< least distance between two reference points, relative to the mean distance

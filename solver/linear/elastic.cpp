@@ -248,7 +248,7 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
             if (held[3 * std::size_t{p.body} + static_cast<std::size_t>(d)])
                 component(solution.displacement[p.body], d) = component(p.motion, d);
     const std::vector<Spring> springs = springs_between_bodies(world, closed);
-    const LinearRows rows = face_rows(world);
+    const LinearRows rows = face_rows(world, FacesWithRows::intact);
     const ScaledSystem system(world, springs, rows, held);
     solution.unknowns = system.stiffness().rows();
     if (solution.unknowns > 0) {
@@ -271,8 +271,8 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
 
 FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& held_bodies, ClosedPoints closed) {
     const std::vector<bool> held = held_freedoms(world, held_bodies);
-    const ScaledSystem system(world, symmetric_majorant(world, springs_between_bodies(world, closed)), face_rows(world),
-                              held);
+    const ScaledSystem system(world, symmetric_majorant(world, springs_between_bodies(world, closed)),
+                              face_rows(world, FacesWithRows::intact), held);
     FreeMotions free;
     if (system.stiffness().rows() == 0) return free;
     world.workers.hear();

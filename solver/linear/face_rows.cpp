@@ -28,9 +28,28 @@ MotionGradients gradients_of(const World& world, FaceIndex k) {
             {0.0, 0.0, -1.0, 0.0, 0.0, 1.0}};
 }
 
+bool has_rows(const Faces& faces, FaceIndex k, FacesWithRows which) {
+    const FaceIndex broken = faces.broken_at[k];
+    return which == FacesWithRows::all || broken == no_face || faces.broken[broken].closed_joint;
+}
+
+/// Pressure per unit of A e of a cell, whose faces without rows are free to move.
+double per_area_of(const Faces& faces, BodyIndex b, FacesWithRows which) {
+    const double own = faces.cells[b].per_area;
+    double yields = 0.0;  // Σ s² L²/k_n
+    for (std::uint32_t n = faces.first_face[b]; n < faces.first_face[b + 1]; ++n) {
+        const FaceIndex k = faces.face_ends[n] / 2;
+        if (has_rows(faces, k, which)) continue;
+        const FaceSprings& s = faces.springs[k];
+        const double share = s.length * ((faces.face_ends[n] & 1) != 0 ? s.share_j : s.share_i);
+        yields += share * share / s.normal;
+    }
+    return own / (1.0 + own * yields);
+}
+
 }  // namespace
 
-LinearRows face_rows(const World& world) {
+LinearRows face_rows(const World& world, FacesWithRows which) {
     const Faces& faces = world.faces;
     LinearRows result;
     std::vector<MotionGradients> gradients;
@@ -60,6 +79,7 @@ LinearRows face_rows(const World& world) {
                                static_cast<std::uint32_t>(result.entries.size() - first)});
     };
     for (FaceIndex k = 0; k < faces.size(); ++k) {
+        if (!has_rows(faces, k, which)) continue;
         const FaceSprings& s = faces.springs[k];
         const FaceDashpots c = faces.damped() ? faces.dashpots[k] : FaceDashpots{};
         const auto add = [&](const std::array<double, 6>& row, double stiffness, double damping) {
@@ -76,12 +96,13 @@ LinearRows face_rows(const World& world) {
         const std::size_t first = result.entries.size();
         for (std::uint32_t n = faces.first_face[b]; n < faces.first_face[b + 1]; ++n) {
             const FaceIndex k = faces.face_ends[n] / 2;
+            if (!has_rows(faces, k, which)) continue;
             const bool is_j = (faces.face_ends[n] & 1) != 0;
             const FaceSprings& s = faces.springs[k];
             add_entries(k, gradients[k].opening, s.length * (is_j ? s.share_j : s.share_i));
             add_entries(k, gradients[k].sliding, s.length * (is_j ? -s.skew_j : s.skew_i));
         }
-        end_row(first, faces.cells[b].per_area, 0.0);
+        if (result.entries.size() > first) end_row(first, per_area_of(faces, b, which), 0.0);
     }
     return result;
 }
@@ -99,6 +120,7 @@ std::vector<FaceForces> face_force_rates(const World& world, const std::vector<B
                 sum += row[a] * component(motion[a < 3 ? i : j], static_cast<int>(a % 3));
             return sum;
         };
+        if (!has_rows(faces, k, FacesWithRows::intact)) continue;
         of_face[k] = {{}, times(gradients.opening), times(gradients.sliding), times(gradients.turn)};
         const FaceSprings s = faces.springs[k];
         dilation[i] += s.length * (s.share_i * of_face[k].opening + s.skew_i * of_face[k].sliding);
@@ -109,9 +131,13 @@ std::vector<FaceForces> face_force_rates(const World& world, const std::vector<B
     for (FaceIndex k = 0; k < faces.size(); ++k) {
         const auto [i, j] = faces.bodies[k];
         const FaceSprings s = faces.springs[k];
-        const double p_i = faces.cells[i].per_area * dilation[i], p_j = faces.cells[j].per_area * dilation[j];
-        forces.push_back(
-            intact_forces(s, of_face[k], s.share_i * p_i + s.share_j * p_j, s.skew_i * p_i - s.skew_j * p_j));
+        const auto pressure = [&](BodyIndex b) { return per_area_of(faces, b, FacesWithRows::intact) * dilation[b]; };
+        const double p_i = pressure(i), p_j = pressure(j);
+        if (has_rows(faces, k, FacesWithRows::intact))
+            forces.push_back(
+                intact_forces(s, of_face[k], s.share_i * p_i + s.share_j * p_j, s.skew_i * p_i - s.skew_j * p_j));
+        else
+            forces.push_back({});
     }
     return forces;
 }

@@ -11,7 +11,7 @@ namespace crackle {
 MassScaled::MassScaled(const World& world, ClosedPoints which)
     : while_solving_(world.workers.while_solving),
       springs_(symmetric_majorant(world, springs_of(world, which))),
-      rows_(face_rows(world)) {
+      rows_(face_rows(world, FacesWithRows::all)) {
     number_.resize(3 * world.bodies.size(), -1);
     const auto take = [&](std::size_t dof, double inverse) {
         if (inverse == 0.0) return;

@@ -368,8 +368,8 @@ void add_membrane(World& world, double pressure, double probe, BodyIndex bottom,
     wrap_membrane(world);
     if (membrane.points.empty()) {
         throw InputError(fmt::format(
-            "membrane: found gaps through which a disc of radius {:.3g} m passes through the specimen, expected closed "
-            "sides around which the membrane can be wrapped; pack the specimen more densely",
+            "membrane: found gaps that let a disc of radius {:.3g} m pass through the specimen, expected sides that "
+            "are closed to it; pack the specimen more densely",
             probe));
     }
     velocities_changed(world);

@@ -29,7 +29,7 @@
 namespace crackle {
 
 // Increment this number when a field is added to a group, removed or moved.
-constexpr std::uint32_t checkpoint_version = 26;
+constexpr std::uint32_t checkpoint_version = 27;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 template <class Archive>

@@ -156,18 +156,19 @@ struct BrokenState {
 /// State of a broken face that persists from step to step.
 struct BrokenFace {
     FaceIndex face = no_face;
-    bool in_shear = false;  // how it failed
-    bool alone = true;      // whether the neighbour list omits the points between its bodies (faces/hand_over.hpp)
-    bool retired = false;   // whether contact points have replaced it for good, unless its edges part (hand_over.hpp)
-    double slip = 0.0;      // u_p, m
-    double slipped = 0.0;   // Σ|Δu_p|, m
-    double glued = 0.0;     // b_c, m: smallest closed length since failure in shear; 0 after failure in tension
-    double held = 0.0;      // 1 - D, remaining share of an intact face's tension
-    double energy = 0.0;    // J, stored in the face
-    double taken = 0.0;     // 1 - q, the share that contact points have taken over (faces/hand_over.hpp)
-    BrokenState last;       // state in the last force pass
+    bool in_shear = false;      // how it failed
+    bool closed_joint = false;  // whether the linear solution counts the face as intact (Bonding::pressed)
+    bool alone = true;          // whether the neighbour list omits the points between its bodies (faces/hand_over.hpp)
+    bool retired = false;  // whether contact points have replaced it for good, unless its edges part (hand_over.hpp)
+    double slip = 0.0;     // u_p, m
+    double slipped = 0.0;  // Σ|Δu_p|, m
+    double glued = 0.0;    // b_c, m: smallest closed length since failure in shear; 0 after failure in tension
+    double held = 0.0;     // 1 - D, remaining share of an intact face's tension
+    double energy = 0.0;   // J, stored in the face
+    double taken = 0.0;    // 1 - q, the share that contact points have taken over (faces/hand_over.hpp)
+    BrokenState last;      // state in the last force pass
 
-    CRACKLE_FIELDS(face, in_shear, alone, retired, slip, slipped, glued, held, energy, taken, last);
+    CRACKLE_FIELDS(face, in_shear, closed_joint, alone, retired, slip, slipped, glued, held, energy, taken, last);
 };
 
 /// Pressure, energies and opening where the two edges of a broken face touch, for a given pressure p̄ of its cells.

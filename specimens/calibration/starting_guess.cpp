@@ -13,8 +13,12 @@
 namespace crackle {
 namespace {
 
-constexpr double intact_share = 0.61, fall_with_scatter = 1.5, share_of_bonds_strength = 0.7;
-constexpr double degrees_per_m = 1.1, steepest_friction = 45.0;
+/// Constants of the formulas in the header.
+struct Formulas {
+    double intact_share, fall_with_scatter, share_of_bonds_strength;
+    double degrees_without_m, degrees_per_m, steepest_friction;
+};
+constexpr Formulas of_points{0.61, 1.5, 0.7, 0.0, 1.1, 45.0}, of_faces{0.745, 1.85, 0.65, 20.0, 1.3, 50.0};
 
 /// Strengths and pressure in Pa, and Hoek and Brown's m, as known from the targets.
 struct Known {
@@ -67,6 +71,7 @@ std::vector<double> starting_values(const Rock& rock) {
     for (std::size_t test = 0; test < rock.tests.size(); ++test) tests.push_back(rock.case_of(test, starts));
     if (!std::ranges::all_of(tests, is_known_kind)) return starts;
     const Known known = known_values(rock, tests);
+    const Formulas& formulas = tests.front().bond.facts().by_faces ? of_faces : of_points;
     const auto index_of = [&](std::string_view key) {
         return static_cast<std::size_t>(std::ranges::find(rock.free, key, &FreeKey::key) - rock.free.begin());
     };
@@ -76,17 +81,19 @@ std::vector<double> starting_values(const Rock& rock) {
         const double base = rock.free[k].of.empty() ? 1.0 : starts[index_of(rock.free[k].of)];
         starts[k] = std::clamp(*guess / base, rock.free[k].from, rock.free[k].to);
     };
-    if (known.m) start_at("material.friction_angle", std::min(degrees_per_m * *known.m, steepest_friction));
+    if (known.m)
+        start_at("material.friction_angle",
+                 std::min(formulas.degrees_without_m + formulas.degrees_per_m * *known.m, formulas.steepest_friction));
     const std::size_t friction = index_of("material.friction_angle");
     const double degrees =
         friction < rock.free.size() ? starts[friction] : tests.front().material.friction_angle.value_or(0.0);
     const double phi = degrees * std::numbers::pi / 180.0;
     const std::optional<parts::RandomStrengths>& random = tests.front().bond.random;
-    const double share = intact_share * std::exp(-fall_with_scatter * (random ? random->cv : 0.0));
+    const double share = formulas.intact_share * std::exp(-formulas.fall_with_scatter * (random ? random->cv : 0.0));
     if (known.tension) start_at("material.tensile_strength", *known.tension / share);
     if (known.compression)
         start_at("material.cohesion",
-                 *known.compression * (1.0 - std::sin(phi)) / (2.0 * share_of_bonds_strength * std::cos(phi)));
+                 *known.compression * (1.0 - std::sin(phi)) / (2.0 * formulas.share_of_bonds_strength * std::cos(phi)));
     return starts;
 }
 

@@ -95,14 +95,20 @@ void find_deepest_corner(TestCheck& check, const ElasticAnalysis& analysis, cons
     }
 }
 
-/// Mean friction angle over the bonded points, degrees: from the failure envelope for bonds that break in shear,
-/// otherwise from the contacts.
+/// Mean friction angle over the bonded points and the intact faces that can break, degrees. For bonds that break in
+/// shear it is that of the failure envelope (of faces below the knee), otherwise that of the contacts.
 double bond_friction_angle(const World& world) {
     double sum = 0.0, count = 0.0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if ((world.points.state[k].flags & point_bonded) == 0) continue;
         const ContactLaw& law = world.settings.laws[world.points.state[k].law];
         sum += std::atan(law.*facts_of(world.settings.bond_law).friction);
+        count += 1.0;
+    }
+    for (FaceIndex k = 0; k < world.faces.size(); ++k) {
+        const FaceLaw& law = world.faces.law_of(k);
+        if (world.faces.broken_at[k] != no_face || std::isinf(law.cohesion)) continue;
+        sum += std::atan(law.friction);
         count += 1.0;
     }
     return sum / std::max(count, 1.0) * 180.0 / std::numbers::pi;

@@ -43,7 +43,7 @@ struct DiscOutlook {
     /// Ratio of compressive to tensile strength, both estimated from linear solutions of the whole packing.
     double strength_ratio = 0.0;
     double factor = 1.0;          ///< possible error of the ratio, as a factor
-    double friction_angle = 0.0;  // degrees, mean over bonded points
+    double friction_angle = 0.0;  // degrees, mean over bonded points and faces
     double needed = 0.0;          ///< required ratio, 3 + N
 
     /// Empty if the estimate is too rough to decide.

@@ -37,10 +37,19 @@ struct Column {
     double factor;
 };
 
-/// Unit that follows the name in the heading of a column: "MPa" of "axial_stress (MPa)". Empty if there is none.
+/// Whether a heading begins with a name, in capital or small letters, and with spaces or underscores between words.
+bool begins_with(std::string_view heading, std::string_view name) {
+    const auto same = [](char in_heading, char in_name) {
+        return in_heading == in_name || (in_heading == ' ' && in_name == '_') ||
+               (in_heading >= 'A' && in_heading <= 'Z' && in_heading - 'A' + 'a' == in_name);
+    };
+    return heading.size() >= name.size() && std::ranges::equal(heading.substr(0, name.size()), name, same);
+}
+
+/// Unit that follows the name in the heading of a column: "MPa" of "Axial stress (MPa)". Empty if there is none.
 /// @return nullopt if the column has another name
 std::optional<std::string_view> unit_after(std::string_view name, std::string_view heading) {
-    if (!heading.starts_with(name)) return std::nullopt;
+    if (!begins_with(heading, name)) return std::nullopt;
     heading.remove_prefix(name.size());
     heading.remove_prefix(std::min(heading.find_first_not_of(' '), heading.size()));
     if (heading.empty()) return heading;
@@ -103,8 +112,7 @@ std::optional<Quantity> quantity_of(const std::optional<Column>& itself, const s
 StrainsAndStresses read_measured_curve(const std::filesystem::path& file) {
     constexpr const char* expected =
         "columns axial_strain and axial_stress, with their names in the first line and their units in parentheses, "
-        "such "
-        "as axial_stress (MPa), or displacement, length, force and area in their place";
+        "such as axial_stress (MPa), or displacement, length, force and area in their place";
     const std::string text = read_text(file, most_bytes_of_table);
     refuse_foreign(file.string(), text, fmt::format("a table with {}", expected));
     TableReader reader(file.string(), text, TableReader::Form::table);
@@ -125,6 +133,14 @@ StrainsAndStresses read_measured_curve(const std::filesystem::path& file) {
     if (points.size() < 2) {
         throw InputError(fmt::format("{}: found {} row{} with strain and stress, expected two or more", file.string(),
                                      points.size(), points.size() == 1 ? "" : "s"));
+    }
+    const auto stress_of = [](const auto& point) { return point.second; };
+    const auto [lowest, highest] = std::ranges::minmax(points, {}, stress_of);
+    if (-lowest.second > highest.second) {
+        throw InputError(
+            fmt::format("{}: found stresses down to {:.4g} Pa, expected stresses that are positive in the direction of "
+                        "loading, compression in a compression test; change their signs",
+                        file.string(), lowest.second));
     }
     return points;
 }

@@ -112,7 +112,7 @@ void note_loading(Notices& notices, const parts::Loading& loading, const TestSta
     }
     if (viscous_share > *tolerance) {
         notices.push_back(
-            fmt::format("when loading begins, dashpots carry a fraction {:.2g} of the largest stress, which exceeds "
+            fmt::format("when loading begins, dashpots carry {:.2g} of the largest stress, more than "
                         "loading.rate_tolerance = {}; lower the tolerance or the damping",
                         viscous_share, *tolerance));
     }

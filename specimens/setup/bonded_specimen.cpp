@@ -147,6 +147,7 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const parts::Bonds& bonds
         faces.holds = bonding.holds;
         if (test.numerics.intact) faces.holds = [](Vec2, BodyIndex, BodyIndex) { return true; };
         faces.leaves = bonding.leaves;
+        faces.pressed = bonding.pressed;
         bond_faces_of(bonded.world, test.places, faces);
     } else {
         bond(bonded.world, test.places, bonding);

@@ -80,9 +80,9 @@ CRACKLE_FIGURES(
      {{"bound on the stable time step when the bonds were made. It is exact for the symmetric matrix that bounds the "
        "contact law's unsymmetric stiffness",
        "if `numerics.contact_law` is `demseg` or `demseg_mean`"},
-      {"lower bound on the exact stability limit of the time step when the bonds were made. It is within 2 % of that "
-       "limit; the matrix is too large to factorise",
-       "for specimens with more than 100,000 free bodies"}}),
+      {"stable time step when the bonds were made, at most 2 % below the exact limit, for the matrix is too large to "
+       "factorise",
+       "for specimens with more than 100,000 free bodies, or 10,000 bonded by faces"}}),
     (Number, time_step_over_stable, "-",
      "time_step divided by stable_time_step. Unless numerics.time_step is given, it is at most "
      "numerics.safety_factor, and smaller if time_step_bound requires a shorter step"),

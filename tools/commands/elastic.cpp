@@ -169,9 +169,9 @@ std::string elastic_as_json(const VirtualTest& test, const ElasticAnalysis& a,
     if (compliance) json["compliance"] = compliance_as_json(*compliance);
     const std::string stress = test.description.stress_unit();
     json["units"] = {
-        {"youngs_modulus",
-         stress + ", at small strain, with all bonds intact and no slip; replaced by nominal_modulus for tests without "
-                  "platens, which is stress divided by strain as the kind of test defines them"},
+        {"youngs_modulus", stress + ", at small strain, with all bonds intact and no slip. Tests without platens have "
+                                    "nominal_modulus instead: "
+                                    "stress divided by strain, as the kind of test defines them"},
         {"poissons_ratio", "-, from the lateral strain as defined for the curve"},
         {"stable_time_step",
          "s, exact stability limit: 4M - 2dt C - dt^2 K is positive definite below it, as a Cholesky factorisation "

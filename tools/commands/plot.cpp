@@ -99,9 +99,7 @@ void write_figure(const fs::path& file, const std::vector<Panel>& panels, const 
     if (!messages.quiet()) print_text(file.string() + '\n');
 }
 
-std::string strain_text(double strain) {
-    return strain == 0.0 ? "ε = 0" : fmt::format("ε = {:.3g}·10⁻³", 1e3 * strain);
-}
+std::string strain_text(double strain) { return strain == 0.0 ? "ε = 0" : fmt::format("ε = {:.3g} ‰", 1e3 * strain); }
 
 /// @param asked the requested moments; if empty, start, peak and end, each frame drawn only once
 /// @param forces whether the forces of faces are drawn

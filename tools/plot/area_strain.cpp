@@ -122,7 +122,7 @@ Panel area_strain(const std::vector<PlottedTest>& tests) {
             canvas.circle(mark, 1.5, &white, &colour_of(tests.front()), 0.7 * curve_width);
             canvas.text({mark.x, mark.y + 3.0}, crack_damage_sign, Across::centre, Down::top, 0.75, ink);
         }
-        axes.draw(canvas, strain_title, "area strain, 10⁻³");
+        axes.draw(canvas, strain_title, "area strain, ‰");
     };
     return panel;
 }

@@ -27,7 +27,7 @@ struct Histogram {
     std::vector<int> tension, shear;
     int most = 0;
 
-    std::string interval() const { return fmt::format("Δε = {:.6g}·10⁻³", width / strain_unit); }
+    std::string interval() const { return fmt::format("Δε = {:.6g} ‰", width / strain_unit); }
 };
 
 /// Interval width of the form 1, 2 or 5 times a power of ten, with at most 60 intervals in the range.
@@ -276,7 +276,7 @@ void draw_inset(Canvas& canvas, const Rect& place, const std::vector<PlottedTest
     canvas.text({axes.frame.x + 0.5 * axes.frame.width, place.y}, tests.front().results->summary.about.kind.name(),
                 Across::centre, Down::top, small_text, ink);
     draw_curves(canvas, axes, tests, unit.factor);
-    axes.draw(canvas, "10⁻³", unit.name);
+    axes.draw(canvas, strain_unit_title, unit.name);
 }
 
 }  // namespace

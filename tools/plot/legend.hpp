@@ -14,8 +14,8 @@
 namespace crackle::plot {
 
 inline constexpr double strain_unit = 1e-3;
-inline constexpr const char* strain_title = "axial strain, 10⁻³";
-inline constexpr const char* strain_unit_title = "10⁻³";
+inline constexpr const char* strain_title = "axial strain, ‰";
+inline constexpr const char* strain_unit_title = "‰";
 inline constexpr double curve_width = 0.9;  // pt
 /// Symbols for the crack initiation stress and the crack damage stress. <sub> is not used, because Pango would reset
 /// its text size.

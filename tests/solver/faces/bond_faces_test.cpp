@@ -27,6 +27,12 @@ TEST(BondFaces, FindNoOffsetBetweenSeedsOfVoronoiCells) {
     for (FaceIndex k = 0; k < faces.size(); ++k)
         error = std::max(error, std::abs(faces.springs[k].share_i + faces.springs[k].share_j - 1.0));
     EXPECT_TRUE(within("sum of both shares", 1.0 + error, 1.0, 1e-14));
+    const Faces softer = bond_faces(cells.world, elastic_rock(cells, CellBox{}.gap, 0.26, 0.625));
+    double ratio_error = 0.0;
+    for (FaceIndex k = 0; k < softer.size(); ++k)
+        if (!softer.springs[k].at_rigid())
+            ratio_error = std::max(ratio_error, std::abs(softer.springs[k].shear / softer.springs[k].normal - 0.625));
+    EXPECT_TRUE(within("k_t/k_n - 0.625", ratio_error, 0.0, 1e-14));
     EXPECT_GT(quality.slowest_lag, 0.7);
 }
 
@@ -58,6 +64,7 @@ TEST(BondFaces, PutTwoRocksInSeries) {
     EXPECT_TRUE(agrees("k_n of two rocks", of(1).normal, 1.0 / (0.6 / other + 0.8 / one), 1e-14));
     const double softer = std::max(of(1).share_i, of(1).share_j);
     EXPECT_TRUE(agrees("share of the softer cell", softer, (0.8 / one) / (0.6 / other + 0.8 / one), 1e-14));
+    EXPECT_TRUE(agrees("sum of both shares", of(1).share_i + of(1).share_j, 1.0, 1e-14));
     EXPECT_TRUE(agrees("k_n at a driven body", of(3).normal, one / 0.2, 1e-14));
     EXPECT_EQ(of(3).shear, 0.0);
 }

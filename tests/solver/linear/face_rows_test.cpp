@@ -33,15 +33,15 @@ TEST(FacesInTheSolve, GiveTheModulusForTrianglesWhoseDistancesHaveAFloor) {
     EXPECT_TRUE(agrees("Young's modulus", -solution.reaction[1].y / shortening, 1.0, 0.02));
 }
 
-TEST(FaceRows, AreTheForcesOfSmallMotions) {
-    CellBox box{.columns = 5, .rows = 5};
-    CellWorld cells = build_box(box);
-    cells.world.faces = bond_faces(cells.world, elastic_rock(cells, box.gap, 0.26, 1.0 / 1.6));
-    const LinearRows rows = face_rows(cells.world);
+/// Compares the forces of the rows for small motions with those of the force pass. @param moved displacement of all
+/// bodies to the right of the middle, m
+void expect_the_forces_of_rows(CellWorld& cells, FacesWithRows which, double middle, double moved) {
+    const LinearRows rows = face_rows(cells.world, which);
     std::vector<BodyMotion> motion;
     constexpr double small = 1e-8;
     for (BodyIndex b = 0; b < cells.world.bodies.size(); ++b)
-        motion.push_back({small * std::sin(3.0 * b), small * std::cos(5.0 * b), small * std::sin(7.0 * b)});
+        motion.push_back({small * std::sin(3.0 * b) + (cells.world.bodies.state[b].x > middle ? moved : 0.0),
+                          small * std::cos(5.0 * b), small * std::sin(7.0 * b)});
     std::vector<BodyMotion> expected(motion.size());
     for (const LinearRow& row : rows.rows) {
         const double stretch = row.stiffness * rows.times(row, motion);
@@ -65,6 +65,30 @@ TEST(FaceRows, AreTheForcesOfSmallMotions) {
                           std::abs(got.torque - expected[b].rotation)});
     }
     EXPECT_TRUE(within("force less that of the rows, of the largest", error / scale, 0.0, 1e-6));
+}
+
+TEST(FaceRows, AreTheForcesOfSmallMotions) {
+    CellBox box{.columns = 5, .rows = 5};
+    CellWorld cells = build_box(box);
+    cells.world.faces = bond_faces(cells.world, elastic_rock(cells, box.gap, 0.26, 1.0 / 1.6));
+    expect_the_forces_of_rows(cells, FacesWithRows::all, 0.0, 0.0);
+}
+
+// A cut through the middle, as a notch, whose faces open by ten times the other motions. Without pressures: kappa is
+// (1 - 3ν)/(1 + ν).
+TEST(FaceRows, LeaveOutFacesThatStartBroken) {
+    CellBox box{.columns = 6, .rows = 5};
+    CellWorld cells = build_box(box);
+    double middle = 0.0;
+    for (const BodyState& body : cells.world.bodies.state)
+        middle += body.x / static_cast<double>(cells.world.bodies.size());
+    FaceBonding bonding = elastic_rock(cells, box.gap, 0.26, (1.0 - 3.0 * 0.26) / 1.26);
+    bonding.leaves = [&](BodyIndex i, BodyIndex j) {
+        return (cells.world.bodies.state[i].x > middle) != (cells.world.bodies.state[j].x > middle);
+    };
+    cells.world.faces = bond_faces(cells.world, bonding);
+    ASSERT_GT(cells.world.faces.broken.size(), 3U);
+    expect_the_forces_of_rows(cells, FacesWithRows::intact, middle, 1e-6);
 }
 
 }  // namespace

@@ -50,11 +50,15 @@ class StartingGuess : public ::testing::Test {
 
 // A search takes steps of a third, so a guess within a factor of 1.5 is one or two rounds away.
 TEST_F(StartingGuess, OfStrengthsIsNearTheKeysOfTheShippedRocks) {
-    for (const auto& [name, compression, tension] :
-         {std::tuple{"granite", 200e6, 9.3e6}, {"sandstone", 60e6, 4.0e6}, {"marble", 85e6, 6.5e6}}) {
+    for (const auto& [name, compression, tension] : {std::tuple{"granite", 200e6, 9.3e6},
+                                                     {"sandstone", 60e6, 4.0e6},
+                                                     {"marble", 85e6, 6.5e6},
+                                                     {"faces/granite", 200e6, 9.3e6},
+                                                     {"faces/sandstone", 60e6, 4.0e6},
+                                                     {"faces/marble", 85e6, 6.5e6}}) {
         const Rock rock = rock_of(tests_of(name) + target_text("compression", "peak_stress", compression) +
                                   target_text("tension", "peak_stress", tension) +
-                                  free_text("tensile_strength", 1e5, 1e9) + free_text("cohesion", 0.9, 90, ratio_));
+                                  free_text("tensile_strength", 1e5, 1e9) + free_text("cohesion", 1.2, 120, ratio_));
         const std::vector<double> starts = starting_values(rock);
         const parts::Material& calibrated = rock.tests[0].files.with({}).material;
         const double tensile = calibrated.tensile_strength.value(), cohesion = calibrated.cohesion.value();
@@ -76,6 +80,18 @@ TEST_F(StartingGuess, OfFrictionFollowsFromTheStrengthUnderPressure) {
     const Rock weak = rock_of(tests_of("sandstone") + target_text("compression", "peak_stress", 60e6) +
                               target_text("confined", "largest_stress", 90e6) + keys);
     EXPECT_EQ(starting_values(weak)[0], 33.0) << "not below its bound";
+}
+
+TEST_F(StartingGuess, OfTheFrictionOfFacesIsNearThatOfTheShippedRocks) {
+    for (const auto& [name, ucs, m] :
+         {std::tuple{"granite", 200e6, 30.0}, {"sandstone", 60e6, 17.0}, {"marble", 85e6, 9.0}}) {
+        const double strength = 10e6 + std::sqrt(m * ucs * 10e6 + ucs * ucs);
+        const Rock rock =
+            rock_of(tests_of(std::string("faces/") + name) + target_text("compression", "peak_stress", ucs) +
+                    target_text("confined", "largest_stress", strength) + free_text("friction_angle", 20, 60));
+        const double calibrated = rock.tests[0].files.with({}).material.friction_angle.value();
+        EXPECT_TRUE(agrees(std::string(name) + ", friction angle, degrees", starting_values(rock)[0], calibrated, 0.1));
+    }
 }
 
 TEST_F(StartingGuess, LeavesWhatIsGivenAndWhatIsNotKnown) {

@@ -104,7 +104,7 @@ TEST(TestCheck, SaysWhereANumberLooksLikeAnotherUnit) {
     EXPECT_EQ(points.find("may end before"), std::string::npos) << points;
 }
 
-/// Judges the effect of platens on the corners they touch. Bonds have a friction angle of 40 degrees, broken bonds 30.
+/// Judges the effect of platens on the corners they touch. Bonds have a friction angle of 50 degrees, broken bonds 15.
 TEST(TestCheck, ADiscIsJudgedByTheFrictionOfItsBonds) {
     const testing::ScratchFolder scratch;
     std::ofstream(scratch / "case.toml") << "include = \"" CRACKLE_SOURCE_DIR
@@ -112,8 +112,8 @@ TEST(TestCheck, ADiscIsJudgedByTheFrictionOfItsBonds) {
                                             "[packing]\nwidth = 0.02\nheight = 0.02\n";
     const TestCheck check = check_test(read_case(scratch / "case.toml"));
     ASSERT_TRUE(check.disc.has_value());
-    EXPECT_TRUE(agrees("friction angle", check.disc->friction_angle, 40.0, 1e-12));
-    const double sine = std::sin(40.0 * std::numbers::pi / 180.0);
+    EXPECT_TRUE(agrees("friction angle", check.disc->friction_angle, 50.0, 1e-12));
+    const double sine = std::sin(50.0 * std::numbers::pi / 180.0);
     EXPECT_TRUE(agrees("3 + N", check.disc->needed, 3.0 + (1.0 + sine) / (1.0 - sine), 1e-12));
 }
 

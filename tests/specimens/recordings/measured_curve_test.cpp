@@ -38,6 +38,7 @@ TEST_F(MeasuredCurve, UnitsInTheHeadingAreConverted) {
     const StrainsAndStresses expected{{0.0, 0.0}, {0.0025, 180e6}};
     expect_points(read("axial_strain,axial_stress\n0,0\n0.0025,180e6\n"), expected);
     expect_points(read("axial_strain (%),axial_stress (MPa)\n0,0\n0.25,180\n"), expected);
+    expect_points(read("Axial strain (%),Axial Stress (MPa)\n0,0\n0.25,180\n"), expected);
     expect_points(read("time,axial_stress [kPa],axial_strain [‰]\n0,0,0\n1,180000,2.5\n"), expected);
 }
 
@@ -54,6 +55,9 @@ TEST_F(MeasuredCurve, UnknownUnitsAndMissingColumnsAreRefused) {
     EXPECT_NE(refused("axial_strain,axial_stress (ksi)\n0,0\n1,1\n")
                   .find("found the unit 'ksi' of axial_stress, expected one of Pa, kPa, MPa"),
               std::string::npos);
+    EXPECT_NE(
+        refused("axial_strain (%),axial_stress (MPa)\n0,0\n-0.1,-12\n").find("found stresses down to -1.2e+07 Pa"),
+        std::string::npos);
     EXPECT_NE(refused("strain,stress\n0,0\n1,1\n").find("expected columns axial_strain and axial_stress"),
               std::string::npos);
     EXPECT_NE(refused("axial_strain,axial_strain (%),axial_stress\n0,0,0\n1,1,1\n").find("two columns axial_strain"),
