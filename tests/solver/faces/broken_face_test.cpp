@@ -51,6 +51,22 @@ TEST(BrokenFace, ABreakNeverSetsEnergyFree) {
     EXPECT_TRUE(within("least energy of 40,000 breaks, J", least, 0.0, 1e-15));
 }
 
+// A face that opens, beside a cell whose other faces give it the dilation e0 = 0.1. Before the break p = P (e0 + s L
+// δ). After it the open face moves by q with k q + L s p = 0, so p = P e0 k/(k + P s² L²).
+TEST(BrokenFace, ABreakReleasesWhatTheCellsPressureLoses) {
+    const FaceSprings s{2.0, 1.0, 1.5, 0.4, 0.6, 0.0, 0.0};
+    const double per_area = 3.0, others = 0.1, opening = 0.2;
+    const double before = per_area * (others + s.share_i * s.length * opening);
+    const double stiffening = per_area * s.share_i * s.share_i * s.length * s.length;
+    const double after = per_area * others * s.normal / (s.normal + stiffening);
+    const BreakResult result = break_face(0, s, rubbing(), 1.0, {{1.0, 0.0}, opening, 0.0, 0.0},
+                                          {.per_area = per_area, .pressure = before}, {}, false);
+    EXPECT_TRUE(agrees("pressure after the break", result.pressure_i, after, 1e-12));
+    const double stored = 0.5 * s.normal * opening * opening + 0.5 * before * before / per_area;
+    const double face = 0.5 * s.length * s.length / s.normal * s.share_i * s.share_i * after * after;
+    EXPECT_TRUE(agrees("energy released", result.energy, stored - face - 0.5 * after * after / per_area, 1e-12));
+}
+
 /// A cycle of openings, slides and turns, in `steps` steps. @return work less energy and losses, J
 double unaccounted(int steps, double turn) {
     const FaceSprings s = springs();
