@@ -21,18 +21,18 @@ std::string spoken_below(double value, double bound) {
     return fmt::format("{}", value);
 }
 
-std::string spoken_stress(double value, const std::string& unit, int digits) {
-    struct Prefix {
-        double factor;
-        char letter;
-    };
+SpokenUnit spoken_unit(double value, const std::string& unit, int digits) {
     // Smallest multiple of a prefix that rounds to 1 and is therefore printed with this prefix.
     const double rounded_up = 1.0 - 0.5 * std::pow(10.0, -digits);
-    for (const Prefix& prefix : {Prefix{1e9, 'G'}, Prefix{1e6, 'M'}, Prefix{1e3, 'k'}}) {
-        if (unit == "Pa" && std::isfinite(value) && std::abs(value) >= rounded_up * prefix.factor)
-            return fmt::format("{:.{}g} {}Pa", value / prefix.factor, digits, prefix.letter);
+    for (const SpokenUnit& prefixed : {SpokenUnit{1e9, "GPa"}, SpokenUnit{1e6, "MPa"}, SpokenUnit{1e3, "kPa"}}) {
+        if (unit == "Pa" && std::isfinite(value) && std::abs(value) >= rounded_up * prefixed.factor) return prefixed;
     }
-    return fmt::format("{:.{}g} {}", value, digits, unit);
+    return {1.0, unit};
+}
+
+std::string spoken_stress(double value, const std::string& unit, int digits) {
+    const SpokenUnit spoken = spoken_unit(value, unit, digits);
+    return fmt::format("{:.{}g} {}", value / spoken.factor, digits, spoken.name);
 }
 
 }  // namespace crackle

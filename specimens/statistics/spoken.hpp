@@ -17,6 +17,16 @@ std::string counted(std::size_t count, const char* noun);
 /// 20.
 std::string spoken_below(double value, double bound);
 
+/// A unit and its size in SI units.
+struct SpokenUnit {
+    double factor;
+    std::string name;
+};
+
+/// Pa with the SI prefix that suits a value: {1e9, "GPa"}; any other unit without a prefix. @param digits that are
+/// printed
+SpokenUnit spoken_unit(double value, const std::string& unit, int digits = 4);
+
 /// A stress in Pa with an SI prefix, "17.9 GPa"; in any other unit without a prefix, "5.1e+06 N/m".
 std::string spoken_stress(double value, const std::string& unit, int digits = 4);
 

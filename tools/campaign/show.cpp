@@ -36,12 +36,13 @@ void print_point(const PointSummary& point, const std::vector<std::string>& figu
               "deviation", "cv %");
     for (const std::string& figure : figures) {
         const MeanFigure& mean = point.figures.at(figure);
-        const std::string unit = mean.count > 0 ? unit_of_figure(figure, point.area_units) : "";
+        const SpokenUnit unit = spoken_unit(mean.mean, mean.count > 0 ? unit_of_figure(figure, point.area_units) : "");
+        const auto shown = [&](double value) { return printed(value / unit.factor); };
         print_out("  {:<26}{:>4}{:>12}{:>12}{:>26}{:>12}{:>8}\n",
-                  fmt::format("{}{}{}", figure, unit.empty() ? "" : " ", unit), mean.count, printed(mean.mean),
-                  printed(mean.standard_error),
-                  std::isfinite(mean.low) ? fmt::format("{:.4g} to {:.4g}", mean.low, mean.high) : "-",
-                  printed(mean.deviation),
+                  fmt::format("{}{}{}", figure, unit.name.empty() ? "" : " ", unit.name), mean.count, shown(mean.mean),
+                  shown(mean.standard_error),
+                  std::isfinite(mean.low) ? fmt::format("{} to {}", shown(mean.low), shown(mean.high)) : "-",
+                  shown(mean.deviation),
                   std::isfinite(mean.variation()) ? fmt::format("{:.1f}", 100.0 * std::abs(mean.variation())) : "-");
         const auto bias = point.biases.find(figure);
         if (bias != point.biases.end()) print_out("  {:<26}{}\n", "", verdict_on(mean, bias->second));
