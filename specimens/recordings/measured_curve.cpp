@@ -46,7 +46,7 @@ bool begins_with(std::string_view heading, std::string_view name) {
     return heading.size() >= name.size() && std::ranges::equal(heading.substr(0, name.size()), name, same);
 }
 
-/// Unit that follows the name in the heading of a column: "MPa" of "Axial stress (MPa)". Empty if there is none.
+/// Finds the unit in the heading of a column: "MPa" in "Axial stress (MPa)". It is empty if the heading has no unit.
 /// @return nullopt if the column has another name
 std::optional<std::string_view> unit_after(std::string_view name, std::string_view heading) {
     if (!begins_with(heading, name)) return std::nullopt;
