@@ -88,6 +88,11 @@ TEST(FaceRows, LeaveOutFacesThatStartBroken) {
     };
     cells.world.faces = bond_faces(cells.world, bonding);
     ASSERT_GT(cells.world.faces.broken.size(), 3U);
+    const auto rows_of = [&](FacesWithRows which) { return face_rows(cells.world, which).rows.size(); };
+    EXPECT_EQ(rows_of(FacesWithRows::intact) + 3 * cells.world.faces.broken.size(), rows_of(FacesWithRows::all));
+    for (BrokenFace& face : cells.world.faces.broken) face.closed_joint = true;  // pressed together by loading
+    EXPECT_EQ(rows_of(FacesWithRows::intact), rows_of(FacesWithRows::all));
+    for (BrokenFace& face : cells.world.faces.broken) face.closed_joint = false;
     expect_the_forces_of_rows(cells, FacesWithRows::intact, middle, 1e-6);
 }
 
