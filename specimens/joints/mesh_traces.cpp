@@ -60,7 +60,7 @@ std::vector<std::string> jointed_mesh_text(const Mesh& with, const std::vector<C
     request.traces.clear();
     std::vector<std::string> lines{
         fmt::format(
-            "joints: {:.6g} m of traces form {} edges of cells; {} centres were removed and {} points were added",
+            "joints: {:.6g} m of traces are {} edges of cells; {} centres were removed and {} points were added",
             report.trace_length, report.trace_edges, report.centres_left, report.points_added),
         shape_text(with, centres, domain, request)};
     if (report.cells_cut > 0)

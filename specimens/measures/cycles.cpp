@@ -23,6 +23,7 @@ LoadingCycle cycle_of(std::span<const CurveRow> rows, bool ended, bool compressi
     c.permanent_strain = low.axial_strain - low.axial_stress / c.modulus;
     const auto unbalanced = [](const CurveRow& row) { return 0.5 * std::abs(row.stress_top - row.stress_bottom); };
     c.modulus_error = (unbalanced(turn) + unbalanced(low)) / std::abs(turn.axial_stress - low.axial_stress);
+    c.breaks_of_unloading = low.bonds_broken - turn.bonds_broken;
     c.unbroken = rows.back().bonds_broken == 0;
     c.linear = c.unbroken && std::ranges::all_of(rows, [](const CurveRow& row) {
                    return row.bonds_slid == 0 && row.points_sliding == 0 && row.contacts_gained <= 0;

@@ -15,6 +15,10 @@
 // holds: the modulus is E and the permanent strain is 0. For other cycles the inertia error is given. It is half the
 // difference between the stresses of the two platens, summed over the start and the lowest strain, and divided by the
 // change of stress between them.
+//
+// If more than `most_breaks_of_unloading` of the bonds break between the start and the lowest strain, the stress falls
+// because the specimen fails, not because it is unloaded. Such a cycle has no modulus, and none of the values that
+// depend on it.
 // Tested by tests/specimens/measures/cycles_test.cpp.
 #pragma once
 
@@ -26,6 +30,10 @@
 
 namespace crackle {
 
+/// Largest share of the initial bonds that may break during an unloading whose modulus is stated. At the peak a fifth
+/// of the bonds is broken, so the breaks of this share change stress and modulus by a few per cent at most.
+constexpr double most_breaks_of_unloading = 0.005;
+
 /// One cycle of unloading and reloading.
 struct LoadingCycle {
     double strain = 0.0, stress = 0.0;          ///< strain, and stress in N/m, when unloading starts
@@ -35,8 +43,14 @@ struct LoadingCycle {
     double permanent_strain = 0.0;
     double loop = 0.0;           ///< area of the hysteresis loop, N/m; NaN if the curve ends within the cycle
     double modulus_error = 0.0;  ///< relative error, from the difference between the stresses of the two platens
-    bool unbroken = false;       ///< whether no bond had broken by the end of the cycle
-    bool linear = false;         ///< whether, in addition, no contact had slid or formed by the end of the cycle
+    std::int64_t breaks_of_unloading = 0;  ///< bonds that broke between the start and the lowest strain
+    bool unbroken = false;                 ///< whether no bond had broken by the end of the cycle
+    bool linear = false;  ///< whether, in addition, no contact had slid or formed by the end of the cycle
+
+    /// Whether the specimen failed during the unloading. @param bonds  number of bonds at the start of the test
+    bool collapsed(std::int64_t bonds) const {
+        return static_cast<double>(breaks_of_unloading) > most_breaks_of_unloading * static_cast<double>(bonds);
+    }
 };
 
 /// The cycles in order; strains and stresses are positive in the direction of loading.

@@ -155,9 +155,12 @@ void cracking(CrackingFigures& c, const parts::Loading& loading, const TestSetup
     c.crack_damage_over_peak = t->damage / peak;
 }
 
-std::vector<CycleFigures> cycles(const PlacedApparatus& apparatus, const TestState& state) {
+/// @param bonds  number of bonds when loading began
+std::vector<CycleFigures> cycles(const PlacedApparatus& apparatus, const TestState& state, std::int64_t bonds) {
     std::vector<CycleFigures> all;
     for (LoadingCycle cycle : find_cycles(state.rows, apparatus.compression)) {
+        if (cycle.collapsed(bonds))
+            cycle.modulus = cycle.poissons_ratio = cycle.modulus_error = cycle.permanent_strain = NAN;
         if (cycle.linear && std::isfinite(state.youngs_modulus)) {
             cycle.modulus = state.youngs_modulus;
             cycle.permanent_strain = cycle.modulus_error = 0.0;
@@ -415,7 +418,7 @@ Summary make_summary(const ResolvedCase& test, const TestSetup& setup, const Tes
     validity(s.validity, setup, state, first);
     confinement(s.confinement, setup.apparatus, state, world);
     cracking(s.cracking, test.loading, setup, state);
-    if (test.loading.unloads()) s.cycles = cycles(setup.apparatus, state);
+    if (test.loading.unloads()) s.cycles = cycles(setup.apparatus, state, world.bonds.initial);
     damage(s.damage, setup, state, world);
     s.crack_rose = directions(setup, state, world);
     if (!setup.bonds.traces.empty()) s.jointed = trace_figures(setup.bonds, state, world);

@@ -239,7 +239,8 @@ CRACKLE_FIGURES(
      "secant modulus on unloading: change in axial stress divided by change in axial strain, from the start to the end "
      "of unloading",
      "equal to youngs_modulus if nothing has broken, slid or come into contact; modulus_error and permanent_strain are "
-     "then 0"),
+     "then 0. If more than 0.5 % of the bonds broke during the unloading, the specimen failed: modulus, Poisson's "
+     "ratio, modulus_error, damage and permanent_strain are then null"),
     (Number, poissons_ratio, "-",
      "Poisson's ratio on unloading: change in lateral strain divided by change in axial strain; positive if the "
      "specimen widens in compression or narrows in tension",

@@ -264,13 +264,15 @@ def never_breaks(model, faces):
 
 
 def strengths(model, faces, factor):
-    """Strengths and constants of faces: the weaker of two materials; faces on platens have those of the cell. @param factor  random, for T
-    and C"""
-    other = np.where(faces.j >= model.count, faces.i, faces.j)
+    """Strengths and constants of faces: those of the pair of minerals, or the weaker of two materials; faces on platens have those of the
+    cell. @param factor  random, for T and C"""
+    held = faces.j >= model.count
+    other = np.where(held, faces.i, faces.j)
 
     def weaker(name, take=np.minimum):
         values = np.array([model.materials[m][name] for m in model.material], float)
-        return take(values[faces.i], values[other])
+        mixed = take(values[faces.i], values[other])
+        return np.where(held, mixed, model.overridden(name, faces, mixed))
 
     tensile, cohesion = (factor * weaker(name) for name in ("tensile_strength", "cohesion"))
     tangents = {of: np.tan(np.radians(weaker(name))) for of, name in (

@@ -143,6 +143,13 @@ friction_angle_beyond = 10.0
 residual_friction_angle = 10.0
 [[mineral]]
 name = "feldspar"
+[[mineral_pair]]
+between = ["quartz", "quartz"]
+tensile_strength = 8e6
+friction_angle = 30.0
+[[mineral_pair]]
+between = ["quartz", "feldspar"]
+cohesion = 1.5e7
 """
 by_faces = '[bond]\nlaw = "face"\n'
 factors = "tensile_factor = 1.0\ncohesion_factor = 3.0\nrange = 0.05\n" + scattered("lognormal", 0.3)

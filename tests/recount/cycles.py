@@ -7,6 +7,7 @@ import numpy as np
 
 unload_to = 0.1  # fraction of the stress at which unloading begins, if loading.unload_to is not given
 creep = 0.05  # fraction of the largest rate
+failing = 0.005  # share of the bonds; if more break during an unloading, the specimen failed and has no modulus
 
 
 def unloads(results):
@@ -80,10 +81,13 @@ def recount_cycles(r):
         r.key(label + "low_strain", strain[low], 0.0)
         r.key(label + "low_stress", stress[low], 0.0)
         modulus = whole if elastic else modulus
+        if c["bonds_broken"][low] - c["bonds_broken"][turn] > failing * r.summary["bonds_initial"]:
+            modulus = math.nan
         r.key(label + "modulus", modulus)
-        r.key(label + "modulus_error", 0.0 if elastic else unbalanced / abs(drop))
+        known = 1.0 if modulus == modulus else math.nan
+        r.key(label + "modulus_error", 0.0 if elastic else known * unbalanced / abs(drop))
         lateral = c["lateral_strain"]
-        r.key(label + "poissons_ratio", sense * (lateral[turn] - lateral[low]) / way if r.uniaxial else math.nan)
+        r.key(label + "poissons_ratio", known * sense * (lateral[turn] - lateral[low]) / way if r.uniaxial else math.nan)
         r.key(label + "damage", 1 - modulus / whole if c["bonds_broken"][stop] else 0.0, floor=1e-12)
         r.key(label + "permanent_strain", 0.0 if elastic else strain[low] - stress[low] / modulus, floor=1e-12 * strain[turn])
         again = stop + 1 < len(strain) and strain[stop + 1] < strain[stop]

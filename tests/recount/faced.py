@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests with faces, for recount_test.py: both kinds of cells, all platens, with and without pressures of the cells. They are short: no
-contact points have replaced a broken face yet, whose forces are in no frame."""
+"""Tests with faces, for recount_test.py: both kinds of cells, all platens, with and without pressures of the cells, one up to rubble. Where
+every step is recounted, they are short: no contact points have replaced a broken face yet."""
 
 import numpy as np
 from cases import (
@@ -34,6 +34,7 @@ class FacedTests:
                 ("pulled", faces, cells, pulled, ""), ("without_pressure", faces_without_pressure, cells, squeezed.replace("0.02", "0.003"), ""),
                 ("wedges", faces, wedges, squeezed.replace("0.02", "0.0025"), ""),
                 ("minerals", faces, cells, squeezed.replace("0.02", "0.0015"), faces_of_minerals),
+                ("to_rubble", faces, cells, squeezed.replace("0.02", "0.006"), ""),
                 ("frictional", faces, cells, squeezed.replace("0.02", "0.0021") + friction, ""),
                 ("confined", faces, cells, squeezed.replace("0.02", "0.002").replace('"compression"', '"biaxial"'), "[confinement]\npressure = 1e6\n")):
             with self.subTest(faces=name):

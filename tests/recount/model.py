@@ -241,7 +241,7 @@ class Model:
         """Value of two materials in series."""
         return self._series(*self._pair(name, p.i, p.j))
 
-    def _overridden(self, name, p, value):
+    def overridden(self, name, p, value):
         """Replaces values by those of [[mineral_pair]] tables."""
         a, b = self.material[p.i], self.material[p.j]
         for (c, d), table in self.pairs:
@@ -251,7 +251,7 @@ class Model:
 
     def _whole(self, name, p):
         """Stiffness of a pair of materials, before shares."""
-        return self._overridden(name, p, self._series(*self._pair(name, p.i, p.j)))
+        return self.overridden(name, p, self._series(*self._pair(name, p.i, p.j)))
 
     def normal_stiffness(self, p):
         return self._whole("normal_stiffness", p) * p.share
@@ -286,13 +286,13 @@ class Model:
 
     def weaker(self, name, p):
         """The smaller value of two materials, unless a table of the pair gives one."""
-        return self._overridden(name, p, np.minimum(*self._pair(name, p.i, p.j)))
+        return self.overridden(name, p, np.minimum(*self._pair(name, p.i, p.j)))
 
     def _root_term(self, name, p):
         """2 h sqrt(k) of two materials in series. If the pair has a stiffness of its own, only the two h are in series."""
         (h_i, h_j), (k_i, k_j) = self._pair("ratio", p.i, p.j), self._pair(name, p.i, p.j)
         term = self._series(2 * h_i * np.sqrt(k_i), 2 * h_j * np.sqrt(k_j))
-        own = self._overridden(name, p, np.full(len(p.i), np.nan))
+        own = self.overridden(name, p, np.full(len(p.i), np.nan))
         share = p.share if name == "normal_stiffness" else p.shear_share
         return np.where(np.isnan(own), term, 2 * self._series(h_i, h_j) * np.sqrt(own)) * np.sqrt(share)
 

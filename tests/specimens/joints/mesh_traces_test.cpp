@@ -31,7 +31,7 @@ TEST(JointedSpecimen, HasItsTracesAsFacesAndSaysSo) {
         return std::any_of(stages.begin(), stages.end(),
                            [&](const std::string& line) { return line.find(text) != std::string::npos; });
     };
-    EXPECT_TRUE(has("m of traces form"));
+    EXPECT_TRUE(has("m of traces are"));
     EXPECT_TRUE(has("cells (in brackets: cells without joints)"));
     EXPECT_TRUE(std::any_of(specimen.notices.begin(), specimen.notices.end(), [](const std::string& n) {
         return n.find("the rock's own properties") != std::string::npos;

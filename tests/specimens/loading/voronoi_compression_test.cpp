@@ -34,10 +34,8 @@ using verification::hash_of;
 constexpr int steps_between_questions = 64;  // between calls that ask the loading loop to stop
 
 ResolvedCase fast_case() {
-    ResolvedCase test =
-        read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/guide_rock/voronoi_compression.toml");
-    test.loading.rate = parts::StrainRate{0.05};
-    return test;
+    const CaseFiles files(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/guide_rock/voronoi_compression.toml");
+    return files.with(std::vector<CaseSetting>{{"loading.axial_strain_rate", 0.05, "here:1"}});
 }
 
 struct Trace {

@@ -93,6 +93,17 @@ TEST(LoadingCycles, OfOneAmplitudeAreCountedEach) {
     EXPECT_FALSE(std::isnan(cycles[2].loop));
 }
 
+TEST(LoadingCycles, OfASpecimenThatFailsWhileItIsUnloadedAreSeen) {
+    std::vector<CurveRow> rows = loop();
+    for (std::size_t k = 1; k < rows.size(); ++k) rows[k].bonds_broken = 300;  // before the unloading
+    for (std::size_t k = 3; k < rows.size(); ++k) rows[k].bonds_broken = 305;  // during it
+    for (std::size_t k = 4; k < rows.size(); ++k) rows[k].bonds_broken = 400;  // during reloading, which does not count
+    const LoadingCycle cycle = find_cycles(rows, true)[0];
+    EXPECT_EQ(cycle.breaks_of_unloading, 5);
+    EXPECT_FALSE(cycle.collapsed(1000));  // 0.5 % of the bonds
+    EXPECT_TRUE(cycle.collapsed(999));
+}
+
 TEST(LoadingCycles, FirstLoadingIsTheCurveWithoutThemAndKeepsItsPeak) {
     const FirstLoading first = first_loading(loop(), 5);
     ASSERT_EQ(first.rows.size(), 4U);

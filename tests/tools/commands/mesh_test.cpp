@@ -155,7 +155,7 @@ TEST_F(CrackleMesh, FollowsTheTracesOfAFileOfJoints) {
         const Answer answer =
             call(fmt::format("in_gm.dat --kind {} --thick 0 --joints joints.toml -o cells.dat", kind));
         ASSERT_EQ(answer.code, 0) << answer.err;
-        EXPECT_NE(answer.out.find("joints: 1.10923 m of traces form "), std::string::npos) << answer.out;
+        EXPECT_NE(answer.out.find("joints: 1.10923 m of traces are "), std::string::npos) << answer.out;
         const Scene scene = read_geometry(scratch_ / "cells.dat");
         const auto above = [](Vec2 p) { return p.y - 0.73 - 0.48 * p.x; };
         double on_trace = 0.0;

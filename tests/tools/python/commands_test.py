@@ -203,7 +203,7 @@ class Particles(InScratch):
         self.assertEqual(told.returncode, 0, told.stderr)
         made = crackle.mesh(packed, kind="delaunay", thick=1e-4, joints="joints.toml")
         self.assertEqual(made.text(), Path("mesh.dat").read_text())
-        self.assertTrue(any("m of traces form" in notice for notice in made.facts["notices"]), made.facts["notices"])
+        self.assertTrue(any("m of traces are" in notice for notice in made.facts["notices"]), made.facts["notices"])
         self.assertEqual(told.stdout.splitlines()[-len(made.facts["notices"]):], made.facts["notices"])
 
     def test_ctrl_c_is_heard_while_packing(self):
