@@ -90,7 +90,9 @@ void nominal(NominalFigures& n, const TestSetup& setup, const TestState& state, 
         const double particle = std::sqrt(setup.specimen.area / static_cast<double>(setup.specimen.particles));
         n.notch = setup.specimen.notch;
         n.notch_over_particle = setup.specimen.notch / particle;
-        (f.failed ? n.fracture_toughness : n.fracture_toughness_so_far) = setup.apparatus.stress_intensity * peak;
+        // Both standards take the largest load. A weak face at the notch may break before, which is a peak.
+        const double largest = f.largest_row < 0 ? NAN : f.largest_stress;
+        (f.failed ? n.fracture_toughness : n.fracture_toughness_so_far) = setup.apparatus.stress_intensity * largest;
     }
     if (!test_kind(setup.apparatus.kind).shear_box) return;
     n.normal_stress = setup.apparatus.normal_force / setup.specimen.width;

@@ -67,7 +67,7 @@ def recount_kind(r):
     if r.peak is not None:
         r.key("peak_force" + suffix, peak * section)
         if intensity is not None:
-            r.key("fracture_toughness" + suffix, peak * intensity)
+            r.key("fracture_toughness" + suffix, r.curve["axial_stress"].max() * intensity)
 
 
 def recount_box(r, height, length, force, spring):

@@ -187,7 +187,7 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         plain('Dilation angle at the peak, degrees', key('dilation_angle_at_peak')),
         measured('Notch', 'm', key('notch')),
         plain('Notch over a particle', key('notch_over_particle')),
-        measured('Fracture toughness K_I at the peak', '', either('fracture_toughness', 'fracture_toughness_so_far'), 'stress times √m'),
+        measured('Fracture toughness K_I at the largest load', '', either('fracture_toughness', 'fracture_toughness_so_far'), 'stress times √m'),
         words('Valid', verdictText),
         {name: 'Failed', cells: (tests) => ({unit: '', values: tests.map((test) => (test.failed ? 'yes' : 'no: peak so far'))})},
     ]},
