@@ -30,7 +30,7 @@ before(async () => {
     report(['in-area'], 'area.html');
     report(['in-area', 'circles-compression'], 'both-units.html');
     copied('judged', {
-        material_units: 'area', peak_stress: 60.1e6, peak_strain: 2.5e-3, valid: false, numerical_errors: {peak_stress: {stated: 0.034}},
+        material_units: 'area', peak_stress: 60.1e6, peak_strain: 2.5e-3, fracture_toughness: 1.13e6, valid: false, numerical_errors: {peak_stress: {stated: 0.034}},
         validity: [{claim: 'the specimen is wide', holds: false}, {claim: 'gauge', holds: true}],
     });
     report(['judged'], 'judged.html');
@@ -69,7 +69,7 @@ test('opens without a console error, and nothing is asked of the network', async
 test('a report first states strength, its error and the verdict, with the broken specimen beside the curve', async () => {
     const {page, close} = await open('judged.html');
     const text = (await page.locator('#findings').textContent()).replaceAll('\u202f', ' ');
-    for (const part of ['Strength60.1 MPa', 'at a strain of 2.50 ‰, ± 3.4 %', 'Not a valid test: condition not met: the specimen is wide']) assert.ok(text.includes(part), `${part} in ${text}`);
+    for (const part of ['Fracture toughness1.13 MPa √m', 'Strength60.1 MPa', 'at a strain of 2.50 ‰, ± 3.4 %', 'Not a valid test: condition not met: the specimen is wide']) assert.ok(text.includes(part), `${part} in ${text}`);
     const [curve, broken] = await Promise.all(['.curve', '.broken svg'].map((name) => page.locator(`#curves ${name}`).boundingBox()));
     assert.ok(broken.x >= curve.x + curve.width && broken.y < curve.y + curve.height, 'side by side');
     await close();

@@ -49,10 +49,18 @@ function shareOfPeak(test: CurvedTest, name: string, key: string): Finding[] {
     return [{name, value: quantity(value, stressUnitOf(test)), note: peak ? `${significant(100 * value / peak, 2)} % of the peak` : ''}];
 }
 
+/// The fracture toughness of a notched specimen.
+function toughnessOf(test: CurvedTest): Finding[] {
+    const value = numberOf(test.summary, test.failed ? 'fracture_toughness' : 'fracture_toughness_so_far');
+    const name = test.failed ? 'Fracture toughness' : 'Stress intensity so far';
+    return value === undefined ? [] : [{name, value: quantity(value, `${stressUnitOf(test)} √m`), note: 'K_I at the largest load'}];
+}
+
 function findingsOf(test: CurvedTest): Finding[] {
     const modulus = numberOf(test.summary, 'youngs_modulus'), nominal = numberOf(test.summary, 'nominal_modulus');
     const ratio = numberOf(test.summary, 'poissons_ratio');
     return [
+        ...toughnessOf(test),
         strengthOf(test),
         ...(modulus !== undefined ? [{name: 'Young’s modulus', value: quantity(modulus, stressUnitOf(test)), note: ratio === undefined ? '' : `Poisson’s ratio ${significant(ratio)}`}]
             : nominal !== undefined ? [{name: 'Nominal modulus', value: quantity(nominal, stressUnitOf(test)), note: 'stress over strain of this kind of test'}] : []),
