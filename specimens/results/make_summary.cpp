@@ -90,7 +90,7 @@ void nominal(NominalFigures& n, const TestSetup& setup, const TestState& state, 
         const double particle = std::sqrt(setup.specimen.area / static_cast<double>(setup.specimen.particles));
         n.notch = setup.specimen.notch;
         n.notch_over_particle = setup.specimen.notch / particle;
-        // Both standards take the largest load. A weak face at the notch may break before, which is a peak.
+        // A weak face at the notch may break before the largest load, which is a peak but not the end of the specimen.
         const double largest = f.largest_row < 0 ? NAN : f.largest_stress;
         (f.failed ? n.fracture_toughness : n.fracture_toughness_so_far) = setup.apparatus.stress_intensity * largest;
     }
