@@ -41,12 +41,8 @@ def recount_events(r, model, bonds):
         # If the platen reverses between two rows, their distance is smaller than the travelled strain.
         apart = np.abs(np.diff(c["axial_strain"])).max() if turns_round(r.results) else np.abs(width)
         r.rows("events: axial_strain", e["axial_strain"], guess, apart + 1e-12)
-    # Steps are not equally long: where their mean length changes from row to row, it may do so between two rows.
-    many = np.maximum(np.diff(c["step"]), 1)
-    long = np.diff(c["time"]) / many
-    changing = many * np.abs(np.gradient(long)) if len(long) > 1 else np.zeros(len(long))
     r.rows("events: time", e["time"], c["time"][row - 1] + inside * (c["time"][row] - c["time"][row - 1]),
-           2 * mean_step + changing[row - 1])
+           2 * mean_step)
     left = {}
     for k in np.flatnonzero(~bonds.held):
         left.setdefault(frozenset((model.ids[bonds.i[k]], model.ids[bonds.j[k]])), []).append(k)
