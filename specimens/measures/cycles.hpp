@@ -30,8 +30,8 @@
 
 namespace crackle {
 
-/// Largest share of the initial bonds that may break during an unloading whose modulus is stated. At the peak a fifth
-/// of the bonds is broken, so the breaks of this share change stress and modulus by a few per cent at most.
+/// Largest share of the initial bonds that may break during an unloading whose modulus is stated. It was chosen between
+/// sound unloadings of a granite of faces, where less than 0.1 % broke, and collapses, where 13 % and 23 % did.
 constexpr double most_breaks_of_unloading = 0.005;
 
 /// One cycle of unloading and reloading.
